@@ -78,7 +78,7 @@ class Deformer:
         in_place: it starts where the posed model stands, and the model stays; else it starts at rest.
         """
         number = int(self.pose.add_handles(points=point, radii=[radius], in_place=in_place)[0])
-        info = self.pose.handle_info(number)
+        info = self.pose.handle(number)
         place = LPoint3(*info.centroid)
         handle = self.node.attachNewNode(f"handle {number}")
         handle.setPos(place)
