@@ -6,7 +6,7 @@ import textwrap
 import comments
 from layer_python import TYPES as CTYPES
 from model import named, symbols
-from plan import bare, camel, classes, dims_used
+from plan import LOOSE, bare, camel, classes, dims_used
 
 KINDS = {"float": "f4", "double": "f8", "uint32_t": "u4", "uint16_t": "u2", "uint8_t": "u1", "int32_t": "i4"}
 BUILTIN = {  # errors that Python has a word for

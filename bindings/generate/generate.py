@@ -24,8 +24,9 @@ BINDINGS = pathlib.Path(__file__).resolve().parent.parent
 ROOT = BINDINGS.parent
 
 
-def files():
-    api = parse_headers.read_api(ROOT / "include")
+def files(include=ROOT / "include"):
+    """Name under bindings -> text, from the headers in a folder."""
+    api = parse_headers.read_api(include)
     macros = {c["name"]: c["value"] for c in api["constants"]}
     version = re.search(r"project\(hf VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
     if version != ".".join(str(macros[f"HF_VERSION_{part}"]) for part in ("MAJOR", "MINOR", "PATCH")):
