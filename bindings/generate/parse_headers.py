@@ -101,7 +101,7 @@ def parse_header(path, api, constants):
             value = int(given, 0) if given else value + 1
             constants[name] = value
             members.append({"name": name, "value": value, "doc": said(words)})
-            api["constants"].append({"name": name, "value": value})
+            api["constants"].append({"name": name, "value": value, "doc": said(words)})
         if match.group(2):
             doc = documentation(match.group(1))
             api["enums"].append({"name": match.group(2), "header": path.name, "doc": doc, "bits": doc.startswith("Bits"),

@@ -9,8 +9,9 @@ import re
 import comments
 from model import named, symbols
 
-# what a call is about comes first, before the options and the other ways to say it
-FIRST = {"hf_sites_desc": ("vertices", "values"), "hf_morph_desc": ("weight",)}
+# what a call is about comes first; the other ways to say it are named, as options are
+FIRST = {"hf_surface_desc": ("positions", "triangles"), "hf_sites_desc": ("vertices", "values"), "hf_morph_desc": ("weight",),
+         "hf_transfer_frame": ("source_positions",)}
 # functions that no class holds: the layers use them for errors and versions
 LOOSE = ("hf_error_get_detail", "hf_result_get_name", "hf_version_get")
 
@@ -55,7 +56,7 @@ class Struct:
         first = [named(self.struct["fields"], name) for name in FIRST.get(self.name, ())]
         rest = [f for f in self.struct["fields"] if f in lists + self.texts + self.blobs and f not in first]
         options = [f for f in self.struct["fields"] if f in self.scalars + self.fixed + self.handles + self.inner and f not in first]
-        return [(f, True) for f in first + rest] + [(f, False) for f in options]
+        return [(f, True) for f in first] + [(f, not first) for f in rest] + [(f, False) for f in options]
 
     def is_one_array(self):
         return len(self.given) == 1 and not (self.scalars or self.handles or self.inner or self.filled or self.fixed or self.capacities or self.blobs)

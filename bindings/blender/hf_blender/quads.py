@@ -411,6 +411,6 @@ def add_pole(made, count, place):
     obj[POLE] = count
     attach(obj, made.hf_quads.key)
     turn = Vector(vertex.normal).to_track_quat("Z", "Y")
-    obj.matrix_world = Matrix.Translation(source.matrix_world @ Vector(points[vertex.index].tolist())) @ (
+    obj.matrix_world = Matrix.Translation(source.matrix_world @ vertex.co) @ (
         source.matrix_world.to_quaternion() @ turn).to_matrix().to_4x4()
     return obj

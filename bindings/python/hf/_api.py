@@ -565,7 +565,8 @@ def _surface_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] =
             'memory_limit_mb': memory_limit_mb, 'work_limit_gflop': work_limit_gflop})
     c.rows(desc, 'positions', positions, 'f4 f8', (prefix + 'vertex_count', 3), 'position_stride')
     c.rows(desc, 'triangles', triangles, 'u4 u2', (prefix + 'triangle_count', 3), 'triangle_stride')
-    c.rows(desc, 'face_starts', face_starts, 'u4', (prefix + 'face_count + 1',) if face_sizes is None else (prefix + 'face_count',), 'face_stride')
+    c.rows(desc, 'face_starts', face_starts, 'u4',
+            (prefix + 'face_count + 1',) if face_sizes is None else (prefix + 'face_count',), 'face_stride')
     c.rows(desc, 'face_sizes', face_sizes, 'u4', (prefix + 'face_count',), 'face_stride')
     c.rows(desc, 'corners', corners, 'u4', (prefix + 'corner_count',), 'corner_stride')
     desc.progress = handle_of(progress, Progress, 'progress')
@@ -958,9 +959,9 @@ class Surface(Object):
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
 
-    def __init__(self, positions: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None,
+    def __init__(self, positions: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None, *,
             face_starts: Optional[ArrayLike] = None, face_sizes: Optional[ArrayLike] = None,
-            corners: Optional[ArrayLike] = None, *, weld: int = Weld.EXACT, weld_tolerance: float = 0.0,
+            corners: Optional[ArrayLike] = None, weld: int = Weld.EXACT, weld_tolerance: float = 0.0,
             operator_kind: int = Operator.INTRINSIC_DELAUNAY, field_kind: int = FieldKind.HARMONIC,
             ordering: int = Ordering.NESTED_DISSECTION, thread_count: int = 0, vertex_limit: int = 0,
             triangle_limit: int = 0, memory_limit_mb: int = 0, work_limit_gflop: int = 0,
@@ -1392,7 +1393,7 @@ class Solver(Object):
         call('hf_solver_get_info', self._handle, ref(info))
         return info
 
-    def add_sites(self, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None,
+    def add_sites(self, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
             triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
             stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
             corners: Optional[ArrayLike] = None) -> np.ndarray:
@@ -1445,7 +1446,7 @@ class Solver(Object):
         sites_ = c.array('sites', sites, 'u4', ('site_count',))
         call('hf_remove_sites', self._handle, c.n.setdefault('site_count', 1), sites_)
 
-    def move_sites(self, sites: ArrayLike, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None,
+    def move_sites(self, sites: ArrayLike, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
             triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
             stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
             corners: Optional[ArrayLike] = None) -> None:
@@ -2748,8 +2749,8 @@ class Transfer(Object):
         call('hf_transfer_get_dials', self._handle, ref(dials))
         return dials
 
-    def apply(self, source_positions: Optional[ArrayLike] = None, hold_pairs: Optional[ArrayLike] = None,
-            hold_positions: Optional[ArrayLike] = None, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
+    def apply(self, source_positions: Optional[ArrayLike] = None, out: Optional[np.ndarray] = None, *,
+            hold_pairs: Optional[ArrayLike] = None, hold_positions: Optional[ArrayLike] = None, dtype: Any = np.float32,
             target_normals: Optional[np.ndarray] = None) -> np.ndarray:
         """Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions
         differ much on the two surfaces (PairInfo), it takes the direction of the source's limb instead, by a share.
