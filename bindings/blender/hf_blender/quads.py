@@ -403,7 +403,8 @@ def add_pole(made, count, place):
     """An empty on the source, where 3 or 5 quads are to meet."""
     source = source_of(made, bpy.context.scene)
     at = np.array((source.matrix_world.inverted_safe() @ place)[:])
-    vertex = source.data.vertices[session.session_of(source).surface.find_vertex(at)[0]]
+    found = session.session_of(source)
+    vertex = source.data.vertices[found.surface.find_vertex(at)[0]]
     obj = bpy.data.objects.new(f"{made.name} pole {count}", None)
     obj.empty_display_type, obj.empty_display_size = "ARROWS", 0.05 * mesh_data.size_of(source.data)
     for collection in made.users_collection:
@@ -411,6 +412,6 @@ def add_pole(made, count, place):
     obj[POLE] = count
     attach(obj, made.hf_quads.key)
     turn = Vector(vertex.normal).to_track_quat("Z", "Y")
-    obj.matrix_world = Matrix.Translation(source.matrix_world @ vertex.co) @ (
+    obj.matrix_world = Matrix.Translation(source.matrix_world @ Vector(found.rest[vertex.index].tolist())) @ (
         source.matrix_world.to_quaternion() @ turn).to_matrix().to_4x4()
     return obj
