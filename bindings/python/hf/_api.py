@@ -975,8 +975,8 @@ class Surface(Object):
         self._own('hf_surface_create', c, ref(desc))
 
     @classmethod
-    def from_graph(cls, edges: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
-            masses: Optional[ArrayLike] = None, *, vertex_count: int = 0, allow_negative: bool = False,
+    def from_graph(cls, edges: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None, *,
+            masses: Optional[ArrayLike] = None, vertex_count: int = 0, allow_negative: bool = False,
             field_kind: int = FieldKind.HARMONIC, ordering: int = Ordering.NESTED_DISSECTION, thread_count: int = 0,
             vertex_limit: int = 0, edge_limit: int = 0, memory_limit_mb: int = 0, work_limit_gflop: int = 0,
             progress: Optional[Progress] = None, saved_factor: Any = None) -> "Surface":
@@ -2031,8 +2031,8 @@ class Pose(Object):
         call('hf_pose_get_info', self._handle, ref(info))
         return info
 
-    def add_handles(self, region_vertices: Optional[Sequence[ArrayLike]] = None, points: Optional[ArrayLike] = None,
-            radii: Optional[ArrayLike] = None, *, layer: int = 0, in_place: bool = False,
+    def add_handles(self, region_vertices: Optional[Sequence[ArrayLike]] = None, *, points: Optional[ArrayLike] = None,
+            radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False,
             progress: Optional[Progress] = None) -> np.ndarray:
         """Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a
         posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
@@ -2893,9 +2893,9 @@ class Weights(Object):
                 progress=progress)
         call('hf_weights_set_bones', self._handle, ref(desc))
 
-    def set_pins(self, vertices: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None,
+    def set_pins(self, vertices: Optional[ArrayLike] = None, *, triangles: Optional[ArrayLike] = None,
             barycentrics: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
-            joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None, *,
+            joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
             progress: Optional[Progress] = None) -> None:
         """Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
         disc. Pins at the same places with other weights cost no path.
