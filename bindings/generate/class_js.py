@@ -62,7 +62,7 @@ class Steps:
                 "ref_if": f"{js(rest[-1])} === null || {js(rest[-1])} === undefined ? null : {name}" if kind == "ref_if" else "", "var": name,
                 "text": f"c.text({name}, '{name}')", "figure": f"written({name})", "address": f"written({name})",
                 "count": f"(c.n.{rest[0] if rest else ''} ??= 1)", "info": name, "room": f"room.{rest[0] if rest else ''}",
-                "grown": f"made.{name}", "literal": rest[0] if rest else "", "size_of": f"{name}.length"}[kind]
+                "grown": f"written(made.{name})", "literal": rest[0] if rest else "", "size_of": f"{name}.length"}[kind]
 
     def lines(self, op, values):
         return getattr(self, "do_" + op)(**values)
@@ -368,7 +368,7 @@ class Writer:
         out = [TYPES]
         for name, struct in self.structs.items():
             fields = [f for f in struct.struct["fields"] if f["role"] not in ("size", "reserved", "callback", "handle", "struct", "bytes", "stride", "capacity") and not f["twin_of"]]
-            if struct.struct["used"] in ("out", "plain", "inout") and fields and name != "hf_error_detail":
+            if (struct.struct["used"] in ("out", "plain", "inout") or struct.struct.get("written")) and fields and name != "hf_error_detail":
                 out += [""] + (self.doc(struct.struct["doc"], 0) if struct.struct["doc"] else []) + [f"export interface {camel(name)} {{"]
                 for f in fields:
                     if f["role"] == "array" and f["const"] or (struct.struct["used"] == "inout" and f["direction"] == "in"):

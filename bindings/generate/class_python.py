@@ -367,7 +367,7 @@ class Writer:
         """Structs that the library fills, under their own names."""
         out = ["", ""]
         for name, struct in self.structs.items():
-            filled = struct.struct["used"] in ("out", "plain") or (struct.struct["used"] == "inout" and not struct.filled)
+            filled = struct.struct["used"] in ("out", "plain") or struct.struct.get("written") or (struct.struct["used"] == "inout" and not struct.filled)
             if filled and name != "hf_error_detail" and not any(f["role"] == "callback" for f in struct.struct["fields"]):
                 out.append(f"{camel(name)} = _raw.{name}")
                 self.names.append(camel(name))

@@ -115,6 +115,7 @@ def use_of(api):
         for p in function["parameters"]:
             struct = named(api["structs"], p["type"])
             if struct and struct["used"] != "plain":
+                struct["written"] = struct.get("written", False) or p["name"].startswith("out_")
                 struct["used"] = "inout" if p["name"].startswith("inout_") else "in" if p["const"] else "out" if not struct["used"] else struct["used"]
     for struct in api["structs"]:
         for field in struct["fields"]:

@@ -451,7 +451,7 @@ class Picking(unittest.TestCase):
 class Lifetime(unittest.TestCase):
     def test_a_graph_carries_fields_and_says_what_needs_triangles(self):
         edges = np.array([[0, 1], [1, 2], [2, 3], [5, 4]])
-        surface = hf.Surface.from_graph(edges, [1, 1, 2, 7], np.arange(1, 7), vertex_count=6)
+        surface = hf.Surface.from_graph(edges, [1, 1, 2, 7], masses=np.arange(1, 7), vertex_count=6)
         self.assertEqual(surface.info.operator_kind, hf.Operator.GRAPH)
         self.assertEqual(surface.components().tolist(), [0, 0, 0, 0, 1, 1])
         solver = hf.Solver(surface)

@@ -443,7 +443,7 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const c = new Call(this);
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_surface_get_components', (room, made) => call('hf_surface_get_components',
-              this._handle, room.capacity, made.components, written(count)), () => ({ capacity: count[0] }),
+              this._handle, room.capacity, written(made.components), written(count)), () => ({ capacity: count[0] }),
               { capacity: null }, { components: ['u4', ['capacity']] });
       return found.components;
     }
@@ -452,7 +452,7 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const c = new Call(this);
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_surface_get_links', (room, made) => call('hf_surface_get_links', this._handle,
-              room.capacity, made.links, written(count)), () => ({ capacity: count[0] }), { capacity: null },
+              room.capacity, written(made.links), written(count)), () => ({ capacity: count[0] }), { capacity: null },
               { links: ['hf_link', ['capacity']] });
       return found.links;
     }
@@ -461,7 +461,7 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const c = new Call(this);
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_surface_get_pieces', (room, made) => call('hf_surface_get_pieces', this._handle,
-              room.capacity, made.pieces, made.light, written(count)), () => ({ capacity: count[0] }),
+              room.capacity, written(made.pieces), written(made.light), written(count)), () => ({ capacity: count[0] }),
               { capacity: null }, { pieces: ['u4', ['capacity']], light: ['i4', ['capacity']] });
       return { pieces: found.pieces, light: found.light };
     }
@@ -471,8 +471,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const info = c.told(this, 'hf_gaps_info');
       const desc = gapsDesc(c, '', { positions });
       const found = c.grow(this, 'hf_surface_measure_gaps', (room, made) => call('hf_surface_measure_gaps',
-              this._handle, desc, room.capacity, made.gaps, info), () => ({ capacity: info.get('link_count') }),
-              { capacity: null }, { gaps: ['f8', ['capacity']] });
+              this._handle, desc, room.capacity, written(made.gaps), info),
+              () => ({ capacity: info.get('link_count') }), { capacity: null }, { gaps: ['f8', ['capacity']] });
       return found.gaps;
     }
 
@@ -565,7 +565,7 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       c.rows(field_, 'values', 'field', field, 'f4 f8', ['vertex_count']);
       const found = c.grow(this, 'hf_surface_find_critical_points', (room,
               made) => call('hf_surface_find_critical_points', this._handle,
-              field === null || field === undefined ? null : field_, room.capacity, made.points, info),
+              field === null || field === undefined ? null : field_, room.capacity, written(made.points), info),
               () => ({ capacity: info.get('point_count') }), { capacity: null }, { points: ['hf_critical_point',
               ['capacity']] });
       return found.points;
@@ -580,8 +580,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       desc.set('out_field', field_ && written(field_));
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_surface_find_extremities', (room, made) => call('hf_surface_find_extremities',
-              this._handle, desc, room.capacity, made.extremities, written(count)), () => ({ capacity: count[0] }),
-              { capacity: null }, { extremities: ['hf_extremity', ['capacity']] });
+              this._handle, desc, room.capacity, written(made.extremities), written(count)),
+              () => ({ capacity: count[0] }), { capacity: null }, { extremities: ['hf_extremity', ['capacity']] });
       return found.extremities;
     }
 
@@ -592,8 +592,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const desc = proposeDesc(c, '', { joints, parents, up, leastLength, limit, progress });
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_propose_handles', (room, made) => call('hf_propose_handles', this._handle, desc,
-              room.capacity, made.proposals, written(count)), () => ({ capacity: count[0] }), { capacity: null },
-              { proposals: ['hf_handle_proposal', ['capacity']] });
+              room.capacity, written(made.proposals), written(count)), () => ({ capacity: count[0] }),
+              { capacity: null }, { proposals: ['hf_handle_proposal', ['capacity']] });
       return found.proposals;
     }
 
@@ -946,9 +946,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const c = new Call(this);
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_direction_get_sites', (room, made) => call('hf_direction_get_sites', this._handle,
-              room.capacity, made.sites, made.vertices, made.vectors, written(count)), () => ({ capacity: count[0] }),
-              { capacity: null }, { sites: ['u4', ['capacity']], vertices: ['u4', ['capacity']], vectors: ['f8',
-              ['capacity', 3]] });
+              room.capacity, written(made.sites), written(made.vertices), written(made.vectors), written(count)),
+              () => ({ capacity: count[0] }), { capacity: null }, { sites: ['u4', ['capacity']], vertices: ['u4',
+              ['capacity']], vectors: ['f8', ['capacity', 3]] });
       return { sites: found.sites, vertices: found.vertices, vectors: found.vectors };
     }
 
@@ -966,7 +966,7 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const c = new Call(this);
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_direction_get_singularities', (room,
-              made) => call('hf_direction_get_singularities', this._handle, room.capacity, made.singularities,
+              made) => call('hf_direction_get_singularities', this._handle, room.capacity, written(made.singularities),
               written(count)), () => ({ capacity: count[0] }), { capacity: null }, { singularities: ['hf_singularity',
               ['capacity']] });
       return found.singularities;
@@ -1257,8 +1257,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const c = new Call(this);
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_region_get_vertices', (room, made) => call('hf_region_get_vertices', this._handle,
-              list, room.capacity, made.vertices, written(count)), () => ({ capacity: count[0] }), { capacity: null },
-              { vertices: ['u4', ['capacity']] });
+              list, room.capacity, written(made.vertices), written(count)), () => ({ capacity: count[0] }),
+              { capacity: null }, { vertices: ['u4', ['capacity']] });
       return found.vertices;
     }
 
@@ -1266,7 +1266,7 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const c = new Call(this);
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_region_get_curve', (room, made) => call('hf_region_get_curve', this._handle,
-              room.capacity, made.points, written(count)), () => ({ capacity: count[0] }), { capacity: null },
+              room.capacity, written(made.points), written(count)), () => ({ capacity: count[0] }), { capacity: null },
               { points: ['f8', ['capacity', 3]] });
       return found.points;
     }
@@ -1483,8 +1483,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const c = new Call(this);
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_weights_get_bones', (room, made) => call('hf_weights_get_bones', this._handle,
-              room.capacity, made.flags, made.vertexCounts, written(count)), () => ({ capacity: count[0] }),
-              { capacity: null }, { flags: ['u4', ['capacity']], vertexCounts: ['u4', ['capacity']] });
+              room.capacity, written(made.flags), written(made.vertexCounts), written(count)),
+              () => ({ capacity: count[0] }), { capacity: null }, { flags: ['u4', ['capacity']], vertexCounts: ['u4',
+              ['capacity']] });
       return { flags: found.flags, vertexCounts: found.vertexCounts };
     }
 
@@ -1514,8 +1515,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
       const c = new Call(this);
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_weights_get_helpers', (room, made) => call('hf_weights_get_helpers', this._handle,
-              c.text(names, 'names'), room.capacity, made.reasons, written(count)), () => ({ capacity: count[0] }),
-              { capacity: null }, { reasons: ['u4', ['capacity']] });
+              c.text(names, 'names'), room.capacity, written(made.reasons), written(count)),
+              () => ({ capacity: count[0] }), { capacity: null }, { reasons: ['u4', ['capacity']] });
       return found.reasons;
     }
 

@@ -697,6 +697,42 @@ export interface TransferInfo {
   scale: number;
 }
 
+/**
+ * What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the
+ * result is continuous in each dial.
+ */
+export interface TransferDials {
+  /**
+   * the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted foot
+   * does not slide. The body travels as much farther
+   */
+  stride: number;
+  /**
+   * raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height at rest, -0.5 to
+   * 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised
+   */
+  hipHeight: number;
+  /**
+   * pairs flagged HF_PAIR_NECK, together one limb How far a limb follows the source, -1 to 1. 0 = neutral: it
+   * plays the source's motion from its own rest direction. 1: it also takes the rest direction of the source's
+   * limb. -1: it does not move against its root.
+   */
+  neckFollow: number;
+  /** pairs flagged HF_PAIR_TAIL, together one limb */
+  tailFollow: number;
+  /**
+   * turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2 radians; 0 =
+   * neutral
+   */
+  armSpace: number;
+  /**
+   * how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less, so that they
+   * move as far. 1: they make the whole turn. Between, a part may jump that turns by half a turn against the part
+   * before it
+   */
+  longFollow: number;
+}
+
 /** Receives the weights. The arrays are yours; each may be null. */
 export interface WeightsOut {
   /**  */

@@ -40,6 +40,7 @@ QuadsInfo = _raw.hf_quads_info
 RegionInfo = _raw.hf_region_info
 PairInfo = _raw.hf_pair_info
 TransferInfo = _raw.hf_transfer_info
+TransferDials = _raw.hf_transfer_dials
 WeightsInfo = _raw.hf_weights_info
 CarryInfo = _raw.hf_carry_info
 MirrorInfo = _raw.hf_mirror_info
@@ -3106,6 +3107,6 @@ __all__ = [
     'PairInfo', 'Path', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh',
     'Region', 'RegionInfo', 'RegionList', 'Route', 'Side', 'Singularity', 'SitesInfo', 'SkinInfo', 'SolveInfo',
     'Solver', 'SolverInfo', 'SolverStatistics', 'Surface', 'SurfaceInfo', 'SurfacePoint', 'SurfaceReport',
-    'SurfaceStatistics', 'Transfer', 'TransferInfo', 'TransferMode', 'Transform', 'Weights', 'WeightsInfo',
-    'WeightsOrigin', 'WeightsOut', 'Weld'
+    'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode', 'Transform', 'Weights',
+    'WeightsInfo', 'WeightsOrigin', 'WeightsOut', 'Weld'
 ]
