@@ -97,7 +97,8 @@ def say_parameter(parameter, text):
     first = re.split(r"(?<=[.])\s", text)[0] if text else ""
     array = re.search(rf"(?:^|\b)(?:{parameter['type']} ?)?{DIMS}", first) or re.match(rf"{DIMS}", text)
     parameter["dims"] = dims_of(array.group(1)) if array and parameter["pointer"] else []
-    parameter["optional"] = bool(parameter["pointer"] or parameter["type"].startswith("hf_")) and bool(re.search(r"\bNULL\b", text))
+    parameter["optional"] = bool(parameter["pointer"] or parameter["type"].startswith("hf_")) and bool(
+        re.search(r"^NULL\b|\bor NULL\b|; NULL\b", text))
     parameter["receives"] = "receives" in text
     parameter["enum"] = said_enum(text)
     parameter["sentinel"] = "HF_NO_INDEX" in text

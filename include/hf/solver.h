@@ -82,8 +82,8 @@ typedef struct hf_sites_desc {
   uint32_t site_count;        /* >= 1 */
   const uint32_t* vertices;   /* [site_count] vertices as given, or NULL */
   const uint32_t* triangles;  /* [site_count] triangles (or faces of three corners) as given, or NULL */
-  const double* barycentrics; /* [site_count][3] with triangles or corners, else NULL: weights of the corners, >= 0, of sum 1
-                                 within 1e-6 */
+  const double* barycentrics; /* [site_count][3] with triangles or corners, else NULL: weights of the corners, >= 0, of
+                                 sum 1 within 1e-6 */
   const double* values;       /* [site_count][channel_count], up to 1e200 in size; NULL = 0 */
   const double* stiffness;    /* [site_count] >= 0, relative to the mean diagonal of K; 0 = hard (exact); NULL = all
                                  hard; clamped to 1e-12 .. 1e12 */
@@ -188,11 +188,12 @@ typedef struct hf_solve_info {
   uint32_t unreached_vertex_count;    /* given vertices in them, isolated ones included */
 } hf_solve_info;
 
-/* Solves for the field at every vertex of your mesh. out_values: float[vertex_count][channel_count], rows
- * value_stride bytes apart (0 = packed). The field is 0 on components without a site; out_info counts them, or is NULL.
- * Hard sites hold their values exactly. Cost: one backward sweep through the factor, or three sweeps for bi-harmonic
- * fields; 30 to 700 sweeps for these, by the number of sites, where a vertex has more than 1,000 neighbours. Errors:
- * HF_ERROR_NO_SITES, HF_ERROR_TOO_LARGE (index = vertex, no float). Thread safety: reads `solver`. Since 0.1. */
+/* Solves for the field at every vertex of your mesh. Hard sites hold their values exactly. The field is 0 on
+ * components without a site. out_values: float[vertex_count][channel_count], rows value_stride bytes apart (0 =
+ * packed). out_info: NULL, or receives the counts of these components. Cost: one backward sweep through the factor, or
+ * three sweeps for bi-harmonic fields; 30 to 700 sweeps for these, by the number of sites, where a vertex has more than
+ * 1,000 neighbours. Errors: HF_ERROR_NO_SITES, HF_ERROR_TOO_LARGE (index = vertex, no float). Thread safety: reads
+ * `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
 /* Does the same as hf_solve, in double. Thread safety: reads `solver`. Since 0.1. */
@@ -213,8 +214,8 @@ HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, con
  * channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects the
  * vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal. out_vectors:
  * float[vertex_count][3], vector_stride bytes apart (0 = packed), not normalised. out_normals: NULL, or
- * double[vertex_count][3], packed: the normals used. Errors: as hf_solve, HF_ERROR_INVALID_ARGUMENT (not 3 channels).
- * Thread safety: reads `solver`. Since 0.1. */
+ * double[vertex_count][3], packed: the normals used. out_info: NULL, or receives what the sites did not reach. Errors:
+ * as hf_solve, HF_ERROR_INVALID_ARGUMENT (not 3 channels). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride,
                                          double* out_normals, hf_solve_info* out_info);
 

@@ -1307,10 +1307,10 @@ export interface Solver extends Handle {
    */
   setScreening(screening?: Rows | null, targets?: Rows | null): void;
   /**
-   * Solves for the field at every vertex of your mesh.
+   * Solves for the field at every vertex of your mesh. Hard sites hold their values exactly. The field is 0 on
+   * components without a site.
    *
-   * out: vertexCount x channelCount numbers. The field is 0 on components without a site; info counts them, or is
-   *     null. Hard sites hold their values exactly.
+   * out: vertexCount x channelCount numbers.
    * info: filled in when given
    *
    * Throws HF_ERROR_NO_SITES, HF_ERROR_TOO_LARGE.

@@ -14,7 +14,7 @@ from . import _api, _errors, _extras
 from . import _raw as constants
 from ._api import *  # noqa: F401,F403
 from ._errors import *  # noqa: F401,F403
-from ._extras import *  # noqa: F401,F403
+from ._extras import *  # type: ignore[assignment]  # noqa: F401,F403
 
 __version__ = constants.HEADER_VERSION
 __all__ = sorted({*_api.__all__, *_errors.__all__, *_extras.__all__, "constants"})

@@ -1546,10 +1546,10 @@ class Solver(Object):
 
     def solve(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
             info: Optional[SolveInfo] = None) -> np.ndarray:
-        """Solves for the field at every vertex of your mesh.
+        """Solves for the field at every vertex of your mesh. Hard sites hold their values exactly. The field is 0 on
+        components without a site.
 
-        out: (vertex_count, channel_count). The field is 0 on components without a site; info counts them, or is None.
-            Hard sites hold their values exactly.
+        out: (vertex_count, channel_count).
         info: filled in when given
 
         Raises NoSitesError, TooLargeError.

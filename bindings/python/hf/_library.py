@@ -72,18 +72,19 @@ def call(name: str, *arguments: Any) -> None:
 
 # ---- numbers ----
 
-_INTEGERS = {ctypes.c_int32: (-(1 << 31), (1 << 31) - 1), ctypes.c_uint32: (0, (1 << 32) - 1),
+_INTEGERS: Dict[Any, tuple] = {ctypes.c_int32: (-(1 << 31), (1 << 31) - 1), ctypes.c_uint32: (0, (1 << 32) - 1),
              ctypes.c_size_t: (0, 2 * sys.maxsize + 1)}
-_FLOATS = {ctypes.c_float: float(np.finfo(np.float32).max), ctypes.c_double: float(np.finfo(np.float64).max)}
+_FLOATS: Dict[Any, float] = {ctypes.c_float: float(np.finfo(np.float32).max), ctypes.c_double: float(np.finfo(np.float64).max)}
 
 
 def number(value: Any, name: str, kind: Any = ctypes.c_uint32, flag: bool = True) -> Any:
     """A number of a C type. ctypes would wrap what does not fit, and take floats and bools for counts; here they are refused by
     name. Flags (int32_t) take bools."""
-    is_bool = isinstance(value, (bool, np.bool_))
+    is_bool: bool = isinstance(value, (bool, np.bool_))
     if kind in _FLOATS:
         if is_bool or not isinstance(value, (int, float, np.integer, np.floating)):
             raise InvalidArgumentError(f"{name} must be a number, not {value!r}")
+        value = value if isinstance(value, int) else float(value)
         if _FLOATS[kind] < abs(value) < float("inf"):
             raise OutOfRangeError(f"{name} is {value}; it must lie within {_FLOATS[kind]:g}")
         return float(value)
@@ -124,7 +125,7 @@ def _whole(array: np.ndarray, name: str, dtype: Any, sentinel: bool) -> np.ndarr
     if array.size and array.dtype.kind not in "iu":
         raise InvalidArgumentError(f"{name} must be whole numbers, not {array.dtype}")
     limits, flat = np.iinfo(dtype), array.ravel()
-    bad = np.flatnonzero((flat < (-1 if sentinel else limits.min)) | (flat > limits.max)) if array.size else ()
+    bad: Any = np.flatnonzero((flat < (-1 if sentinel else limits.min)) | (flat > limits.max)) if array.size else ()
     if len(bad):
         raise OutOfRangeError(f"{name} holds {flat[bad[0]]}", index=int(bad[0]))
     return (array & limits.max if sentinel and array.size else array).astype(dtype)
@@ -187,12 +188,13 @@ class Call:
 
     def _fit(self, array: np.ndarray, name: str, dims: tuple, row_by_row: bool = False) -> np.ndarray:
         """The array in the shape that dims say; a dimension that is not known yet becomes known."""
-        sizes, loose = [self._size(dim) for dim in dims], [k for k, dim in enumerate(dims) if self._size(dim) is None]
+        sizes: Any = [self._size(dim) for dim in dims]
+        loose = [k for k, dim in enumerate(dims) if self._size(dim) is None]
         if array.ndim == 0 and not loose:
             array = np.full(sizes, array)  # one number for all
         wanted = "(" + ", ".join(str(dim) if size is None else str(size) for dim, size in zip(dims, sizes)) + ")"
         if array.ndim == len(dims) > 1:
-            wrong = any(size is not None and size != have for size, have in zip(sizes, array.shape))
+            wrong: Any = any(size is not None and size != have for size, have in zip(sizes, array.shape))
             found = {dims[k]: array.shape[k] for k in loose}
         else:
             known = int(np.prod([size for size in sizes if size is not None]))
@@ -249,9 +251,9 @@ class Call:
         """Lists of different lengths, one after the other."""
         if lists is None:
             return
-        arrays = [None if part is None else converted(part, f"{field}[{i}]", "u4").ravel() for i, part in enumerate(lists)]
-        if any(part is None for part in arrays):
+        if any(part is None for part in lists):
             raise NullPointerError(f"{field} holds None")
+        arrays = [converted(part, f"{field}[{i}]", "u4").ravel() for i, part in enumerate(lists)]
         if self.n.setdefault(key, len(arrays)) != len(arrays):
             raise InvalidArgumentError(f"{field} must hold {self.n[key]} lists, not {len(arrays)}")
         sizes = np.array([part.size for part in arrays], np.uint32)
@@ -271,10 +273,10 @@ class Call:
     def records(self, kind: type, dims: tuple, fields: Dict[str, tuple]) -> Optional[int]:
         """Rows of a plain struct, given field by field: field -> (name, values)."""
         given = {field: (name, numbers(values, name)) for field, (name, values) in fields.items() if values is not None}
-        types = np.dtype(kind)
+        types: Any = np.dtype(kind)
         for field, (name, array) in given.items():
             given[field] = (name, self._fit(array, name, (*dims, *types[field].shape)))
-        rows = np.zeros(self.n.get(dims[0], 0), types)
+        rows: Any = np.zeros(self.n.get(dims[0], 0), types)
         for field, (_, array) in given.items():
             rows[field] = array.reshape(rows[field].shape)
         self.keep.append(rows)
@@ -359,7 +361,7 @@ class Call:
         while True:
             self.n.update(room)
             blind = any(self._size(dim) is None for _, dims in arrays.values() for dim in dims)  # asks for counts alone
-            made = {name: None if blind else np.zeros(self.shape(dims), dtype) for name, (dtype, dims) in arrays.items()}
+            made: Any = {name: None if blind else np.zeros(self.shape(dims), dtype) for name, (dtype, dims) in arrays.items()}
             try:
                 run({key: 0 if blind else value for key, value in room.items()}, made)
                 counts = tell()
@@ -375,7 +377,7 @@ class Call:
         self.n.update(counts)
         return {name: array[:self._size(arrays[name][1][0])] for name, array in made.items()}
 
-    def info(self, info: Any, kind: type) -> Any:
+    def info(self, info: Any, kind: Any) -> Any:
         """A struct of the caller to fill, or NULL."""
         if info is None:
             return None
@@ -449,6 +451,6 @@ class Object:
 def handle_of(thing: Any, kind: type, name: str) -> Optional[int]:
     if thing is None:
         return None
-    if not isinstance(thing, kind):
+    if not isinstance(thing, kind) or not isinstance(thing, Object):
         raise InvalidArgumentError(f"{name} must be a {kind.__name__}, not {type(thing).__name__}")
     return thing._handle
