@@ -4,20 +4,15 @@ hand: arrays to pointers and counts, room for arrays that grow, handles."""
 import re
 import textwrap
 
+from errors_python import block, error_name, errors
 from layer_python import TYPES as CTYPES
 from model import named, symbols
 from plan import camel, classes, dims_used
 from steps import Planner, desc_steps, field_steps, least
-from words import Words, class_words, fold, method_words, wrapped
+from words import Words, class_words, fold, method_words
 
 KINDS = {"float": "f4", "double": "f8", "uint32_t": "u4", "uint16_t": "u2", "uint8_t": "u1", "int32_t": "i4"}
 NUMPY = {"float": "float32", "double": "float64", "uint32_t": "uint32", "int32_t": "int32", "uint16_t": "uint16", "uint8_t": "uint8"}
-BUILTIN = {  # errors that Python has a word for
-    "INVALID_ARGUMENT": "ValueError", "NULL_POINTER": "TypeError", "OUT_OF_RANGE": "IndexError", "NON_FINITE": "ValueError",
-    "EMPTY": "ValueError", "DUPLICATE_SITE": "ValueError", "NO_SUCH_SITE": "KeyError", "NO_SUCH_HANDLE": "KeyError",
-    "NO_SUCH_PAIR": "KeyError", "NOT_FOUND": "KeyError", "DUPLICATE": "ValueError", "CONFLICT": "ValueError",
-    "OVERLAP": "ValueError", "UNSUPPORTED": "NotImplementedError", "TOO_SMALL": "ValueError", "OUT_OF_MEMORY": "MemoryError",
-    "TOO_LARGE": "ValueError", "NOT_POSITIVE_DEFINITE": "ArithmeticError", "INACCURATE": "ArithmeticError"}
 RESERVED = {"from", "in", "is", "not", "and", "or", "with", "as", "def", "class", "return", "pass", "lambda", "None", "True", "False",
             "global", "import", "raise", "try", "while", "for", "if", "else", "del", "self", "c", "run", "call"}
 HINTS = {"array": "Optional[ArrayLike]", "lists": "Optional[Sequence[ArrayLike]]", "fixed": "Optional[ArrayLike]", "desc": "Any",
@@ -27,10 +22,6 @@ HINTS = {"array": "Optional[ArrayLike]", "lists": "Optional[Sequence[ArrayLike]]
 
 def safe(name):
     return name + "_" if name in RESERVED else name
-
-
-def error_name(constant):
-    return camel(constant[len("HF_ERROR_"):].lower()) + "Error"
 
 
 class Spoken:
@@ -47,17 +38,6 @@ class Spoken:
 
     def shape(self, sizes):
         return "(" + ", ".join(sizes) + ("," if len(sizes) == 1 else "") + ")"
-
-
-def block(text, indent):
-    """A docstring, wrapped."""
-    lines = wrapped(text, 118 - indent)
-    lines[0] = '"""' + lines[0]
-    if len(lines) == 1 and len(lines[0]) + indent + 3 < 120:
-        lines[0] += '"""'
-    else:
-        lines.append('"""')
-    return [(" " * indent + line).rstrip() for line in lines]
 
 
 class Steps:
@@ -390,46 +370,6 @@ class Writer:
             raise ValueError(f"two things are called {', '.join(repeated)} in Python")
         listed = textwrap.wrap(", ".join(repr(n) for n in sorted(self.names)), 110)
         return "\n".join(text + ["", "", "__all__ = [", *["    " + line for line in listed], "]"]) + "\n"
-
-
-ERRORS = '''"""Generated from include/hf/*.h by bindings/generate; do not edit. An exception for each error code."""
-# fmt: off
-
-from __future__ import annotations
-
-from typing import Dict, Optional, Type
-
-from . import _raw
-
-
-class HfError(Exception):
-    """A call that failed. code: HF_ERROR_*; name: its name; index: what it is about, or None; function: of the C ABI."""
-
-    code: int = 0
-    __str__ = Exception.__str__  # KeyError would show the repr of the message
-
-    def __init__(self, message: str, code: Optional[int] = None, index: Optional[int] = None, function: str = "") -> None:
-        self.code = type(self).code if code is None else code
-        self.name = _raw.RESULT_NAMES.get(self.code, str(self.code))
-        self.index, self.function, self.message = index, function, message
-        super().__init__(f"{function + ': ' if function else ''}{message} ({self.name})")
-
-'''
-
-
-def errors(api, words):
-    out, names = [ERRORS], []
-    for constant in api["constants"]:
-        if constant["name"].startswith("HF_ERROR_"):
-            name, kind = error_name(constant["name"]), BUILTIN.get(constant["name"][len("HF_ERROR_"):])
-            names.append(name)
-            out += ["", f"class {name}({'HfError' + (', ' + kind if kind else '')}):"]
-            out += block(words.say(constant["doc"]), 4) if constant.get("doc") else []
-            out += [f"    code = _raw.{constant['name']}", ""]
-    out += ["", "EXCEPTIONS: Dict[int, Type[HfError]] = {kind.code: kind for kind in (" ,
-            *["    " + line for line in textwrap.wrap(", ".join(names), 110)], ")}", "", "__all__ = [",
-            *["    " + line for line in textwrap.wrap(", ".join(repr(n) for n in ["HfError", "EXCEPTIONS", *names]), 110)], "]"]
-    return "\n".join(out) + "\n"
 
 
 def write(api):

@@ -60,6 +60,21 @@ class OneDescription(unittest.TestCase):
         script.write_text(CALL)
         subprocess.run([sys.executable, script], cwd=self.folder / "python", check=True)
 
+    def test_a_toy_function_is_a_method_of_javascript_that_is_called_with_arrays(self):
+        node = shutil.which("node")
+        if node is None:
+            self.skipTest("no node here")
+        made = generate.files(with_toy(self.folder))
+        shutil.copytree(ROOT / "bindings/js/src", self.folder / "js/src")
+        for name, text in made.items():
+            if name.startswith("js/"):
+                (self.folder / name).write_text(text)
+        types = (self.folder / "js/src/index.d.ts").read_text()
+        self.assertIn("  readonly mean: number;", types)
+        self.assertIn("  shiftSites(sites: Rows, vectors: Rows): void;", types)
+        (self.folder / "js/src/call_toy.mjs").write_text(CALL_JS)
+        subprocess.run([node, self.folder / "js/src/call_toy.mjs"], check=True)
+
     def test_what_a_comment_leaves_open_is_refused_by_name(self):
         cases = {"hf_solver_get_mean, out_mean: how many?": TOY.replace("out_mean: receives the mean. ", ""),
                  "hf_solver_shift_sites, vectors: how many?": TOY.replace("vectors: double[site_count][3] ", "vectors: "),
@@ -107,6 +122,33 @@ except hf.InvalidArgumentError as error:
 else:
     raise AssertionError("two numbers for each were taken for three")
 assert str(inspect.signature(hf.Solver.shift_sites)).startswith("(self, sites"), inspect.signature(hf.Solver.shift_sites)
+'''
+
+CALL_JS = '''
+import assert from 'node:assert/strict';
+import { makeApi } from './objects.js';
+
+// a library with the functions of the toy alone
+let handles = 1n;
+let got;
+const stub = {
+  name: 'stub',
+  width: 1,
+  newHandle: () => new BigUint64Array(1),
+  call(name, args) {
+    if (name === 'hf_version_get') return 1000;
+    if (name === 'hf_solver_get_mean') args[1].array[0] = 2.5;
+    else if (name === 'hf_solver_shift_sites') got = [args[1], [...args[2].array], [...args[3].array]];
+    else if (name.includes('create')) args.at(-1).array[0] = handles++;
+    return 0;
+  },
+};
+const hf = makeApi(stub);
+const solver = new hf.Solver(new hf.Surface([0, 0, 0], [0, 0, 0]));
+assert.equal(solver.mean, 2.5);
+solver.shiftSites([4, 5], [1, 2, 3, 4, 5, 6]);
+assert.deepEqual(got, [2, [4, 5], [1, 2, 3, 4, 5, 6]]);
+assert.throws(() => solver.shiftSites([4, 5], [1, 2, 3, 4]), /vectors must hold 6 numbers, not 4/);
 '''
 
 if __name__ == "__main__":
