@@ -258,6 +258,7 @@ class Writer(Types):
                 found.append((js(name), {"grown": f"found.{js(name)}", "figure": f"{js(name)}[0]"}.get(kind, js(name))))
         if not m.own and m.kind == "call":
             found += [(js(a.name), f"{js(a.name)}.toObject()") for a in told]
+        found = [(n.rstrip("_"), v) for n, v in found]
         if not found:
             return ""
         if len(found) == 1:

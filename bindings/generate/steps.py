@@ -107,6 +107,10 @@ class Planner:
 
     # ---- what comes out ----
 
+    def free(self, name):
+        """A variable that no argument has."""
+        return name + "_" * any(a.name == name for a in self.arguments)
+
     def give_fields(self):
         """Outputs among the fields of a desc."""
         for f in self.desc.filled if self.desc else []:
@@ -132,6 +136,7 @@ class Planner:
                 self.do("info", var=name, type=p["type"], optional=True)
             self.values[p["name"]] = ("info", name, p["type"])
         elif p["role"] == "struct":
+            name = self.free(name)
             self.do("info", var=name, type=p["type"], optional=False)
             self.values[p["name"]] = ("ref", name)
             self.results.append(Result("info", name, p))
@@ -143,6 +148,7 @@ class Planner:
         elif p["role"] == "bytes":
             self.results.append(Result("bytes", "block", p))
         else:
+            name = self.free(name)
             self.do("scalar", var=name, item=p)
             self.values[p["name"]] = ("figure", name)
             self.results.append(Result("figure", name, p))
@@ -157,7 +163,7 @@ class Planner:
             self.values[p["name"]] = ("address", name)
             return
         main = bool(stride) and not self.results
-        variable = "out" if main else name
+        variable = "out" if main else self.free(name)
         if main:
             self.argue("out", "out", p)
             if twin:
@@ -177,7 +183,7 @@ class Planner:
             self.field(struct, {**f, "doc": re.sub(r"^in[:;]?\s*|;\s*out:.*$", "", f["doc"])}, first=f["role"] != "handle")
         for f in struct.on_request:
             self.argue(f["name"], "request", f, first=False)
-        name += "_" * any(a.name == name for a in self.arguments)
+        name = self.free(name)
         self.do("struct", var=name, type=struct.name, fields=[f["name"] for f in struct.scalars])
         for f in struct.scalars:
             if f["name"] in self.sizes:

@@ -50,7 +50,7 @@ class Types:
         parts = [f"{self.name(a)}{'' if a.required else '?'}: {self.hint(a)}" for a in ahead]
         if options:
             parts.append("options?: { " + "; ".join(f"{self.name(a)}?: {self.hint(a)}" for a in options) + " }")
-        results = [(js(n), self.result_hint(k, n, i, plan)) for k, n, i in plan.results]
+        results = [(js(n.rstrip("_")), self.result_hint(k, n, i, plan)) for k, n, i in plan.results]
         extra = [(js(a.name), camel(a.item["type"])) for a in plan.arguments if a.role == "info"] if not m.own and m.kind == "call" else []
         if not results:
             returns = "void"
