@@ -68,7 +68,8 @@ class Steps:
         return [f"const {js(var)} = c.struct('{type}', {{ {options} }});".replace("{  }", "{}")]
 
     def do_desc(self, var, struct, names):
-        return [f"const {var} = {js(struct.name[3:])}(c, '', {{ {', '.join(map(js, names))} }});"]
+        given = names[0][3:] if len(names) == 1 and names[0].startswith("...") else f"{{ {', '.join(names)} }}"
+        return [f"const {var} = {js(struct.name[3:])}(c, '', {given});"]
 
     def do_record(self, var, type, fields, dims):
         return [f"const {js(var)} = c.struct('{type}', {{}});"] + [f"c.fixed({js(var)}, '{f['name']}', '{js(name)}', {js(name)});" for f, name in fields]
@@ -214,7 +215,8 @@ class Writer(Types):
         plan = Planner(self.api, self.structs, self.sizes, m).plan()
         ahead, options = self.split(plan)
         given = [self.name(a) + ("" if a.required else f" = {self.default(a)}") for a in ahead]
-        shown = ", ".join(f"{self.name(a)} = {self.default(a)}" for a in options)
+        desc = m.flat and self.structs[m.flat[0]["type"]]
+        shown = [f"{self.name(a)} = {self.default(a)}" for a in options if not desc or a.struct is not desc]
         makes = m.kind == "create" and m.function["verb"] == "create"
         head = js(m.title())
         if makes:
@@ -226,7 +228,9 @@ class Writer(Types):
         out = fold(f"{head}({', '.join(given + ['options = {}'] * bool(options))}) {{", 4)
         out += ["      super();", f"      if ({re.sub(' = .*', '', given[0])} === bare) return;"] if makes else []
         if options:
-            out += fold(f"const {{ {shown} }} = known(options, [{', '.join(repr(self.name(a)) for a in options)}]);", 6)
+            if shown:
+                out += fold(f"const {{ {', '.join(shown)}, ...more }} = options;", 6)
+            out += [] if desc else ["      none(more);"]
         body = []
         if plan.steps[0][0] != "returns":
             objects = ", ".join(f"{js(p['name'])}" for p in m.parents if not p["optional"])
@@ -236,6 +240,10 @@ class Writer(Types):
         for a in told:
             body.append(f"const {js(a.name)} = " + (f"c.told(this, '{a.item['type']}');" if m.own else f"c.struct('{a.item['type']}', {{}});"))
         for op, values in plan.steps:
+            if op == "desc":  # options that are left are the desc's: it refuses others
+                ahead_names = [js(a.name) for a in ahead if a.struct is desc and a.role != "out"]
+                more = ["...more" if shown else "...options"] if options else []
+                values = {**values, "names": ahead_names + more}
             body += Steps(self).lines(op, values)
         for line in body:
             out += fold(line, 6)
@@ -273,7 +281,7 @@ class Writer(Types):
             planner.field(struct, f, first)
         given = [f"{js(a.name)} = {self.default(a)}" for a in planner.arguments]
         lines = ["", *fold(f"const {js(struct.name[3:])} = (c, prefix, options) => {{", 2)]
-        lines += fold(f"const {{ {', '.join(given)} }} = known(options, [{', '.join(repr(js(a.name)) for a in planner.arguments)}]);", 4)
+        lines += [*fold(f"const {{ {', '.join(given)}, ...more }} = options;", 4), "    none(more);"]
         for op, values in desc_steps(self.api, struct, self.sizes):
             for line in Steps(self, struct).lines(op, values):
                 lines += fold(line, 4)
@@ -284,7 +292,7 @@ class Writer(Types):
         taken |= {f["type"] for name in taken for f in self.structs[name].inner}
         taken |= {f["type"] for name in taken for f in self.structs[name].inner}
         out = ["// Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.", "",
-               "export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known, written }) {"]
+               "export function makeClasses({ Handle, Call, bare, call, direct, handleOf, none, written }) {"]
         for name, struct in self.structs.items():
             out += self.filler(struct) if name in taken and struct.asked() else []
         self.methods = {}

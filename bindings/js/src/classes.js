@@ -1,9 +1,10 @@
 // Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.
 
-export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known, written }) {
+export function makeClasses({ Handle, Call, bare, call, direct, handleOf, none, written }) {
 
   const factorDesc = (c, prefix, options) => {
-    const { bytes = null, borrow = false } = known(options, ['bytes', 'borrow']);
+    const { bytes = null, borrow = false, ...more } = options;
+    none(more);
     const desc = c.struct('hf_factor_desc', { borrow });
     c.bytes(desc, 'bytes', 'byte_count', bytes, 'bytes');
     return desc;
@@ -11,8 +12,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
 
   const linksDesc = (c, prefix, options) => {
     const { joints = null, weights = null, tags = null, links = null, lightVertices = null, heavyVertices = null,
-            mode = 0, distance = 0, stiffness = 0, overlayDistance = 0 } = known(options, ['joints', 'weights', 'tags',
-            'links', 'lightVertices', 'heavyVertices', 'mode', 'distance', 'stiffness', 'overlayDistance']);
+            mode = 0, distance = 0, stiffness = 0, overlayDistance = 0, ...more } = options;
+    none(more);
     const desc = c.struct('hf_links_desc', { mode, distance, stiffness, overlay_distance: overlayDistance });
     c.rows(desc, 'joints', 'joints', joints, 'u2', ['vertex_count', prefix + 'influence_count']);
     c.rows(desc, 'weights', 'weights', weights, 'f4', ['vertex_count', prefix + 'influence_count']);
@@ -28,10 +29,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   const surfaceDesc = (c, prefix, options) => {
     const { positions = null, triangles = null, faceStarts = null, faceSizes = null, corners = null, weld = 0,
             weldTolerance = 0, operatorKind = 0, fieldKind = 0, ordering = 0, threadCount = 0, vertexLimit = 0,
-            triangleLimit = 0, memoryLimitMb = 0, workLimitGflop = 0, progress = null, savedFactor = null,
-            links = null } = known(options, ['positions', 'triangles', 'faceStarts', 'faceSizes', 'corners', 'weld',
-            'weldTolerance', 'operatorKind', 'fieldKind', 'ordering', 'threadCount', 'vertexLimit', 'triangleLimit',
-            'memoryLimitMb', 'workLimitGflop', 'progress', 'savedFactor', 'links']);
+            triangleLimit = 0, memoryLimitMb = 0, workLimitGflop = 0, progress = null, savedFactor = null, links = null,
+            ...more } = options;
+    none(more);
     const desc = c.struct('hf_surface_desc', { weld, weld_tolerance: weldTolerance, operator_kind: operatorKind,
             field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
             triangle_limit: triangleLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
@@ -52,9 +52,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   const graphDesc = (c, prefix, options) => {
     const { edges = null, weights = null, masses = null, vertexCount = 0, allowNegative = false, fieldKind = 0,
             ordering = 0, threadCount = 0, vertexLimit = 0, edgeLimit = 0, memoryLimitMb = 0, workLimitGflop = 0,
-            progress = null, savedFactor = null } = known(options, ['edges', 'weights', 'masses', 'vertexCount',
-            'allowNegative', 'fieldKind', 'ordering', 'threadCount', 'vertexLimit', 'edgeLimit', 'memoryLimitMb',
-            'workLimitGflop', 'progress', 'savedFactor']);
+            progress = null, savedFactor = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_graph_desc', { vertex_count: vertexCount, allow_negative: allowNegative,
             field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
             edge_limit: edgeLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
@@ -69,22 +68,25 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const gapsDesc = (c, prefix, options) => {
-    const { positions = null } = known(options, ['positions']);
+    const { positions = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_gaps_desc', {});
     c.rows(desc, 'positions', 'positions', positions, 'f4 f8', ['vertex_count', 3]);
     return desc;
   };
 
   const pickDesc = (c, prefix, options) => {
-    const { positions = null, frontOnly = false } = known(options, ['positions', 'frontOnly']);
+    const { positions = null, frontOnly = false, ...more } = options;
+    none(more);
     const desc = c.struct('hf_pick_desc', { front_only: frontOnly });
     c.rows(desc, 'positions', 'positions', positions, 'f4 f8', ['vertex_count', 3]);
     return desc;
   };
 
   const solverDesc = (c, prefix, options) => {
-    const { fieldKind = 0, engine = 0, channelCount = 0, siteLimit = 0, penalty = 0, progress = null } = known(options,
-            ['fieldKind', 'engine', 'channelCount', 'siteLimit', 'penalty', 'progress']);
+    const { fieldKind = 0, engine = 0, channelCount = 0, siteLimit = 0, penalty = 0, progress = null,
+            ...more } = options;
+    none(more);
     const desc = c.struct('hf_solver_desc', { field_kind: fieldKind, engine, channel_count: channelCount,
             site_limit: siteLimit, penalty });
     c.known('channel_count', channelCount || 1);
@@ -94,8 +96,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
 
   const sitesDesc = (c, prefix, options) => {
     const { vertices = null, values = null, triangles = null, barycentrics = null, stiffness = null, radii = null,
-            corners = null } = known(options, ['vertices', 'values', 'triangles', 'barycentrics', 'stiffness', 'radii',
-            'corners']);
+            corners = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_sites_desc', {});
     c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'site_count']);
     c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'site_count']);
@@ -109,8 +111,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const editDesc = (c, prefix, options) => {
-    const { removeSites = null, moveSites = null, setSites = null, setValues = null, moveTo = null,
-            add = null } = known(options, ['removeSites', 'moveSites', 'setSites', 'setValues', 'moveTo', 'add']);
+    const { removeSites = null, moveSites = null, setSites = null, setValues = null, moveTo = null, add = null,
+            ...more } = options;
+    none(more);
     const desc = c.struct('hf_edit_desc', {});
     c.rows(desc, 'remove_sites', 'removeSites', removeSites, 'u4', [prefix + 'remove_count']);
     c.rows(desc, 'move_sites', 'moveSites', moveSites, 'u4', [prefix + 'move_count']);
@@ -124,15 +127,16 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const geodesicsDesc = (c, prefix, options) => {
-    const { smoothing = 0, progress = null, method = 0 } = known(options, ['smoothing', 'progress', 'method']);
+    const { smoothing = 0, progress = null, method = 0, ...more } = options;
+    none(more);
     const desc = c.struct('hf_geodesics_desc', { smoothing, method });
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
   };
 
   const extremitiesDesc = (c, prefix, options) => {
-    const { kind = 0, leastLength = 0, sourceCount = 0, geodesics = null, progress = null } = known(options, ['kind',
-            'leastLength', 'sourceCount', 'geodesics', 'progress']);
+    const { kind = 0, leastLength = 0, sourceCount = 0, geodesics = null, progress = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_extremities_desc', { kind, least_length: leastLength, source_count: sourceCount });
     c.known('source_count', sourceCount || 40);
     desc.set('geodesics', handleOf(geodesics, Geodesics, 'geodesics') || null);
@@ -141,23 +145,25 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const directionDesc = (c, prefix, options) => {
-    const { degree = 0, siteLimit = 0, progress = null } = known(options, ['degree', 'siteLimit', 'progress']);
+    const { degree = 0, siteLimit = 0, progress = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_direction_desc', { degree, site_limit: siteLimit });
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
   };
 
   const poseDesc = (c, prefix, options) => {
-    const { mode = 0, bandCount = 0, iterationCount = 0, samplesPerRing = 0, groupCount = 0 } = known(options, ['mode',
-            'bandCount', 'iterationCount', 'samplesPerRing', 'groupCount']);
+    const { mode = 0, bandCount = 0, iterationCount = 0, samplesPerRing = 0, groupCount = 0, ...more } = options;
+    none(more);
     const desc = c.struct('hf_pose_desc', { mode, band_count: bandCount, iteration_count: iterationCount,
             samples_per_ring: samplesPerRing, group_count: groupCount });
     return desc;
   };
 
   const handlesDesc = (c, prefix, options) => {
-    const { regionVertices = null, points = null, radii = null, layer = 0, inPlace = false,
-            progress = null } = known(options, ['regionVertices', 'points', 'radii', 'layer', 'inPlace', 'progress']);
+    const { regionVertices = null, points = null, radii = null, layer = 0, inPlace = false, progress = null,
+            ...more } = options;
+    none(more);
     const desc = c.struct('hf_handles_desc', { layer, in_place: inPlace });
     c.ragged(desc, 'region_counts', 'region_vertices', 'regionVertices', regionVertices, prefix + 'handle_count');
     c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'handle_count', 3]);
@@ -168,9 +174,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const deformDesc = (c, prefix, options) => {
-    const { iterationCount = 0, restart = false, refine = 0, refineFromLast = false, firstVertex = 0,
-            vertexCount = 0 } = known(options, ['iterationCount', 'restart', 'refine', 'refineFromLast', 'firstVertex',
-            'vertexCount']);
+    const { iterationCount = 0, restart = false, refine = 0, refineFromLast = false, firstVertex = 0, vertexCount = 0,
+            ...more } = options;
+    none(more);
     const desc = c.struct('hf_deform_desc', { iteration_count: iterationCount, restart, refine,
             refine_from_last: refineFromLast, first_vertex: firstVertex, vertex_count: vertexCount });
     c.known('vertex_count', vertexCount);
@@ -178,8 +184,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const proposeDesc = (c, prefix, options) => {
-    const { joints = null, parents = null, up = null, leastLength = 0, limit = 0, progress = null } = known(options,
-            ['joints', 'parents', 'up', 'leastLength', 'limit', 'progress']);
+    const { joints = null, parents = null, up = null, leastLength = 0, limit = 0, progress = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_propose_desc', { least_length: leastLength, limit });
     c.rows(desc, 'joints', 'joints', joints, 'f8', [prefix + 'joint_count', 3]);
     c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
@@ -192,9 +198,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   const quadsDesc = (c, prefix, options) => {
     const { creaseEdges = null, guideVertices = null, guideVectors = null, guideWeights = null, polePoints = null,
             poleQuads = null, poleDirections = null, faceCount = 0, edgeLength = 0, creaseAngle = 0, relaxCount = 0,
-            symmetryPlane = null, progress = null } = known(options, ['creaseEdges', 'guideVertices', 'guideVectors',
-            'guideWeights', 'polePoints', 'poleQuads', 'poleDirections', 'faceCount', 'edgeLength', 'creaseAngle',
-            'relaxCount', 'symmetryPlane', 'progress']);
+            symmetryPlane = null, progress = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_quads_desc', { face_count: faceCount, edge_length: edgeLength, crease_angle: creaseAngle,
             relax_count: relaxCount });
     c.rows(desc, 'crease_edges', 'creaseEdges', creaseEdges, 'u4', [prefix + 'crease_count', 2]);
@@ -212,7 +217,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const regionDesc = (c, prefix, options) => {
-    const { positions = null, base = 0, progress = null } = known(options, ['positions', 'base', 'progress']);
+    const { positions = null, base = 0, progress = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_region_desc', { base });
     c.rows(desc, 'positions', 'positions', positions, 'f4 f8', ['vertex_count', 3]);
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
@@ -220,9 +226,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const curveDesc = (c, prefix, options) => {
-    const { vertices = null, triangles = null, barycentrics = null, corners = null, side = 0, seedVertex = 0,
-            kind = 0 } = known(options, ['vertices', 'triangles', 'barycentrics', 'corners', 'side', 'seedVertex',
-            'kind']);
+    const { vertices = null, triangles = null, barycentrics = null, corners = null, side = 0, seedVertex = 0, kind = 0,
+            ...more } = options;
+    none(more);
     const desc = c.struct('hf_curve_desc', { side, seed_vertex: seedVertex, kind });
     c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'point_count']);
     c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'point_count']);
@@ -233,8 +239,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const regionEditDesc = (c, prefix, options) => {
-    const { removeVertices = null, addVertices = null, ringCount = 0, curve = null, progress = null } = known(options,
-            ['removeVertices', 'addVertices', 'ringCount', 'curve', 'progress']);
+    const { removeVertices = null, addVertices = null, ringCount = 0, curve = null, progress = null,
+            ...more } = options;
+    none(more);
     const desc = c.struct('hf_region_edit_desc', { ring_count: ringCount });
     c.rows(desc, 'remove_vertices', 'removeVertices', removeVertices, 'u4', [prefix + 'remove_count']);
     c.rows(desc, 'add_vertices', 'addVertices', addVertices, 'u4', [prefix + 'add_count']);
@@ -245,14 +252,15 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const morphDesc = (c, prefix, options) => {
-    const { weight = 0 } = known(options, ['weight']);
+    const { weight = 0, ...more } = options;
+    none(more);
     const desc = c.struct('hf_morph_desc', { weight });
     return desc;
   };
 
   const detailDesc = (c, prefix, options) => {
-    const { sourceVertices = null, targetVertices = null, scale = 0, progress = null } = known(options,
-            ['sourceVertices', 'targetVertices', 'scale', 'progress']);
+    const { sourceVertices = null, targetVertices = null, scale = 0, progress = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_detail_desc', { scale });
     c.rows(desc, 'source_vertices', 'sourceVertices', sourceVertices, 'u4', [prefix + 'pair_count']);
     c.rows(desc, 'target_vertices', 'targetVertices', targetVertices, 'u4', [prefix + 'pair_count']);
@@ -263,9 +271,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
 
   const transferDesc = (c, prefix, options) => {
     const { sourceRest = null, targetRest = null, mode = 0, clusterCount = 0, kernelWidth = 0, scale = 0,
-            alignmentAngle = 0, sourceAxes = null, targetAxes = null, ground = 0 } = known(options, ['sourceRest',
-            'targetRest', 'mode', 'clusterCount', 'kernelWidth', 'scale', 'alignmentAngle', 'sourceAxes', 'targetAxes',
-            'ground']);
+            alignmentAngle = 0, sourceAxes = null, targetAxes = null, ground = 0, ...more } = options;
+    none(more);
     const desc = c.struct('hf_transfer_desc', { mode, cluster_count: clusterCount, kernel_width: kernelWidth, scale,
             alignment_angle: alignmentAngle, ground });
     c.rows(desc, 'source_rest', 'sourceRest', sourceRest, 'f4', ['source.vertex_count', 3]);
@@ -276,8 +283,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const pairsDesc = (c, prefix, options) => {
-    const { sourceVertices = null, targetVertices = null, flags = null, progress = null } = known(options,
-            ['sourceVertices', 'targetVertices', 'flags', 'progress']);
+    const { sourceVertices = null, targetVertices = null, flags = null, progress = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_pairs_desc', {});
     c.ragged(desc, 'source_counts', 'source_vertices', 'sourceVertices', sourceVertices, prefix + 'pair_count');
     c.ragged(desc, 'target_counts', 'target_vertices', 'targetVertices', targetVertices, prefix + 'pair_count');
@@ -288,16 +295,17 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const transferDials = (c, prefix, options) => {
-    const { stride = 0, hipHeight = 0, neckFollow = 0, tailFollow = 0, armSpace = 0, longFollow = 0 } = known(options,
-            ['stride', 'hipHeight', 'neckFollow', 'tailFollow', 'armSpace', 'longFollow']);
+    const { stride = 0, hipHeight = 0, neckFollow = 0, tailFollow = 0, armSpace = 0, longFollow = 0,
+            ...more } = options;
+    none(more);
     const desc = c.struct('hf_transfer_dials', { stride, hip_height: hipHeight, neck_follow: neckFollow,
             tail_follow: tailFollow, arm_space: armSpace, long_follow: longFollow });
     return desc;
   };
 
   const transferFrame = (c, prefix, options) => {
-    const { sourcePositions = null, holdPairs = null, holdPositions = null } = known(options, ['sourcePositions',
-            'holdPairs', 'holdPositions']);
+    const { sourcePositions = null, holdPairs = null, holdPositions = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_transfer_frame', {});
     c.rows(desc, 'source_positions', 'sourcePositions', sourcePositions, 'f4 f8', ['source.vertex_count', 3]);
     c.rows(desc, 'hold_pairs', 'holdPairs', holdPairs, 'u4', [prefix + 'hold_count']);
@@ -307,8 +315,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const bonesDesc = (c, prefix, options) => {
-    const { heads = null, tails = null, axes = null, parents = null, deforms = null, sources = null,
-            progress = null } = known(options, ['heads', 'tails', 'axes', 'parents', 'deforms', 'sources', 'progress']);
+    const { heads = null, tails = null, axes = null, parents = null, deforms = null, sources = null, progress = null,
+            ...more } = options;
+    none(more);
     const desc = c.struct('hf_bones_desc', {});
     c.rows(desc, 'heads', 'heads', heads, 'f8', [prefix + 'bone_count', 3]);
     c.rows(desc, 'tails', 'tails', tails, 'f8', [prefix + 'bone_count', 3]);
@@ -323,8 +332,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
 
   const pinsDesc = (c, prefix, options) => {
     const { vertices = null, triangles = null, barycentrics = null, radii = null, joints = null, weights = null,
-            progress = null } = known(options, ['vertices', 'triangles', 'barycentrics', 'radii', 'joints', 'weights',
-            'progress']);
+            progress = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_pins_desc', {});
     c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'pin_count']);
     c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'pin_count']);
@@ -338,8 +347,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
   };
 
   const carryDesc = (c, prefix, options) => {
-    const { joints = null, weights = null, distance = 0, angle = 0, weightCount = 0, progress = null } = known(options,
-            ['joints', 'weights', 'distance', 'angle', 'weightCount', 'progress']);
+    const { joints = null, weights = null, distance = 0, angle = 0, weightCount = 0, progress = null,
+            ...more } = options;
+    none(more);
     const desc = c.struct('hf_carry_desc', { distance, angle, weight_count: weightCount });
     c.known('weight_count', weightCount || 4);
     c.rows(desc, 'joints', 'joints', joints, 'u4', ['source.vertex_count', prefix + 'influence_count']);
@@ -351,8 +361,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
 
   const mirrorDesc = (c, prefix, options) => {
     const { heads = null, names = null, partners = null, plane = null, joints = null, weights = null, to = 0,
-            distance = 0, angle = 0, weightCount = 0, progress = null } = known(options, ['heads', 'names', 'partners',
-            'plane', 'joints', 'weights', 'to', 'distance', 'angle', 'weightCount', 'progress']);
+            distance = 0, angle = 0, weightCount = 0, progress = null, ...more } = options;
+    none(more);
     const desc = c.struct('hf_mirror_desc', { to, distance, angle, weight_count: weightCount });
     c.known('weight_count', weightCount || 4);
     c.rows(desc, 'heads', 'heads', heads, 'f8', [prefix + 'bone_count', 3]);
@@ -400,26 +410,14 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     constructor(positions, triangles = null, options = {}) {
       super();
       if (positions === bare) return;
-      const { faceStarts = null, faceSizes = null, corners = null, weld = 0, weldTolerance = 0, operatorKind = 0,
-              fieldKind = 0, ordering = 0, threadCount = 0, vertexLimit = 0, triangleLimit = 0, memoryLimitMb = 0,
-              workLimitGflop = 0, progress = null, savedFactor = null, links = null } = known(options, ['faceStarts',
-              'faceSizes', 'corners', 'weld', 'weldTolerance', 'operatorKind', 'fieldKind', 'ordering', 'threadCount',
-              'vertexLimit', 'triangleLimit', 'memoryLimitMb', 'workLimitGflop', 'progress', 'savedFactor', 'links']);
       const c = new Call(null);
-      const desc = surfaceDesc(c, '', { positions, triangles, faceStarts, faceSizes, corners, weld, weldTolerance,
-              operatorKind, fieldKind, ordering, threadCount, vertexLimit, triangleLimit, memoryLimitMb, workLimitGflop,
-              progress, savedFactor, links });
+      const desc = surfaceDesc(c, '', { positions, triangles, ...options });
       this._own('hf_surface_create', c, desc);
     }
 
     static fromGraph(edges = null, weights = null, options = {}) {
-      const { masses = null, vertexCount = 0, allowNegative = false, fieldKind = 0, ordering = 0, threadCount = 0,
-              vertexLimit = 0, edgeLimit = 0, memoryLimitMb = 0, workLimitGflop = 0, progress = null,
-              savedFactor = null } = known(options, ['masses', 'vertexCount', 'allowNegative', 'fieldKind', 'ordering',
-              'threadCount', 'vertexLimit', 'edgeLimit', 'memoryLimitMb', 'workLimitGflop', 'progress', 'savedFactor']);
       const c = new Call(null);
-      const desc = graphDesc(c, '', { edges, weights, masses, vertexCount, allowNegative, fieldKind, ordering,
-              threadCount, vertexLimit, edgeLimit, memoryLimitMb, workLimitGflop, progress, savedFactor });
+      const desc = graphDesc(c, '', { edges, weights, ...options });
       const made = new this(bare);
       made._own('hf_surface_create_graph', c, desc);
       return made;
@@ -477,13 +475,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     relink(options = {}) {
-      const { joints = null, weights = null, tags = null, links = null, lightVertices = null, heavyVertices = null,
-              mode = 0, distance = 0, stiffness = 0, overlayDistance = 0, progress = null } = known(options, ['joints',
-              'weights', 'tags', 'links', 'lightVertices', 'heavyVertices', 'mode', 'distance', 'stiffness',
-              'overlayDistance', 'progress']);
+      const { progress = null, ...more } = options;
       const c = new Call(this);
-      const desc = linksDesc(c, '', { joints, weights, tags, links, lightVertices, heavyVertices, mode, distance,
-              stiffness, overlayDistance });
+      const desc = linksDesc(c, '', more);
       const made = new this.constructor(bare);
       Object.assign(c.n, this._n);
       made._own('hf_surface_relink', c, this._handle, desc, handleOf(progress, Progress, 'progress'));
@@ -498,7 +492,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     save(fieldKind = 0, options = {}) {
-      const { progress = null } = known(options, ['progress']);
+      const { progress = null, ...more } = options;
+      none(more);
       const c = new Call(this);
       const size = c.sizes();
       call('hf_surface_save', this._handle, fieldKind, handleOf(progress, Progress, 'progress'), 0, null,
@@ -510,21 +505,19 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     castRay(origin, direction, options = {}) {
-      const { positions = null, frontOnly = false } = known(options, ['positions', 'frontOnly']);
       const c = new Call(this);
       const origin_ = c.array('origin', origin, 'f8', [3]);
       const direction_ = c.array('direction', direction, 'f8', [3]);
-      const desc = pickDesc(c, '', { positions, frontOnly });
+      const desc = pickDesc(c, '', options);
       const hit = c.struct('hf_hit', {});
       call('hf_surface_cast_ray', this._handle, origin_, direction_, desc, hit);
       return hit.get('found') ? hit.toObject() : null;
     }
 
     findVertex(point, options = {}) {
-      const { positions = null, frontOnly = false } = known(options, ['positions', 'frontOnly']);
       const c = new Call(this);
       const point_ = c.array('point', point, 'f8', [3]);
-      const desc = pickDesc(c, '', { positions, frontOnly });
+      const desc = pickDesc(c, '', options);
       const vertex = new Uint32Array(1);
       const distance = new Float64Array(1);
       call('hf_surface_find_vertex', this._handle, point_, desc, written(vertex), written(distance));
@@ -572,10 +565,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     findExtremities(options = {}) {
-      const { kind = 0, leastLength = 0, sourceCount = 0, geodesics = null, progress = null,
-              field = null } = known(options, ['kind', 'leastLength', 'sourceCount', 'geodesics', 'progress', 'field']);
+      const { field = null, ...more } = options;
       const c = new Call(this);
-      const desc = extremitiesDesc(c, '', { kind, leastLength, sourceCount, geodesics, progress });
+      const desc = extremitiesDesc(c, '', more);
       const field_ = field && c.out(field, 'f8', ['vertex_count'], null, 'field');
       desc.set('out_field', field_ && written(field_));
       const count = new Uint32Array(1);
@@ -586,10 +578,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     proposeHandles(options = {}) {
-      const { joints = null, parents = null, up = null, leastLength = 0, limit = 0, progress = null } = known(options,
-              ['joints', 'parents', 'up', 'leastLength', 'limit', 'progress']);
       const c = new Call(this);
-      const desc = proposeDesc(c, '', { joints, parents, up, leastLength, limit, progress });
+      const desc = proposeDesc(c, '', options);
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_propose_handles', (room, made) => call('hf_propose_handles', this._handle, desc,
               room.capacity, written(made.proposals), written(count)), () => ({ capacity: count[0] }),
@@ -619,11 +609,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     constructor(surface, options = {}) {
       super();
       if (surface === bare) return;
-      const { fieldKind = 0, engine = 0, channelCount = 0, siteLimit = 0, penalty = 0,
-              progress = null } = known(options, ['fieldKind', 'engine', 'channelCount', 'siteLimit', 'penalty',
-              'progress']);
       const c = new Call(null, { surface });
-      const desc = solverDesc(c, '', { fieldKind, engine, channelCount, siteLimit, penalty, progress });
+      const desc = solverDesc(c, '', options);
       this._own('hf_create', c, handleOf(surface, Surface, 'surface'), desc);
     }
 
@@ -643,10 +630,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     addSites(vertices = null, values = null, options = {}) {
-      const { triangles = null, barycentrics = null, stiffness = null, radii = null, corners = null } = known(options,
-              ['triangles', 'barycentrics', 'stiffness', 'radii', 'corners']);
       const c = new Call(this);
-      const desc = sitesDesc(c, '', { vertices, values, triangles, barycentrics, stiffness, radii, corners });
+      const desc = sitesDesc(c, '', { vertices, values, ...options });
       const sites = c.out(null, 'u4', ['site_count']);
       call('hf_add_sites', this._handle, desc, written(sites));
       return sites;
@@ -667,11 +652,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     moveSites(sites, vertices = null, values = null, options = {}) {
-      const { triangles = null, barycentrics = null, stiffness = null, radii = null, corners = null } = known(options,
-              ['triangles', 'barycentrics', 'stiffness', 'radii', 'corners']);
       const c = new Call(this);
       const sites_ = c.array('sites', sites, 'u4', ['site_count']);
-      const desc = sitesDesc(c, '', { vertices, values, triangles, barycentrics, stiffness, radii, corners });
+      const desc = sitesDesc(c, '', { vertices, values, ...options });
       call('hf_solver_move_sites', this._handle, (c.n.site_count ??= 1), sites_, desc);
     }
 
@@ -683,10 +666,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     editSites(options = {}) {
-      const { removeSites = null, moveSites = null, setSites = null, setValues = null, moveTo = null,
-              add = null } = known(options, ['removeSites', 'moveSites', 'setSites', 'setValues', 'moveTo', 'add']);
       const c = new Call(this);
-      const desc = editDesc(c, '', { removeSites, moveSites, setSites, setValues, moveTo, add });
+      const desc = editDesc(c, '', options);
       const sites = c.out(null, 'u4', ['add.site_count']);
       call('hf_solver_edit_sites', this._handle, desc, written(sites));
       return sites;
@@ -715,7 +696,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     solve(out = null, options = {}) {
-      const { Type = Float32Array } = known(options, ['Type']);
+      const { Type = Float32Array, ...more } = options;
+      none(more);
       const c = new Call(this);
       const info = c.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 'channel_count'], Type);
@@ -733,7 +715,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     solveVectors(out = null, options = {}) {
-      const { Type = Float32Array, normals = null } = known(options, ['Type', 'normals']);
+      const { Type = Float32Array, normals = null, ...more } = options;
+      none(more);
       const c = new Call(this);
       const info = c.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
@@ -744,7 +727,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     solvePreview(out = null, options = {}) {
-      const { correctionCount = 0, Type = Float32Array } = known(options, ['correctionCount', 'Type']);
+      const { correctionCount = 0, Type = Float32Array, ...more } = options;
+      none(more);
       const c = new Call(this);
       const info = c.told(this, 'hf_preview_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 'channel_count'], Type);
@@ -773,7 +757,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     certify(options = {}) {
-      const { tolerance = 0 } = known(options, ['tolerance']);
+      const { tolerance = 0, ...more } = options;
+      none(more);
       const c = new Call(this);
       const certificate = c.struct('hf_certificate', { tolerance });
       call('hf_solver_certify', this._handle, certificate);
@@ -826,14 +811,14 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     constructor(surface, options = {}) {
       super();
       if (surface === bare) return;
-      const { smoothing = 0, progress = null, method = 0 } = known(options, ['smoothing', 'progress', 'method']);
       const c = new Call(null, { surface });
-      const desc = geodesicsDesc(c, '', { smoothing, progress, method });
+      const desc = geodesicsDesc(c, '', options);
       this._own('hf_geodesics_create', c, handleOf(surface, Surface, 'surface'), desc);
     }
 
     solve(sources, out = null, options = {}) {
-      const { Type = Float32Array } = known(options, ['Type']);
+      const { Type = Float32Array, ...more } = options;
+      none(more);
       const c = new Call(this);
       const sources_ = c.array('sources', sources, 'u4', ['source_count']);
       out = c.out(out, 'f4 f8', ['vertex_count'], Type);
@@ -873,9 +858,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     constructor(surface, options = {}) {
       super();
       if (surface === bare) return;
-      const { degree = 0, siteLimit = 0, progress = null } = known(options, ['degree', 'siteLimit', 'progress']);
       const c = new Call(null, { surface });
-      const desc = directionDesc(c, '', { degree, siteLimit, progress });
+      const desc = directionDesc(c, '', options);
       this._own('hf_direction_create', c, handleOf(surface, Surface, 'surface'), desc);
     }
 
@@ -953,7 +937,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     solve(out = null, options = {}) {
-      const { Type = Float32Array } = known(options, ['Type']);
+      const { Type = Float32Array, ...more } = options;
+      none(more);
       const c = new Call(this);
       const info = c.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
@@ -994,10 +979,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     constructor(surface, options = {}) {
       super();
       if (surface === bare) return;
-      const { mode = 0, bandCount = 0, iterationCount = 0, samplesPerRing = 0, groupCount = 0 } = known(options,
-              ['mode', 'bandCount', 'iterationCount', 'samplesPerRing', 'groupCount']);
       const c = new Call(null, { surface });
-      const desc = poseDesc(c, '', { mode, bandCount, iterationCount, samplesPerRing, groupCount });
+      const desc = poseDesc(c, '', options);
       this._own('hf_pose_create', c, handleOf(surface, Surface, 'surface'), desc);
     }
 
@@ -1017,10 +1000,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     addHandles(regionVertices = null, options = {}) {
-      const { points = null, radii = null, layer = 0, inPlace = false, progress = null } = known(options, ['points',
-              'radii', 'layer', 'inPlace', 'progress']);
       const c = new Call(this);
-      const desc = handlesDesc(c, '', { regionVertices, points, radii, layer, inPlace, progress });
+      const desc = handlesDesc(c, '', { regionVertices, ...options });
       const handles = c.out(null, 'u4', ['handle_count']);
       call('hf_pose_add_handles', this._handle, desc, written(handles));
       return handles;
@@ -1041,7 +1022,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     setTransforms(handles, options = {}) {
-      const { rotations = null, translations = null } = known(options, ['rotations', 'translations']);
+      const { rotations = null, translations = null, ...more } = options;
+      none(more);
       const c = new Call(this);
       const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
       const transforms = c.records('hf_transform', ['handle_count'], { rotation: ['rotations', rotations],
@@ -1050,7 +1032,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     setTransform(handle, options = {}) {
-      const { rotation = null, translation = null } = known(options, ['rotation', 'translation']);
+      const { rotation = null, translation = null, ...more } = options;
+      none(more);
       const c = new Call(this);
       const transform = c.struct('hf_transform', {});
       c.fixed(transform, 'rotation', 'rotation', rotation);
@@ -1084,12 +1067,10 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     deform(out = null, options = {}) {
-      const { iterationCount = 0, restart = false, refine = 0, refineFromLast = false, firstVertex = 0, vertexCount = 0,
-              Type = Float32Array, normals = null } = known(options, ['iterationCount', 'restart', 'refine',
-              'refineFromLast', 'firstVertex', 'vertexCount', 'Type', 'normals']);
+      const { Type = Float32Array, normals = null, ...more } = options;
       const c = new Call(this);
       const info = c.told(this, 'hf_deform_info');
-      const desc = deformDesc(c, '', { iterationCount, restart, refine, refineFromLast, firstVertex, vertexCount });
+      const desc = deformDesc(c, '', more);
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
       desc.set(out instanceof Float64Array ? 'positions_f64' : 'positions', out && written(out));
       const normals_ = normals && c.out(normals, 'f4', ['vertex_count', 3], null, 'normals');
@@ -1099,7 +1080,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     skin(options = {}) {
-      const { weightCount = 0, scales = false } = known(options, ['weightCount', 'scales']);
+      const { weightCount = 0, scales = false, ...more } = options;
+      none(more);
       const c = new Call(this);
       const skin = c.struct('hf_skin_info', { weight_count: weightCount });
       c.known('weight_count', weightCount || 4);
@@ -1125,26 +1107,14 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     constructor(surface, options = {}) {
       super();
       if (surface === bare) return;
-      const { creaseEdges = null, guideVertices = null, guideVectors = null, guideWeights = null, polePoints = null,
-              poleQuads = null, poleDirections = null, faceCount = 0, edgeLength = 0, creaseAngle = 0, relaxCount = 0,
-              symmetryPlane = null, progress = null } = known(options, ['creaseEdges', 'guideVertices', 'guideVectors',
-              'guideWeights', 'polePoints', 'poleQuads', 'poleDirections', 'faceCount', 'edgeLength', 'creaseAngle',
-              'relaxCount', 'symmetryPlane', 'progress']);
       const c = new Call(null, { surface });
-      const desc = quadsDesc(c, '', { creaseEdges, guideVertices, guideVectors, guideWeights, polePoints, poleQuads,
-              poleDirections, faceCount, edgeLength, creaseAngle, relaxCount, symmetryPlane, progress });
+      const desc = quadsDesc(c, '', options);
       this._own('hf_quads_create', c, handleOf(surface, Surface, 'surface'), desc);
     }
 
     update(options = {}) {
-      const { creaseEdges = null, guideVertices = null, guideVectors = null, guideWeights = null, polePoints = null,
-              poleQuads = null, poleDirections = null, faceCount = 0, edgeLength = 0, creaseAngle = 0, relaxCount = 0,
-              symmetryPlane = null, progress = null } = known(options, ['creaseEdges', 'guideVertices', 'guideVectors',
-              'guideWeights', 'polePoints', 'poleQuads', 'poleDirections', 'faceCount', 'edgeLength', 'creaseAngle',
-              'relaxCount', 'symmetryPlane', 'progress']);
       const c = new Call(this);
-      const desc = quadsDesc(c, '', { creaseEdges, guideVertices, guideVectors, guideWeights, polePoints, poleQuads,
-              poleDirections, faceCount, edgeLength, creaseAngle, relaxCount, symmetryPlane, progress });
+      const desc = quadsDesc(c, '', options);
       call('hf_quads_update', this._handle, desc);
     }
 
@@ -1183,7 +1153,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     trace(field, options = {}) {
-      const { seeds = null, wantedCount = 0 } = known(options, ['seeds', 'wantedCount']);
+      const { seeds = null, wantedCount = 0, ...more } = options;
+      none(more);
       const c = new Call(this);
       const field_ = c.struct('hf_scalars', {});
       c.rows(field_, 'values', 'field', field, 'f4 f8', ['vertex_count']);
@@ -1209,9 +1180,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     constructor(surface, options = {}) {
       super();
       if (surface === bare) return;
-      const { positions = null, base = 0, progress = null } = known(options, ['positions', 'base', 'progress']);
       const c = new Call(null, { surface });
-      const desc = regionDesc(c, '', { positions, base, progress });
+      const desc = regionDesc(c, '', options);
       this._own('hf_region_create', c, handleOf(surface, Surface, 'surface'), desc);
     }
 
@@ -1224,10 +1194,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     edit(options = {}) {
-      const { removeVertices = null, addVertices = null, ringCount = 0, curve = null, progress = null } = known(options,
-              ['removeVertices', 'addVertices', 'ringCount', 'curve', 'progress']);
       const c = new Call(this);
-      const desc = regionEditDesc(c, '', { removeVertices, addVertices, ringCount, curve, progress });
+      const desc = regionEditDesc(c, '', options);
       call('hf_region_edit', this._handle, desc);
     }
 
@@ -1272,9 +1240,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     morph(weight = 0, out = null, options = {}) {
-      const { Type = Float32Array, normals = null } = known(options, ['Type', 'normals']);
+      const { Type = Float32Array, normals = null, ...more } = options;
       const c = new Call(this);
-      const desc = morphDesc(c, '', { weight });
+      const desc = morphDesc(c, '', { weight, ...more });
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
       desc.set(out instanceof Float64Array ? 'positions_f64' : 'positions', out && written(out));
       const normals_ = normals && c.out(normals, 'f4', ['vertex_count', 3], null, 'normals');
@@ -1294,17 +1262,15 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     constructor(source, target, options = {}) {
       super();
       if (source === bare) return;
-      const { sourceVertices = null, targetVertices = null, scale = 0, progress = null } = known(options,
-              ['sourceVertices', 'targetVertices', 'scale', 'progress']);
       const c = new Call(null, { source, target });
-      const desc = detailDesc(c, '', { sourceVertices, targetVertices, scale, progress });
+      const desc = detailDesc(c, '', options);
       this._own('hf_detail_create', c, handleOf(source, Region, 'source'), handleOf(target, Region, 'target'), desc);
     }
 
     morph(weight = 0, out = null, options = {}) {
-      const { Type = Float32Array, normals = null } = known(options, ['Type', 'normals']);
+      const { Type = Float32Array, normals = null, ...more } = options;
       const c = new Call(this);
-      const desc = morphDesc(c, '', { weight });
+      const desc = morphDesc(c, '', { weight, ...more });
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
       desc.set(out instanceof Float64Array ? 'positions_f64' : 'positions', out && written(out));
       const normals_ = normals && c.out(normals, 'f4', ['vertex_count', 3], null, 'normals');
@@ -1324,21 +1290,15 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     constructor(source, target, options = {}) {
       super();
       if (source === bare) return;
-      const { sourceRest = null, targetRest = null, mode = 0, clusterCount = 0, kernelWidth = 0, scale = 0,
-              alignmentAngle = 0, sourceAxes = null, targetAxes = null, ground = 0 } = known(options, ['sourceRest',
-              'targetRest', 'mode', 'clusterCount', 'kernelWidth', 'scale', 'alignmentAngle', 'sourceAxes',
-              'targetAxes', 'ground']);
       const c = new Call(null, { source, target });
-      const desc = transferDesc(c, '', { sourceRest, targetRest, mode, clusterCount, kernelWidth, scale, alignmentAngle,
-              sourceAxes, targetAxes, ground });
+      const desc = transferDesc(c, '', options);
       this._own('hf_transfer_create', c, handleOf(source, Surface, 'source'), handleOf(target, Surface, 'target'),
               desc);
     }
 
     addPairs(sourceVertices = null, targetVertices = null, flags = null, options = {}) {
-      const { progress = null } = known(options, ['progress']);
       const c = new Call(this);
-      const desc = pairsDesc(c, '', { sourceVertices, targetVertices, flags, progress });
+      const desc = pairsDesc(c, '', { sourceVertices, targetVertices, flags, ...options });
       const pairs = c.out(null, 'u4', ['pair_count']);
       call('hf_transfer_add_pairs', this._handle, desc, written(pairs));
       return pairs;
@@ -1365,10 +1325,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     setDials(options = {}) {
-      const { stride = 0, hipHeight = 0, neckFollow = 0, tailFollow = 0, armSpace = 0, longFollow = 0 } = known(options,
-              ['stride', 'hipHeight', 'neckFollow', 'tailFollow', 'armSpace', 'longFollow']);
       const c = new Call(this);
-      const desc = transferDials(c, '', { stride, hipHeight, neckFollow, tailFollow, armSpace, longFollow });
+      const desc = transferDials(c, '', options);
       call('hf_transfer_set_dials', this._handle, desc);
     }
 
@@ -1380,10 +1338,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     apply(sourcePositions = null, out = null, options = {}) {
-      const { holdPairs = null, holdPositions = null, Type = Float32Array, targetNormals = null } = known(options,
-              ['holdPairs', 'holdPositions', 'Type', 'targetNormals']);
+      const { Type = Float32Array, targetNormals = null, ...more } = options;
       const c = new Call(this);
-      const desc = transferFrame(c, '', { sourcePositions, holdPairs, holdPositions });
+      const desc = transferFrame(c, '', { sourcePositions, ...more });
       out = c.out(out, 'f4 f8', ['target.vertex_count', 3], Type);
       desc.set(out instanceof Float64Array ? 'target_positions_f64' : 'target_positions', out && written(out));
       const targetNormals_ = targetNormals && c.out(targetNormals, 'f4', ['target.vertex_count', 3], null,
@@ -1401,7 +1358,8 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     skin(options = {}) {
-      const { weightCount = 0, scales = false } = known(options, ['weightCount', 'scales']);
+      const { weightCount = 0, scales = false, ...more } = options;
+      none(more);
       const c = new Call(this);
       const skin = c.struct('hf_skin_info', { weight_count: weightCount });
       c.known('weight_count', weightCount || 4);
@@ -1426,11 +1384,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     constructor(surface, options = {}) {
       super();
       if (surface === bare) return;
-      const { heads = null, tails = null, axes = null, parents = null, deforms = null, sources = null, progress = null,
-              weightCount = 0 } = known(options, ['heads', 'tails', 'axes', 'parents', 'deforms', 'sources', 'progress',
-              'weightCount']);
+      const { weightCount = 0, ...more } = options;
       const c = new Call(null, { surface });
-      const desc = bonesDesc(c, '', { heads, tails, axes, parents, deforms, sources, progress });
+      const desc = bonesDesc(c, '', more);
       c.known('weight_count', weightCount || 4);
       this._own('hf_weights_create', c, handleOf(surface, Surface, 'surface'), desc, weightCount);
     }
@@ -1444,20 +1400,14 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     setBones(options = {}) {
-      const { heads = null, tails = null, axes = null, parents = null, deforms = null, sources = null,
-              progress = null } = known(options, ['heads', 'tails', 'axes', 'parents', 'deforms', 'sources',
-              'progress']);
       const c = new Call(this);
-      const desc = bonesDesc(c, '', { heads, tails, axes, parents, deforms, sources, progress });
+      const desc = bonesDesc(c, '', options);
       call('hf_weights_set_bones', this._handle, desc);
     }
 
     setPins(vertices = null, options = {}) {
-      const { triangles = null, barycentrics = null, radii = null, joints = null, weights = null,
-              progress = null } = known(options, ['triangles', 'barycentrics', 'radii', 'joints', 'weights',
-              'progress']);
       const c = new Call(this);
-      const desc = pinsDesc(c, '', { vertices, triangles, barycentrics, radii, joints, weights, progress });
+      const desc = pinsDesc(c, '', { vertices, ...options });
       call('hf_weights_set_pins', this._handle, desc);
     }
 
@@ -1521,11 +1471,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     static carry(source, target, options = {}) {
-      const { joints = null, weights = null, distance = 0, angle = 0, weightCount = 0,
-              progress = null } = known(options, ['joints', 'weights', 'distance', 'angle', 'weightCount', 'progress']);
       const c = new Call(null, { source, target });
       const info = c.struct('hf_carry_info', {});
-      const desc = carryDesc(c, '', { joints, weights, distance, angle, weightCount, progress });
+      const desc = carryDesc(c, '', options);
       const weights_ = c.struct('hf_weights_out', {});
       const found = c.grow(source, 'hf_weights_carry', (room, made) => (c.into(weights_, room, made),
               call('hf_weights_carry', handleOf(source, Surface, 'source'), handleOf(target, Surface, 'target'), desc,
@@ -1538,13 +1486,9 @@ export function makeClasses({ Handle, Call, bare, call, direct, handleOf, known,
     }
 
     static mirror(surface, options = {}) {
-      const { heads = null, names = null, partners = null, plane = null, joints = null, weights = null, to = 0,
-              distance = 0, angle = 0, weightCount = 0, progress = null } = known(options, ['heads', 'names',
-              'partners', 'plane', 'joints', 'weights', 'to', 'distance', 'angle', 'weightCount', 'progress']);
       const c = new Call(null, { surface });
       const info = c.struct('hf_mirror_info', {});
-      const desc = mirrorDesc(c, '', { heads, names, partners, plane, joints, weights, to, distance, angle, weightCount,
-              progress });
+      const desc = mirrorDesc(c, '', options);
       const weights_ = c.struct('hf_weights_out', {});
       const bones = c.out(null, 'u4', ['bone_count']);
       const pairings = c.out(null, 'u4', ['bone_count']);

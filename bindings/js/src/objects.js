@@ -66,11 +66,9 @@ export function makeApi(backend) {
     if (!(thing instanceof kind)) fail(`${name} must be a ${kind.name}`);
     return thing._handle;
   };
-  /** Options by name; an unknown one is an error that names it. */
-  const known = (options, names) => {
-    for (const key of Object.keys(options ?? {}))
-      if (!names.includes(key)) fail(`no option '${key}'; there are: ${names.join(', ')}`);
-    return options ?? {};
+  /** Options that nothing takes are refused by name. */
+  const none = (options) => {
+    for (const key of Object.keys(options)) fail(`no option '${key}'; index.d.ts lists them`);
   };
   const direct = (name, ...args) => backend.call(name, args);
   const number = direct('hf_version_get');
@@ -78,7 +76,7 @@ export function makeApi(backend) {
   if (Math.floor(number / 1000000) !== major || number < major * 1000000 + minor * 1000) {
     throw new Error(`the hf library is of version ${number}, this package of ${headerVersion}; use matching ones`);
   }
-  const classes = makeClasses({ Handle, Call: callClass(backend), bare, call, direct, handleOf, known, written });
+  const classes = makeClasses({ Handle, Call: callClass(backend), bare, call, direct, handleOf, none, written });
   return Object.freeze({
     ...extend(classes, bare),
     HfError,
