@@ -4,6 +4,7 @@ headers (_api.py) stands on this."""
 from __future__ import annotations
 
 import ctypes
+import math
 import operator
 import os
 import pathlib
@@ -18,6 +19,7 @@ from ._errors import InvalidArgumentError, NullPointerError, OutOfRangeError, To
 ArrayLike = Any
 NO_INDEX = _raw.HF_NO_INDEX
 _TYPES = {"f4": np.float32, "f8": np.float64, "u4": np.uint32, "u2": np.uint16, "u1": np.uint8, "i4": np.int32}
+_KINDS: Dict[str, list] = {}
 _SUFFIX = {"f8": "_f64", "u2": "_u16"}  # the field that takes the other type of array
 
 
@@ -133,7 +135,10 @@ def _whole(array: np.ndarray, name: str, dtype: Any, sentinel: bool) -> np.ndarr
 
 def converted(values: ArrayLike, name: str, kinds: str, sentinel: bool = False) -> np.ndarray:
     """An array of one of the types that the library takes ('f4 f8'), as given when it is one."""
-    array, types = numbers(values, name), [np.dtype(_TYPES[kind]) for kind in kinds.split()]
+    types = _KINDS.get(kinds) or _KINDS.setdefault(kinds, [np.dtype(_TYPES[kind]) for kind in kinds.split()])
+    if type(values) is np.ndarray and values.dtype in types:
+        return values
+    array = numbers(values, name)
     if array.dtype in types:
         return array
     if types[-1].kind == "f":
@@ -181,33 +186,53 @@ class Call:
                 self.n[f"{name}.{key}"] = self.n[key] = value
 
     def _size(self, dim: Any) -> Optional[int]:
-        if isinstance(dim, int):
+        if dim.__class__ is int:
             return dim
-        base, _, more = dim.partition(" + ")
-        return None if base not in self.n else self.n[base] + int(more or 0)
-
-    def _fit(self, array: np.ndarray, name: str, dims: tuple, row_by_row: bool = False) -> np.ndarray:
-        """The array in the shape that dims say; a dimension that is not known yet becomes known."""
-        sizes: Any = [self._size(dim) for dim in dims]
-        loose = [k for k, dim in enumerate(dims) if self._size(dim) is None]
-        if array.ndim == 0 and not loose:
-            array = np.full(sizes, array)  # one number for all
-        wanted = "(" + ", ".join(str(dim) if size is None else str(size) for dim, size in zip(dims, sizes)) + ")"
-        if array.ndim == len(dims) > 1:
-            wrong: Any = any(size is not None and size != have for size, have in zip(sizes, array.shape))
-            found = {dims[k]: array.shape[k] for k in loose}
-        else:
-            known = int(np.prod([size for size in sizes if size is not None]))
-            wrong = len(loose) > 1 or (array.size % known if loose and known else array.size != known if not loose else 0)
-            found = {dims[k]: array.size // known if known else 0 for k in loose}
-        if wrong and len(loose) + (array.ndim == len(dims) > 1) == 0:
-            raise InvalidArgumentError(f"{name} must hold {int(np.prod(sizes))} numbers, not {array.size}")
-        if wrong:
-            raise InvalidArgumentError(f"{name} must have the shape {wanted}, not {array.shape}")
-        for dim, size in found.items():
+        size = self.n.get(dim)
+        if size is None and " + " in dim:
             base, _, more = dim.partition(" + ")
-            self.n[base] = max(size - int(more or 0), 0)
+            return None if base not in self.n else self.n[base] + int(more)
+        return size
+
+    def _fit(self, array: np.ndarray, name: str, dims: tuple) -> np.ndarray:
+        """The array in the shape that dims say; a dimension that is not known yet becomes known."""
+        known, loose = 1, None
+        sizes: Any = []
+        for dim in dims:
+            size = dim if dim.__class__ is int else self._size(dim)
+            sizes.append(size)
+            if size is not None:
+                known *= size
+            elif loose is None:
+                loose = dim
+            elif array.ndim != len(dims):
+                self._refuse(array, name, dims, sizes)
+        if array.ndim == 0 and loose is None:
+            return np.full(sizes, array)  # one number for all
+        if array.ndim == len(dims) > 1:
+            for dim, size, have in zip(dims, sizes, array.shape):
+                if size is None:
+                    self._learn(dim, have)
+                elif size != have:
+                    self._refuse(array, name, dims, sizes)
+        elif loose is None:
+            if array.size != known:
+                raise InvalidArgumentError(f"{name} must hold {known} numbers, not {array.size}")
+        elif known and array.size % known == 0:
+            self._learn(loose, array.size // known)
+        elif array.size:
+            self._refuse(array, name, dims, sizes)
+        else:
+            self._learn(loose, 0)
         return array
+
+    def _learn(self, dim: str, size: int) -> None:
+        base, _, more = dim.partition(" + ")
+        self.n[base] = max(size - int(more or 0), 0)
+
+    def _refuse(self, array: np.ndarray, name: str, dims: tuple, sizes: list) -> None:
+        wanted = ", ".join(str(dim if size is None else size) for dim, size in zip(dims, [*sizes, None, None]))
+        raise InvalidArgumentError(f"{name} must have the shape ({wanted}), not {array.shape}")
 
     def array(self, name: str, values: Optional[ArrayLike], kinds: str, dims: tuple, sentinel: bool = False) -> Optional[int]:
         """The address of packed numbers."""
@@ -342,7 +367,7 @@ class Call:
             return np.empty(shape, dtype or wanted[0]), 0
         if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray) or out.dtype not in wanted:
             raise InvalidArgumentError(f"{name} must be an array of {' or '.join(map(str, wanted))}")
-        if out.size != int(np.prod(shape)):
+        if out.size != math.prod(shape):
             raise TooSmallError(f"{name} must have the shape {shape}, not {out.shape}")
         if not out.flags.writeable:
             raise InvalidArgumentError(f"{name} is read-only")
