@@ -19,6 +19,7 @@ import layer_lua
 import layer_python
 import layer_rust
 import model
+import names
 import parse_headers
 
 BINDINGS = pathlib.Path(__file__).resolve().parent.parent
@@ -36,7 +37,7 @@ def files(include=ROOT / "include"):
     result = {"api.json": parse_headers.to_text(api)}
     # the functions by name, one a line: packages and tests read it
     result["functions.txt"] = "".join(f["name"] + "\n" for f in api["functions"])
-    for layer in (class_js, class_python, layer_python, layer_js, layer_csharp, layer_lua, layer_rust):
+    for layer in (class_js, class_python, layer_python, layer_js, layer_csharp, layer_lua, layer_rust, names):
         result.update(layer.write(api))
     return result
 
