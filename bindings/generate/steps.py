@@ -233,7 +233,8 @@ class Planner:
         if self.grown:
             by = m.capacity["counted_by"]
             told = (bare(by.split(".")[0]), by.split(".")[1]) if "." in by else ("count", "")
-            self.values[by.split(".")[0]] = ("ref", told[0]) if "." in by else ("figure", "count")
+            if "." not in by:
+                self.values[by] = ("figure", "count")
             self.values[m.capacity["name"]] = ("room", "capacity")
             for p in self.grown:
                 self.values[p["name"]] = ("grown", bare(p["name"]))

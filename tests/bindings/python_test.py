@@ -424,6 +424,64 @@ class Regions(unittest.TestCase):
             region.edit(ring_count=1)
 
 
+class Given(unittest.TestCase):
+    """What a method takes beside arrays: records of the library, structs to fill, descs inside descs, arrays to fill."""
+
+    def setUp(self):
+        points, triangles = mesh("torus")
+        self.points = np.concatenate([points, points + [0, 0, 1.05 * np.ptp(points[:, 2])]]).astype(np.float32)
+        self.surface = hf.Surface(self.points, np.concatenate([triangles, triangles + len(points)]), link_pieces=True)
+
+    def test_links_are_written_changed_and_given_back(self):
+        links = self.surface.links()
+        self.assertEqual(len(links), self.surface.report.link_count)
+        self.assertGreater(len(links), 1)
+        again = self.surface.relink(mode=hf.LinkMode.LIST, links=links)
+        np.testing.assert_array_equal(again.links()["vertex"], links["vertex"])
+        self.assertIs(type(again), hf.Surface)
+        one = hf.Surface(self.points, np.concatenate([mesh("torus")[1], mesh("torus")[1] + len(self.points) // 2]),
+                         links={"mode": hf.LinkMode.LIST, "links": links[:1]})
+        self.assertEqual(one.report.link_count, 1)
+        with self.assertRaisesRegex(hf.InvalidArgumentError, "links must be records"):
+            self.surface.relink(mode=hf.LinkMode.LIST, links=[[0, 1]])
+
+    def test_structs_and_arrays_are_filled_when_given(self):
+        gaps, opened = hf.GapsInfo(), self.points.copy()
+        opened[len(opened) // 2:, 2] += 1
+        found = self.surface.measure_gaps(opened, info=gaps)
+        self.assertEqual((len(found), found.max()), (gaps.link_count, gaps.worst))
+        self.assertIn("worst_link=", repr(gaps))
+        with self.assertRaisesRegex(hf.InvalidArgumentError, "info must be a"):
+            self.surface.measure_gaps(opened, info=hf.SolveInfo())
+        field = np.zeros(len(self.points))
+        tips = self.surface.find_extremities(field=field)
+        self.assertGreater(np.ptp(field), 0)
+        self.assertTrue(set(tips["vertex"]) <= set(range(len(field))))
+        solver, normals = hf.Solver(self.surface, channel_count=3), np.zeros((len(self.points), 3))
+        solver.add_sites([0], [[1, 0, 0]])
+        solver.solve_vectors(normals=normals)
+        np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1)
+        flat, axes = hf.Geodesics(self.surface).map(0)
+        self.assertEqual((flat.shape, axes.shape, flat[0].tolist()), ((len(self.points), 2), (6,), [0, 0]))
+
+    def test_a_batch_of_edits_takes_descs_as_dicts_or_lists(self):
+        solver = hf.Solver(self.surface)
+        first, second = solver.add_sites([0, 40], [0.0, 1.0])
+        added = solver.edit_sites(remove_sites=[first], move_sites=[second], move_to=[41], add={"vertices": [7, 9], "values": [2.0, 3.0]})
+        np.testing.assert_array_equal(solver.sites().vertices[np.argsort(solver.sites().vertices)], [7, 9, 41])
+        self.assertEqual(len(added), 2)
+        with self.assertRaises(TypeError):
+            solver.edit_sites(add={"vertexes": [1]})
+
+    def test_the_room_for_what_grows_is_found(self):
+        field = self.points[:, 2].astype(np.float64)
+        few = self.surface.trace_isolines(field, np.linspace(field.min(), field.max(), 5)[1:-1])
+        many = self.surface.trace_isolines(field, np.linspace(field.min(), field.max(), 402)[1:-1])  # beyond the first room
+        self.assertGreater(len(many.positions), 1024)
+        self.assertEqual([len(line) for line in few.lines()], np.diff(few.line_starts).tolist())
+        self.assertEqual((few.line_closed.dtype, many.line_starts[-1]), (bool, len(many.positions)))
+
+
 class Picking(unittest.TestCase):
     def test_a_click_becomes_a_site_and_a_handle(self):
         points, triangles = mesh("torus")

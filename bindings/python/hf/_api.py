@@ -1096,7 +1096,8 @@ class Surface(Object):
         info = info or c.struct(_raw.hf_gaps_info, {})
 
         def run(room: Any, made: Any) -> None:
-            call('hf_surface_measure_gaps', self._handle, ref(desc), room['capacity'], address(made['gaps']), ref(info))
+            call('hf_surface_measure_gaps', self._handle, ref(desc), room['capacity'], address(made['gaps']),
+                    c.info(info, _raw.hf_gaps_info))
 
         found = c.grow(self, 'hf_surface_measure_gaps', run, lambda: {'capacity': info.link_count}, {'capacity': None},
                 {'gaps': (np.float64, ('capacity',))})
@@ -1273,7 +1274,7 @@ class Surface(Object):
 
         def run(room: Any, made: Any) -> None:
             call('hf_surface_find_critical_points', self._handle, None if field is None else ref(field_),
-                    room['capacity'], address(made['points']), ref(info))
+                    room['capacity'], address(made['points']), c.info(info, _raw.hf_critical_info))
 
         found = c.grow(self, 'hf_surface_find_critical_points', run, lambda: {'capacity': info.point_count},
                 {'capacity': None}, {'points': (np.dtype(_raw.hf_critical_point), ('capacity',))})
