@@ -11,18 +11,23 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
+import class_js
+import class_python
 import layer_csharp
 import layer_js
 import layer_python
 import layer_rust
+import model
+import names
 import parse_headers
 
 BINDINGS = pathlib.Path(__file__).resolve().parent.parent
 ROOT = BINDINGS.parent
 
 
-def files():
-    api = parse_headers.read_api(ROOT / "include")
+def files(include=ROOT / "include"):
+    """Name under bindings -> text, from the headers in a folder."""
+    api = parse_headers.read_api(include)
     macros = {c["name"]: c["value"] for c in api["constants"]}
     version = re.search(r"project\(hf VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
     if version != ".".join(str(macros[f"HF_VERSION_{part}"]) for part in ("MAJOR", "MINOR", "PATCH")):
@@ -31,7 +36,7 @@ def files():
     result = {"api.json": parse_headers.to_text(api)}
     # the functions by name, one a line: packages and tests read it
     result["functions.txt"] = "".join(f["name"] + "\n" for f in api["functions"])
-    for layer in (layer_python, layer_js, layer_csharp, layer_rust):
+    for layer in (class_js, class_python, layer_python, layer_js, layer_csharp, layer_rust, names):
         result.update(layer.write(api))
     return result
 
@@ -59,5 +64,5 @@ def main():
 if __name__ == "__main__":
     try:
         main()
-    except parse_headers.HeaderError as error:
+    except (parse_headers.HeaderError, model.Problems) as error:
         sys.exit(f"error: {error}")

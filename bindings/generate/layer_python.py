@@ -1,10 +1,31 @@
 """bindings/python/hf/_raw.py: ctypes structures, prototypes and constants."""
 
+from comments import first_sentence
 from layout import is_pointer
 
 TYPES = {"int32_t": "c_int32", "uint32_t": "c_uint32", "hf_result": "c_int32", "float": "c_float", "double": "c_double",
          "size_t": "c_size_t", "char": "c_char", "uint8_t": "c_uint8", "uint16_t": "c_uint16", "int64_t": "c_int64", "uint64_t": "c_uint64"}
 HINTS = {"float": "float", "double": "float", "char": "bytes"}
+
+
+BASE = '''
+class Struct(Structure):
+    """A struct of zeros with its size set, shown with its fields."""
+
+    def __init__(self, *values, **fields) -> None:
+        super().__init__(*values, **fields)
+        if self._fields_[0][0] == "struct_size":
+            self.struct_size = sizeof(self)
+
+    def __repr__(self) -> str:
+        shown = []
+        for name, *_ in self._fields_:
+            value = getattr(self, name)
+            if name not in ("struct_size", "reserved"):
+                shown.append(f"{name}={list(value) if hasattr(value, '_length_') else value!r}")
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+'''.strip("\n").split("\n")
 
 
 def ctype(api, item):
@@ -25,17 +46,17 @@ def hint(api, field):
 def write(api):
     out = ['"""Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI as ctypes sees it."""',
            "# fmt: off",
-           "from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p)", "",
-           f'HEADER_VERSION = "{api["version"]}"', ""]
+           "from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p, sizeof)", "",
+           f'HEADER_VERSION = "{api["version"]}"', "", *BASE]
     out += [f"{c['name']} = {c['value']}" for c in api["constants"]]
     out += ["", "RESULT_NAMES = {",
             *[f"    {c['value']}: \"{c['name']}\"," for c in api["constants"] if c["name"] == "HF_OK"
                 or c["name"].startswith("HF_ERROR_")],
             "}", ""]
     for struct in api["structs"]:
-        out += ["", f"class {struct['name']}(Structure):"]
+        out += ["", f"class {struct['name']}(Struct):"]
         if struct["doc"]:
-            out.append(f'    """{struct["doc"]}"""')
+            out.append(f'    """{first_sentence(struct["doc"])}"""')
         out += [f"    {f['name']}: {hint(api, f)}" for f in struct["fields"]]
         out += ["    _fields_ = [", *[f"        (\"{f['name']}\", {ctype(api, f)})," for f in struct["fields"]],
             "    ]", ""]

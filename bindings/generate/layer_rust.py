@@ -1,5 +1,7 @@
 """bindings/rust/src/raw.rs: structs of C layout, functions and constants. Counts and figures can be asked by name."""
 
+from comments import first_sentence
+
 TYPES = {"int32_t": "i32", "uint32_t": "u32", "hf_result": "i32", "float": "f32", "double": "f64", "size_t": "usize",
     "char": "c_char", "uint8_t": "u8", "uint16_t": "u16", "int64_t": "i64", "uint64_t": "u64", "void": "c_void"}
 RESERVED = {"type", "move", "ref", "in", "where", "loop", "match", "box", "fn", "mod", "use", "self"}
@@ -17,7 +19,7 @@ def rust_type(item):
 
 
 def write_struct(struct):
-    out = [f"/// {line}" for line in [struct["doc"]] if line]
+    out = [f"/// {line}" for line in [first_sentence(struct["doc"])] if line]
     out += ["#[repr(C)]", "#[derive(Clone, Copy, Debug)]", f"pub struct {struct['name']} {{"]
     for f in struct["fields"]:
         kind = rust_type(f)

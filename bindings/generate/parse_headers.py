@@ -1,8 +1,9 @@
-"""Reads include/hf/*.h and writes bindings/api.json, the one description all raw layers are generated from.
+"""Reads include/hf/*.h and writes bindings/api.json, the one description all layers are generated from.
 
-The headers follow strict conventions (include/hf/base.h), so a small reader is enough: comments and preprocessor lines
-are taken off, then enums, opaque handles, structs and HF_API functions are matched. What it does not understand is an
-error, never left out: the text that no pattern claimed must be empty at the end.
+The headers follow strict conventions (include/hf/base.h, comments.py), so a small reader is enough: preprocessor lines
+are taken off and comments become marks, then enums, opaque handles, structs and HF_API functions are matched. What it does
+not understand is an error, never left out: the text that no pattern claimed must be empty at the end, and model.py refuses
+a field or parameter whose comment leaves a question open.
 
 usage: parse_headers.py INCLUDE_DIR [OUT.json]     (without OUT: to standard output)
 """
@@ -12,18 +13,15 @@ import pathlib
 import re
 import sys
 
+import comments
+import model
+
 SCALARS = {"int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "float", "double", "char", "void", "uint8_t",
     "uint16_t", "hf_result"}
 
 
 class HeaderError(Exception):
     pass
-
-
-def first_sentence(comment):
-    text = " ".join(line.strip().lstrip("*").strip() for line in comment.strip("/*").splitlines()).strip()
-    match = re.match(r"(.+?[.:])(\s|$)", text)
-    return (match.group(1) if match else text).rstrip(":")
 
 
 def parse_type(text, where):
@@ -56,13 +54,34 @@ def parse_declarators(text, where, constants):
     return fields
 
 
+def split_commented(body, separator):
+    """(declaration, marks of its comments): a comment behind a declaration is its own, one on its own line the next one's."""
+    found, leading, current = [], [], ""
+    for line in body.splitlines():
+        for piece in re.split(r"(@\d+@)", line):
+            if re.fullmatch(r"@\d+@", piece):
+                if not current.strip() and found and line[:line.index(piece)].strip(" @0123456789"):
+                    found[-1][1].insert(0, piece[1:-1])  # its shape comes first
+                else:
+                    leading.append(piece[1:-1])
+                continue
+            *done, current = (current + piece).split(separator)
+            for declaration in done:
+                found.append((declaration.strip(), leading))
+                leading = []
+        current += " "
+    if current.strip():  # the last value of an enum
+        found.append((current.strip(), leading))
+    return found
+
+
 def parse_header(path, api, constants):
     text = path.read_text()
-    comments = []  # each comment becomes a mark, so that the one in front of a function is its documentation
+    texts = []  # each comment becomes a mark: in front of a function, struct, enum or handle it is its documentation
 
     def keep(match):
-        comments.append(match.group(0))
-        return f" @{len(comments) - 1}@ "
+        texts.append(comments.plain(match.group(0)))
+        return f" @{len(texts) - 1}@ "
 
     text = re.sub(r"/\*.*?\*/", keep, text, flags=re.S)
     for name, value in re.findall(r"^#define (HF_\w+) (0[xX][0-9a-fA-F]+|\d+)u?\s*(?:@\d+@)?\s*$", text, flags=re.M):
@@ -73,26 +92,32 @@ def parse_header(path, api, constants):
     text = re.sub(r"^\}\s*$", "", text, flags=re.M)
 
     def documentation(mark):
-        return first_sentence(comments[int(mark)]) if mark else ""
+        return texts[int(mark)] if mark and not texts[int(mark)].startswith("----") else ""  # those are headlines
 
     def take_enum(match):
-        value = -1
-        for entry in re.sub(r"@\d+@", "", match.group(1)).split(","):
-            entry = entry.strip()
-            if not entry:
-                continue
+        value, members = -1, []
+        for entry, words in split_commented(match.group(3), ","):
             name, _, given = (part.strip() for part in entry.partition("="))
             value = int(given, 0) if given else value + 1
             constants[name] = value
-            api["constants"].append({"name": name, "value": value})
+            members.append({"name": name, "value": value, "doc": said(words)})
+            api["constants"].append({"name": name, "value": value, "doc": said(words)})
+        if match.group(2):
+            doc = documentation(match.group(1))
+            api["enums"].append({"name": match.group(2), "header": path.name, "doc": doc, "bits": doc.startswith("Bits"),
+                                 "members": members})
         return ""
 
+    def said(words):
+        return " ".join(texts[int(word)] for word in words)
+
     def take_struct(match):
-        mark, name, body = match.group(1), match.group(2), re.sub(r"@\d+@", "", match.group(3))
-        fields = []
-        for declaration in filter(None, (part.strip() for part in body.split(";"))):
-            fields += parse_declarators(" ".join(declaration.split()), f"{path.name}, {name}", constants)
-        api["structs"].append({"name": name, "header": path.name, "doc": documentation(mark), "fields": fields})
+        mark, name, body = match.groups()
+        fields, doc = [], documentation(mark)
+        for declaration, words in split_commented(body, ";"):
+            for field in parse_declarators(" ".join(declaration.split()), f"{path.name}, {name}", constants):
+                fields.append(comments.say_field(field, said(words), doc))
+        api["structs"].append({"name": name, "header": path.name, "doc": doc, "fields": fields})
         return ""
 
     def take_handle(match):
@@ -107,12 +132,17 @@ def parse_header(path, api, constants):
         for part in [] if body == "void" else body.split(","):
             declared = re.match(r"(.*?[\s*])(\w+)$", part.strip())
             parameters.append({"name": declared.group(2), **parse_type(declared.group(1), where)})
-        api["functions"].append({"name": name, "header": path.name, "doc": documentation(mark),
+        doc = documentation(mark)
+        prose, ends = comments.parts(doc)
+        spoken = comments.segments(prose, [p["name"] for p in parameters])
+        parameters = [comments.say_parameter(p, spoken.get(p["name"], "")) for p in parameters]
+        api["functions"].append({"name": name, "header": path.name, "doc": doc, "errors": comments.errors_of(ends.get("Errors", "")),
+                                 "errors_as": re.findall(r"\b[Aa]s (?:for |the )?(hf_\w+)|and (hf_\w+)", ends.get("Errors", "")),
                                  "returns": parse_type(returns, where), "parameters": parameters})
         return ""
 
-    text = re.sub(r"enum\s*(?:hf_\w+\s*)?\{([^}]*)\};", take_enum, text)
     mark = r"(?:@(\d+)@\s*)?"
+    text = re.sub(mark + r"enum\s*(?:(hf_\w+)\s*)?\{([^}]*)\};", take_enum, text)
     text = re.sub(mark + r"typedef struct (\w+)\s*\{(.*?)\}\s*\2;", take_struct, text, flags=re.S)
     text = re.sub(mark + r"typedef struct (\w+)\s*\*\s*(\w+);", take_handle, text)
     text = re.sub(r"typedef int32_t hf_result;", "", text)
@@ -138,13 +168,22 @@ def read_api(include):
     """The description of the headers that hf.h includes, in its order, base.h first."""
     folder = pathlib.Path(include) / "hf"
     names = re.findall(r'#include "hf/(\w+\.h)"', (folder / "hf.h").read_text())
-    api = {"constants": [], "handles": [], "structs": [], "functions": []}
+    api = {"constants": [], "enums": [], "handles": [], "structs": [], "functions": []}
     constants = {}
     order = ["base.h", "surface.h", "solver.h"]
     for name in [n for n in order if n in names] + [n for n in names if n not in order]:
         parse_header(folder / name, api, constants)
     check(api)
-    return api
+    return model.derive(api)
+
+
+def lean(item):
+    """Without what does not hold: {"optional": false} and the like."""
+    if isinstance(item, list):
+        return [lean(entry) for entry in item]
+    if not isinstance(item, dict):
+        return item
+    return {key: lean(value) for key, value in item.items() if value or key in ("name", "type", "pointer", "const", "count", "value", "fields", "parameters")}
 
 
 def to_text(api):
@@ -155,7 +194,7 @@ def to_text(api):
             lines.append(f' "{key}": {json.dumps(api[key])},')
             continue
         lines.append(f' "{key}": [')
-        lines += [f"  {json.dumps(item)}{',' if item is not api[key][-1] else ''}" for item in api[key]]
+        lines += [f"  {json.dumps(lean(item))}{',' if item is not api[key][-1] else ''}" for item in api[key]]
         lines.append(" ]" + ("," if key != keys[-1] else ""))
     return "\n".join(lines + ["}"]) + "\n"
 
@@ -163,7 +202,7 @@ def to_text(api):
 if __name__ == "__main__":
     try:
         result = to_text(read_api(sys.argv[1]))
-    except HeaderError as error:
+    except (HeaderError, model.Problems) as error:
         sys.exit(f"error: {error}")
     if len(sys.argv) > 2:
         pathlib.Path(sys.argv[2]).write_text(result)

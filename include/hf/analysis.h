@@ -17,7 +17,7 @@ extern "C" {
  */
 typedef struct hf_scalars {
   uint32_t struct_size;
-  uint32_t value_stride;    /* bytes between vertices; 0 = packed */
+  uint32_t value_stride;    /* bytes between rows of values; 0 = packed */
   const float* values;      /* [vertex_count] */
   const double* values_f64; /* [vertex_count], instead of values */
 } hf_scalars;
@@ -25,13 +25,14 @@ typedef struct hf_scalars {
 /* ---- levels and iso-lines ---- */
 
 /* Selects how levels divide a field into strips. N levels give N + 1 strips. */
-enum {
+enum hf_levels {
   HF_LEVELS_VALUE = 0, /* equal steps of the value */
   HF_LEVELS_AREA = 1,  /* equal areas: the strips cover the same area each */
   HF_LEVELS_LENGTH = 2 /* equal mean widths: the width of a strip is its area over the mean length of its lines */
 };
 
-/* Writes level_count levels (1 to 1,000,000), ascending. HF_LEVELS_AREA makes all strips equal in area.
+/* Writes levels, ascending. level_count: 1 to 1,000,000. spacing: HF_LEVELS_*. out_levels: double[level_count].
+ * HF_LEVELS_AREA makes all strips equal in area.
  * HF_LEVELS_LENGTH makes the mean widths of the strips equal. So iso-lines around point sites are evenly spaced, where
  * equal steps of the value would crowd them. HF_LEVELS_LENGTH leaves out the parts where the field is flat to 1e-9 of
  * its range.
@@ -64,19 +65,19 @@ typedef struct hf_isolines {
   int32_t* line_closed;    /* [line_capacity] 1: closed, the first point is not repeated; 0: ends at borders */
 } hf_isolines;
 
-/* Traces the iso-lines of level_count levels. The levels must be finite and can have any order; the lines come in the
- * order of the levels. A vertex whose value equals a level counts as just above it, so lines have no gaps. A line
- * either closes or ends. It ends at a border or at a triangle without values. At an edge of three or more triangles
- * (non-manifold), these are taken in pairs. A line continues inside a pair, and ends at a triangle without a partner.
- * The function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is higher on
- * the left of a line. Cost: O(edges log levels + points). Errors: HF_ERROR_NON_FINITE (index = vertex, or position in
- * levels), HF_ERROR_TOO_LARGE (2^32 points). Thread safety: reads `surface`. Since 0.1. */
+/* Traces the iso-lines of levels. levels: double[level_count]. The levels must be finite and can have any order; the
+ * lines come in the order of the levels. A vertex whose value equals a level counts as just above it, so lines have no
+ * gaps. A line either closes or ends. It ends at a border or at a triangle without values. At an edge of three or more
+ * triangles (non-manifold), these are taken in pairs. A line continues inside a pair, and ends at a triangle without a
+ * partner. The function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is
+ * higher on the left of a line. Cost: O(edges log levels + points). Errors: HF_ERROR_NON_FINITE (index = vertex, or
+ * position in levels), HF_ERROR_TOO_LARGE (2^32 points). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_trace_isolines(hf_surface surface, const hf_scalars* field, uint32_t level_count,
                                            const double* levels, hf_isolines* inout_lines);
 
 /* ---- critical points ---- */
 
-enum { HF_CRITICAL_MINIMUM = 0, HF_CRITICAL_MAXIMUM = 1, HF_CRITICAL_SADDLE = 2 };
+enum hf_critical { HF_CRITICAL_MINIMUM = 0, HF_CRITICAL_MAXIMUM = 1, HF_CRITICAL_SADDLE = 2 };
 
 typedef struct hf_critical_point {
   uint32_t vertex;    /* as given, of welded copies the first */
@@ -102,7 +103,8 @@ typedef struct hf_critical_info {
  * the edges between them. The vertex number breaks ties, so a flat area has critical points too. The indices sum to the
  * Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field can show an extremum away
  * from its sites, because the default operator uses other edges than the mesh. HF_OPERATOR_CLAMPED uses the edges of
- * the mesh and avoids this. out_points: NULL, or room for `capacity` points, ordered by welded vertex. out_info: NULL,
+ * the mesh and avoids this. out_points: NULL, or hf_critical_point[capacity],
+ * out_info->point_count of them, ordered by welded vertex. out_info: NULL,
  * or receives the counts. Errors: HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_find_critical_points(hf_surface surface, const hf_scalars* field, uint32_t capacity,
                                                  hf_critical_point* out_points, hf_critical_info* out_info);
@@ -113,7 +115,7 @@ HF_API hf_result hf_surface_find_critical_points(hf_surface surface, const hf_sc
 typedef struct hf_geodesics_object* hf_geodesics;
 
 /* Selects how distances are computed. docs/benchmarks.md has the errors of each. */
-enum {
+enum hf_distance_method {
   HF_GEODESICS_AUTO = 0,  /* EXACT up to 10,000 vertices, FRONT beyond */
   HF_GEODESICS_FRONT = 1, /* fast: circular fronts on the intrinsic Delaunay triangulation (Novotni and Klein 2002) */
   HF_GEODESICS_EXACT = 2, /* exact up to rounding: windows (Mitchell, Mount and Papadimitriou 1987) */
@@ -200,7 +202,7 @@ HF_API hf_result hf_geodesics_get_map(hf_geodesics geodesics, const hf_surface_p
 
 /* Selects how hf_surface_find_extremities finds tips. Both kinds take the maxima of a field that rises towards
  * protruding parts. */
-enum {
+enum hf_extremity_kind {
   HF_EXTREMITIES_POISSON = 0, /* a field with a source at every vertex: one solve */
   HF_EXTREMITIES_GEODESIC = 1 /* mean geodesic distance to the rest of the component (Hilaga et al. 2001) */
 };
@@ -228,11 +230,11 @@ typedef struct hf_extremity {
 
 /* Proposes the tips of the surface as places for sites and handles, the longest tip first. The list does not depend on
  * the order of the vertices. Pose and meshing change it only within the resolution of the mesh. desc: NULL for
- * defaults. out_extremities: NULL, or room for `capacity`. out_count: NULL, or receives the number of tips. A component
- * that is no larger than least_length_share has no tips. Cost: HF_EXTREMITIES_POISSON takes one solve and a few passes
- * over the mesh. HF_EXTREMITIES_GEODESIC takes two solves per eight sources, and one numeric factorisation without such
- * a factor. Errors: HF_ERROR_INVALID_ARGUMENT (kind, counts, geodesics of another surface), HF_ERROR_CANCELLED. Thread
- * safety: reads `surface` and desc->geodesics. Since 0.1. */
+ * defaults. out_extremities: NULL, or hf_extremity[capacity]. out_count: NULL, or receives the number of tips. A
+ * component that is no larger than least_length_share has no tips. Cost: HF_EXTREMITIES_POISSON takes one solve and a
+ * few passes over the mesh. HF_EXTREMITIES_GEODESIC takes two solves per eight sources, and one numeric factorisation
+ * without such a factor. Errors: HF_ERROR_INVALID_ARGUMENT (kind, counts, geodesics of another surface),
+ * HF_ERROR_CANCELLED. Thread safety: reads `surface` and desc->geodesics. Since 0.1. */
 HF_API hf_result hf_surface_find_extremities(hf_surface surface, const hf_extremities_desc* desc, uint32_t capacity,
                                              hf_extremity* out_extremities, uint32_t* out_count);
 

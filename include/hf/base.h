@@ -152,7 +152,7 @@ HF_API hf_result hf_progress_create(hf_progress* out_progress);
 /* Destroys a progress object. Ignores NULL and destroyed objects. The object stays valid for a call that still uses it.
  * Thread safety: any thread. Since 0.1. */
 HF_API void hf_progress_destroy(hf_progress progress);
-/* Writes how much of the running call is done, 0 to 1. Thread safety: any thread. Since 0.1. */
+/* Writes how much of the running call is done. out_fraction: receives 0 to 1. Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_progress_get_fraction(hf_progress progress, double* out_fraction);
 /* Stops the call that uses this object, or the next one that does. That call returns HF_ERROR_CANCELLED. Thread safety:
  * any thread. Since 0.1. */

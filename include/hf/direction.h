@@ -46,28 +46,31 @@ HF_API void hf_direction_destroy(hf_direction direction);
  * again.
  *
  * vertices: [site_count] vertices of your mesh. vectors: [site_count][3]; a zero vector makes the field 0 there.
- * out_sites: NULL, or receives [site_count] numbers. A constraint keeps its number until it is removed. Errors:
+ * out_sites: NULL, or receives uint32_t[site_count] numbers. A constraint keeps its number until it is removed. Errors:
  * HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (an isolated vertex, a vector normal to the
  * surface), HF_ERROR_DUPLICATE, HF_ERROR_TOO_LARGE (site_limit). Thread safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_add_sites(hf_direction direction, uint32_t site_count, const uint32_t* vertices,
                                         const double* vectors, uint32_t* out_sites);
 
-/* Removes constraints by number. Errors: HF_ERROR_NOT_FOUND. Thread safety: changes `direction`. Since 0.1. */
+/* Removes constraints by number. sites: uint32_t[site_count]. Errors: HF_ERROR_NOT_FOUND. Thread safety: changes
+ * `direction`. Since 0.1. */
 HF_API hf_result hf_direction_remove_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites);
 
-/* Moves constraints to other vertices of the same component. The connection carries each vector along the shortest path
- * of edges, from tangent plane to tangent plane. Errors: as hf_solver_move_vectors. Thread safety: changes `direction`.
- * Since 0.1. */
+/* Moves constraints to other vertices of the same component. sites, vertices: uint32_t[site_count]. The connection
+ * carries each vector along the shortest path of edges, from tangent plane to tangent plane. Errors: as
+ * hf_solver_move_vectors. Thread safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_move_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites,
                                          const uint32_t* vertices);
 
-/* Gives constraints new vectors, [site_count][3], and projects them on the tangent planes. Does not factorise. Errors:
+/* Gives constraints new vectors and projects them on the tangent planes. sites: uint32_t[site_count]. vectors:
+ * double[site_count][3]. Does not factorise. Errors:
  * HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a vector normal to the surface). Thread
  * safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_set_vectors(hf_direction direction, uint32_t site_count, const uint32_t* sites,
                                           const double* vectors);
 
-/* Turns constraint i by angles[i] radians, counter-clockwise seen from outside. Does not factorise. Errors:
+/* Turns constraint i by angles[i] radians, counter-clockwise seen from outside. sites: uint32_t[site_count]. angles:
+ * double[site_count]. Does not factorise. Errors:
  * HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE. Thread safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_rotate_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites,
                                            const double* angles);
@@ -75,17 +78,17 @@ HF_API hf_result hf_direction_rotate_sites(hf_direction direction, uint32_t site
 /* Returns the number of constraints, or 0 for an invalid object. Thread safety: any thread. Since 0.1. */
 HF_API uint32_t hf_direction_get_site_count(hf_direction direction);
 
-/* Writes the constraints by ascending number. Each array is NULL or has `capacity` entries. out_sites: the numbers.
- * out_vertices: vertices of your mesh. out_vectors: [capacity][3], tangent. out_count: NULL, or receives the number of
- * constraints. Thread safety: reads `direction`. Since 0.1. */
+/* Writes the constraints by ascending number. out_sites: NULL, or uint32_t[capacity] numbers. out_vertices: NULL, or
+ * uint32_t[capacity] vertices of your mesh. out_vectors: NULL, or double[capacity][3], tangent. out_count: NULL, or
+ * receives the number of constraints. Thread safety: reads `direction`. Since 0.1. */
 HF_API hf_result hf_direction_get_sites(hf_direction direction, uint32_t capacity, uint32_t* out_sites,
                                         uint32_t* out_vertices, double* out_vectors, uint32_t* out_count);
 
-/* Writes the field as vectors in space, [vertex_count][3]. The vectors are tangent to the surface up to 1e-12 of their
- * length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors;
- * vertices that no constraint reaches get 0. vector_stride: bytes between vertices, 0 = packed. out_info: NULL, or
- * receives what the constraints did not reach. Cost: a small dense solve and one backward sweep over the factor.
- * Errors: HF_ERROR_EMPTY. Thread safety: reads `direction`. Since 0.1. */
+/* Writes the field as vectors in space. out_vectors: float[vertex_count][3]. The vectors are tangent to the surface up
+ * to 1e-12 of their length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices
+ * hold their vectors; vertices that no constraint reaches get 0. vector_stride: bytes between vertices, 0 = packed.
+ * out_info: NULL, or receives what the constraints did not reach. Cost: a small dense solve and one backward sweep over
+ * the factor. Errors: HF_ERROR_EMPTY. Thread safety: reads `direction`. Since 0.1. */
 HF_API hf_result hf_direction_solve(hf_direction direction, float* out_vectors, uint32_t vector_stride,
                                     hf_solve_info* out_info);
 /* Does the same as hf_direction_solve, in double. Thread safety: reads `direction`. Since 0.1. */
@@ -102,8 +105,8 @@ typedef struct hf_singularity {
 
 /* Lists the singularities of the field, ordered by triangle (Crane, Desbrun and Schroeder 2010, Section 5). On a closed
  * manifold component of one orientation the indices sum to degree times the Euler characteristic. out_singularities:
- * NULL, or room for `capacity`. out_count: NULL, or receives the number of singularities. Cost: a solve and a pass over
- * the triangles. Errors: HF_ERROR_EMPTY. Thread safety: reads `direction`. Since 0.1. */
+ * NULL, or hf_singularity[capacity]. out_count: NULL, or receives the number of singularities. Cost: a solve and a pass
+ * over the triangles. Errors: HF_ERROR_EMPTY. Thread safety: reads `direction`. Since 0.1. */
 HF_API hf_result hf_direction_get_singularities(hf_direction direction, uint32_t capacity,
                                                 hf_singularity* out_singularities, uint32_t* out_count);
 

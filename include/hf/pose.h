@@ -21,7 +21,7 @@ extern "C" {
 typedef struct hf_pose_object* hf_pose;
 
 /* Selects how vertices follow the handles. */
-enum {
+enum hf_deform_mode {
   HF_DEFORM_SMOOTH = 0, /* quadratic bands, reduced elastic energy: the default */
   HF_DEFORM_PAPER = 1   /* linear bands of equal value, shape matching of overlapping clusters */
 };
@@ -33,11 +33,11 @@ enum {
 
 typedef struct hf_pose_desc {
   uint32_t struct_size;
-  int32_t mode;              /* HF_DEFORM_* */
-  uint32_t band_count;       /* bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper) */
-  uint32_t iteration_count;  /* iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper) */
-  uint32_t rim_site_count; /* sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens" */
-  uint32_t group_count;      /* rotation groups of the smooth mode, 1 to 2000; 0 = 250 */
+  int32_t mode;             /* HF_DEFORM_* */
+  uint32_t band_count;      /* bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper) */
+  uint32_t iteration_count; /* iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper) */
+  uint32_t rim_site_count;  /* sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens" */
+  uint32_t group_count;     /* rotation groups of the smooth mode, 1 to 2000; 0 = 250 */
 } hf_pose_desc;
 
 /* Creates a pose without handles. desc: NULL for defaults. Sets *out_pose to NULL first. The pose needs the harmonic
@@ -55,7 +55,7 @@ HF_API void hf_pose_destroy(hf_pose pose);
 /* hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles. */
 typedef struct hf_pose_info {
   uint32_t struct_size;
-  int32_t mode;
+  int32_t mode; /* HF_DEFORM_* */
   uint32_t band_count;
   uint32_t iteration_count;
   uint32_t rim_site_count; /* sites per handle on its boundary; 0: all of it */
@@ -75,9 +75,11 @@ typedef struct hf_handles_desc {
   uint32_t handle_count;         /* >= 1 */
   const uint32_t* region_counts; /* [handle_count] vertices of each region, >= 1; repeats are allowed, up to four times
                                     the vertices of the mesh in all */
-  const uint32_t* region_vertices; /* all regions one after the other; vertices as given */
-  const double* points; /* [handle_count][3] at rest. The region is the vertex nearest to the point and what is */
-  const double* radii;  /* edge-connected to it within [handle_count] radii; below 1 % of the box 2 or more */
+  const uint32_t* region_vertices; /* [sum(region_counts)] all regions one after the other; vertices as given */
+  const double* points; /* [handle_count][3] at rest. The region is the vertex nearest to the point and what is
+                           edge-connected to it within the radius. NULL: regions are given */
+  const double* radii;  /* [handle_count] of the regions of points, in the unit of the mesh; NULL: regions are given.
+                           A radius below 1 % of the box makes regions of 2 vertices or more */
   uint32_t layer;       /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
   int32_t in_place;     /* 1: handles of layer 0 start where the posed surface stands, not at rest; see below */
   hf_progress progress; /* NULL, or an object to poll and cancel through */
@@ -98,14 +100,15 @@ typedef struct hf_handles_desc {
  * (HF_HANDLE_LIMIT, a point two boxes or more away). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
 
-/* Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, double[3], and all vertices that are
- * edge-connected to it within `radius` of the point. out_handle: NULL, or receives the number of the handle. Errors: as
- * hf_pose_add_handles. Thread safety: changes `pose`. Since 0.1. */
+/* Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
+ * edge-connected to it within `radius` of the point. point: double[3]. out_handle: NULL, or receives the number of the
+ * handle. Errors: as hf_pose_add_handles. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handle_at(hf_pose pose, const double* point, double radius, uint32_t* out_handle);
 
-/* Removes handles by number: uint32_t[handle_count]. A handle on a higher layer takes its edit with it: the surface is
- * then, bit for bit, as if the handle had never been added. On layer 0 this holds when you remove the handles that were
- * added last, and for frames with `restart`. Errors: HF_ERROR_NOT_FOUND. Thread safety: changes `pose`. Since 0.1.
+/* Removes handles by number. handles: uint32_t[handle_count]. A handle on a higher layer takes its edit with it: the
+ * surface is then, bit for bit, as if the handle had never been added. On layer 0 this holds when you remove the
+ * handles that were added last, and for frames with `restart`. Errors: HF_ERROR_NOT_FOUND. Thread safety: changes
+ * `pose`. Since 0.1.
  */
 HF_API hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, const uint32_t* handles);
 
@@ -117,18 +120,19 @@ typedef struct hf_transform {
   double translation[3]; /* up to 1e15 box diagonals */
 } hf_transform;
 
-/* Places handles: hf_transform[handle_count] for uint32_t[handle_count] handles. On layer 0 a transform is a motion
- * from the rest place. On a higher layer it is an edit in the rest frame of the handle. There the region moves by F
- * (edit) F^-1, with F the rigid motion that the lower layers give the handle. Rotations continue from call to call, so
- * a handle that you dragged past 180 degrees stays turned that far. The transforms take effect at the next hf_deform.
- * Errors: HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE. Thread safety: changes `pose`. Since 0.1. */
+/* Places handles. handles: uint32_t[handle_count]. transforms: hf_transform[handle_count]. On layer 0 a transform is a
+ * motion from the rest place. On a higher layer it is an edit in the rest frame of the handle. There the region moves
+ * by F (edit) F^-1, with F the rigid motion that the lower layers give the handle. Rotations continue from call to
+ * call, so a handle that you dragged past 180 degrees stays turned that far. The transforms take effect at the next
+ * hf_deform. Errors: HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_transforms(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
                                         const hf_transform* transforms);
 
 /* Places one handle. Errors: as hf_pose_set_transforms. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_transform* transform);
 
-/* Places handles by 4 x 4 matrices M: double[handle_count][16], column by column, elements 12 to 14 the translation. M
+/* Places handles by 4 x 4 matrices M. handles: uint32_t[handle_count]. matrices: double[handle_count][16], column by
+ * column, elements 12 to 14 the translation. M
  * takes a rest position p to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes
  * the nearest rotation. Its last row must be 0 0 0 1. Errors: as hf_pose_set_transforms, HF_ERROR_INVALID_ARGUMENT (not
  * a rigid motion). Thread safety: changes `pose`. Since 0.1. */
@@ -143,8 +147,9 @@ typedef struct hf_handle_info {
   uint32_t component;
   double centroid[3];    /* of the rest region, in the unit of the mesh */
   double leak;           /* with rim_site_count: how far fields are off on the regions; 0 with full rings */
-  double rotation[4];    /* where the handle stood in the last hf_deform, as in hf_transform; on higher layers with */
-  double translation[3]; /* what the layers below did to it */
+  double rotation[4];    /* where the handle stood in the last hf_deform, as in hf_transform; on higher layers with
+                            what the layers below did to it */
+  double translation[3]; /* the same of its translation */
   uint32_t layer;
   uint32_t reserved;
 } hf_handle_info;
@@ -173,7 +178,8 @@ typedef struct hf_deform_info {
   double refine_ms;
 } hf_deform_info;
 
-/* Solves the pose and writes every vertex: float[vertex_count][3], packed, in the unit and frame of the mesh. Regions
+/* Solves the pose and writes every vertex. out_positions: float[vertex_count][3], packed, in the unit and frame of the
+ * mesh. Regions
  * of layer 0 land exactly where their transforms put them. Regions of higher layers add their edits to the surface of
  * the lower layers. Identity transforms give the rest positions. Repeated calls start from the last pose and allocate
  * nothing, as dragging needs. out_info: NULL, or a struct. Errors: HF_ERROR_EMPTY (no handle). Thread safety: changes
@@ -183,11 +189,11 @@ HF_API hf_result hf_deform(hf_pose pose, float* out_positions, hf_deform_info* o
 /* The options of hf_pose_deform are outputs, strides and a range of vertices. Set at least one output. */
 typedef struct hf_deform_desc {
   uint32_t struct_size;
-  uint32_t position_stride; /* bytes between vertices; 0 = packed */
+  uint32_t position_stride; /* bytes between rows of positions; 0 = packed */
   float* positions;         /* [vertex_count][3] posed positions, or NULL */
-  double* positions_f64;    /* the same in double, or NULL; set one of the two at most */
+  double* positions_f64;    /* [vertex_count][3] in double, or NULL; set one of the two at most */
   float* normals;           /* [vertex_count][3] unit normals of the posed surface, shared across seams, or NULL */
-  uint32_t normal_stride;   /* bytes between normals; 0 = packed */
+  uint32_t normal_stride;   /* bytes between rows of normals; 0 = packed */
   uint32_t iteration_count; /* 1 to 1000; 0 = the pose's */
   int32_t restart;          /* 1: forget the last pose and start from the fields. The frame then has the bits of a fresh
                                pose with the same handles, added in the same order, and the same transforms. Without
@@ -205,8 +211,9 @@ typedef struct hf_deform_desc {
   uint32_t reserved;        /* 0 */
 } hf_deform_desc;
 
-/* Does the same as hf_deform, with the options of a desc. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_OUT_OF_RANGE
- * (the range), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE (for floats). Thread safety: changes `pose`. Since 0.1. */
+/* Does the same as hf_deform, with the options of a desc. out_info: NULL, or a struct. Errors: HF_ERROR_EMPTY (no
+ * handle), HF_ERROR_OUT_OF_RANGE (the range), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE (for floats). Thread
+ * safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_info* out_info);
 
 /* ---- skins ---- */
@@ -222,7 +229,7 @@ typedef struct hf_skin_info {
   uint32_t struct_size;
   uint32_t joint_capacity;  /* in: joints the arrays can take */
   uint32_t vertex_capacity; /* in: vertices the arrays can take */
-  uint32_t influence_count;    /* in: joints per vertex, 4 or 8; 0 = 4 */
+  uint32_t influence_count; /* in: joints per vertex, 4 or 8; 0 = 4 */
   uint32_t joint_count;     /* out: joints, one per cluster of vertices */
   uint32_t vertex_count;    /* out */
   double* pivots;           /* [joint_capacity][3] rest centroid of what each joint moves */
@@ -241,15 +248,15 @@ typedef struct hf_skin_info {
  *
  * The joint motions bring the skin as near as possible to the last hf_deform, as it is without refine. With scales,
  * classic bends, twists and lifts replay within 0.5 per cent of the box. Without scales, bends and twists replay within
- * 1 per cent and stretched surfaces within about 2.5 per cent. Errors: HF_ERROR_INVALID_ARGUMENT (influence_count), HF_ERROR_EMPTY (no handle),
- * HF_ERROR_UNSUPPORTED (handles on higher layers: their surface is not a blend of clusters). Thread safety: reads
- * `pose`. Since 0.1. */
+ * 1 per cent and stretched surfaces within about 2.5 per cent. Errors: HF_ERROR_INVALID_ARGUMENT (influence_count),
+ * HF_ERROR_EMPTY (no handle), HF_ERROR_UNSUPPORTED (handles on higher layers: their surface is not a blend of
+ * clusters). Thread safety: reads `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
 
 /* ---- proposed handles ---- */
 
 /* Says why a place is proposed as a handle. */
-enum {
+enum hf_handle_reason {
   HF_HANDLE_REASON_FOOT = 0,  /* stands on the ground: the surface rises from it along a leg */
   HF_HANDLE_REASON_TIP = 1,   /* a protruding part ends there: head, tail, hand, horn (hf_surface_find_extremities) */
   HF_HANDLE_REASON_END = 2,   /* one of the two ends of a component without feet or tips */
@@ -259,14 +266,14 @@ enum {
 
 typedef struct hf_handle_proposals_desc {
   uint32_t struct_size;
-  uint32_t joint_count;    /* joints of a skeleton that the mesh has already, up to 65,536; 0 = none */
-  const double* joints;    /* [joint_count][3] their places at rest, in the unit and frame of the mesh */
-  const uint32_t* parents; /* [joint_count] position of each joint's parent in the list; HF_NO_INDEX for a root */
-  double up[3];            /* direction away from the ground, of any length; 0 0 0 = 0 1 0 */
-  double least_length_share;      /* as in hf_extremities_desc; 0 = 0.05 */
-  uint32_t limit;          /* most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32 */
-  uint32_t reserved;       /* 0 */
-  hf_progress progress;    /* NULL, or an object to poll and cancel through */
+  uint32_t joint_count;      /* joints of a skeleton that the mesh has already, up to 65,536; 0 = none */
+  const double* joints;      /* [joint_count][3] their places at rest, in the unit and frame of the mesh */
+  const uint32_t* parents;   /* [joint_count] position of each joint's parent in the list; HF_NO_INDEX for a root */
+  double up[3];              /* direction away from the ground, of any length; 0 0 0 = 0 1 0 */
+  double least_length_share; /* as in hf_extremities_desc; 0 = 0.05 */
+  uint32_t limit;            /* most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32 */
+  uint32_t reserved;         /* 0 */
+  hf_progress progress;      /* NULL, or an object to poll and cancel through */
 } hf_handle_proposals_desc;
 
 /* One proposed handle. position and radius are those of hf_handles_desc: the regions of all proposals are disjoint. */
@@ -284,12 +291,13 @@ typedef struct hf_handle_proposal {
 
 /* Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first, then the
  * others, each group by length, the longest first. The places do not depend on the order of the vertices. They follow
- * translation and scale. desc: NULL for defaults. out_proposals: NULL, or room for `capacity`. out_count: NULL, or
- * receives the number of proposals. Cost: as hf_surface_find_extremities, and some passes over the mesh. Errors:
- * HF_ERROR_INVALID_ARGUMENT (least_length_share, limit, joints without parents), HF_ERROR_NON_FINITE (up; index = joint),
- * HF_ERROR_OUT_OF_RANGE (a parent; index = joint), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+ * translation and scale. desc: NULL for defaults. out_proposals: NULL, or hf_handle_proposal[capacity]. out_count:
+ * NULL, or receives the number of proposals. Cost: as hf_surface_find_extremities, and some passes over the mesh.
+ * Errors: HF_ERROR_INVALID_ARGUMENT (least_length_share, limit, joints without parents), HF_ERROR_NON_FINITE (up; index
+ * = joint), HF_ERROR_OUT_OF_RANGE (a parent; index = joint), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since
+ * 0.1. */
 HF_API hf_result hf_surface_propose_handles(hf_surface surface, const hf_handle_proposals_desc* desc, uint32_t capacity,
-                                    hf_handle_proposal* out_proposals, uint32_t* out_count);
+                                            hf_handle_proposal* out_proposals, uint32_t* out_count);
 
 #ifdef __cplusplus
 }

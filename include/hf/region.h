@@ -20,7 +20,7 @@ extern "C" {
 typedef struct hf_region_object* hf_region;
 
 /* The smooth base of a region. */
-enum {
+enum hf_base {
   HF_BASE_DEFAULT = 0,         /* THIN_PLATE */
   HF_BASE_MEMBRANE = 1,        /* harmonic: the least area for its rim, nearly; it meets the rim with a crease */
   HF_BASE_THIN_PLATE = 2,      /* bi-harmonic (HF_FIELD_BIHARMONIC): leaves the surface around it without a crease */
@@ -30,9 +30,10 @@ enum {
 typedef struct hf_region_desc {
   uint32_t struct_size;
   int32_t base;           /* HF_BASE_*. If the surface has no factor for it yet, it is made now */
-  const float* positions; /* [vertex_count][3] the surface of weight 0, bit for bit: the positions of the mesh or any */
-  const double* positions_f64; /* pose of them. Both NULL: the mesh's own to 1e-15 of the box. Copied */
-  uint32_t position_stride;    /* bytes between vertices; 0 = packed */
+  const float* positions; /* [vertex_count][3] the surface of weight 0, bit for bit: the positions of the mesh or any
+                             pose of them. NULL: the mesh's own to 1e-15 of the box. Copied */
+  const double* positions_f64; /* [vertex_count][3] in double, or NULL */
+  uint32_t position_stride;    /* bytes between rows of positions; 0 = packed */
   uint32_t reserved;           /* 0 */
   hf_progress progress;        /* NULL, or an object to poll and cancel through */
 } hf_region_desc;
@@ -52,14 +53,14 @@ HF_API void hf_region_destroy(hf_region region);
 
 /* A closed curve cuts the surface in two. The side says which part becomes the region. Where a curve along edges
  * touches itself there are more parts: SMALLER takes all but the largest, SEED the part of its vertex. */
-enum {
+enum hf_side {
   HF_SIDE_SMALLER = 0, /* the side of smaller area */
   HF_SIDE_LARGER = 1,  /* the side of larger area */
   HF_SIDE_SEED = 2     /* the side that seed_vertex lies in */
 };
 
 /* How the points of a curve are joined: each to the next, and the last to the first. */
-enum {
+enum hf_curve_kind {
   HF_CURVE_STRAIGHT = 0, /* by shortest paths along the surface, through triangles, exact up to rounding */
   HF_CURVE_EDGES = 1     /* by shortest paths along edges; points in triangles stand for their nearest corner */
 };
@@ -73,8 +74,8 @@ typedef struct hf_curve_desc {
   uint32_t point_count;       /* 3 to the number of vertices of the mesh */
   const uint32_t* vertices;   /* [point_count] vertices as given, or NULL */
   const uint32_t* triangles;  /* [point_count] triangles (or faces of three corners) as given, or NULL */
-  const double* barycentrics; /* [point_count][3] with triangles or corners: weights of the corners, >= 0, of sum 1
-                                 within 1e-6 */
+  const double* barycentrics; /* [point_count][3] with triangles or corners, else NULL: weights of the corners, >= 0, of
+                                 sum 1 within 1e-6 */
   int32_t side;               /* HF_SIDE_* */
   uint32_t seed_vertex;       /* with HF_SIDE_SEED */
   const uint32_t* corners;    /* [point_count][3] three vertices of one face, as hf_hit has them, or NULL */
@@ -131,7 +132,7 @@ typedef struct hf_region_info {
 HF_API hf_result hf_region_get_info(hf_region region, hf_region_info* out_info);
 
 /* Lists of vertices of a region. */
-enum {
+enum hf_region_list {
   HF_REGION_INSIDE = 0, /* the region */
   HF_REGION_RIM = 1,    /* the vertices next to it */
   HF_REGION_SITES = 2   /* vertices whose positions fix the base */
@@ -143,21 +144,21 @@ enum {
 HF_API hf_result hf_region_get_vertices(hf_region region, int32_t list, uint32_t capacity, uint32_t* out_vertices,
                                         uint32_t* out_count);
 
-/* Writes the corners of the region's last curve, to draw it: double[capacity][3], in order, in the unit and frame of
+/* Writes the corners of the region's last curve, to draw it, in order, in the unit and frame of
  * the positions in hf_region_desc. The last corner is joined to the first. Rings, added and removed vertices leave it
- * as it is. out_points: NULL, or room for `capacity` points. out_count: NULL, or receives the number of corners, 0
+ * as it is. out_points: NULL, or double[capacity][3]. out_count: NULL, or receives the number of corners, 0
  * without a curve. Thread safety: reads `region`. Since 0.1. */
 HF_API hf_result hf_region_get_curve(hf_region region, uint32_t capacity, double* out_points, uint32_t* out_count);
 
 /* Gives hf_region_morph and hf_detail_morph their weight and outputs. Set at least one output. */
 typedef struct hf_morph_desc {
   uint32_t struct_size;
-  uint32_t position_stride; /* bytes between vertices; 0 = packed */
+  uint32_t position_stride; /* bytes between rows of positions; 0 = packed */
   double weight;            /* any finite number */
   float* positions;         /* [vertex_count][3] in the unit and frame of the mesh as given, or NULL */
-  double* positions_f64;    /* the same in double, or NULL; set one of the two at most */
+  double* positions_f64;    /* [vertex_count][3] in double, or NULL; set one of the two at most */
   float* normals;           /* [vertex_count][3] unit normals of the morphed surface, shared across seams, or NULL */
-  uint32_t normal_stride;   /* bytes between normals; 0 = packed */
+  uint32_t normal_stride;   /* bytes between rows of normals; 0 = packed */
   uint32_t reserved;        /* 0 */
 } hf_morph_desc;
 

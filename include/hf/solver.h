@@ -20,7 +20,7 @@ extern "C" {
 typedef struct hf_solver_object* hf_solver;
 
 /* Selects the engine: how a solver combines its sites with the factor. All engines give the same field. */
-enum {
+enum hf_engine {
   HF_ENGINE_GREEN = 0,   /* sites are rows of a small dense system beside the factor: the default */
   HF_ENGINE_UPDOWN = 1,  /* as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds
                             with HF_WITH_GPL. The field meets its sites to about 1e-8 of the value range, a bi-harmonic
@@ -59,8 +59,8 @@ HF_API void hf_solver_destroy(hf_solver solver);
 /* hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites. */
 typedef struct hf_solver_info {
   uint32_t struct_size;
-  int32_t field_kind;
-  int32_t engine;
+  int32_t field_kind; /* HF_FIELD_* */
+  int32_t engine;     /* HF_ENGINE_* */
   uint32_t channel_count;
   uint32_t site_limit;
   uint32_t site_count;
@@ -83,8 +83,8 @@ typedef struct hf_sites_desc {
   uint32_t site_count;        /* >= 1 */
   const uint32_t* vertices;   /* [site_count] vertices as given, or NULL */
   const uint32_t* triangles;  /* [site_count] triangles (or faces of three corners) as given, or NULL */
-  const double* barycentrics; /* [site_count][3] with triangles or corners: weights of the corners, >= 0, of sum 1
-                                 within 1e-6 */
+  const double* barycentrics; /* [site_count][3] with triangles or corners, else NULL: weights of the corners, >= 0, of
+                                 sum 1 within 1e-6 */
   const double* values;       /* [site_count][channel_count], up to 1e200 in size; NULL = 0 */
   const double* stiffness;    /* [site_count] >= 0, relative to the mean diagonal of K; 0 = hard (exact); NULL = all
                                  hard; clamped to 1e-12 .. 1e12 */
@@ -93,7 +93,7 @@ typedef struct hf_sites_desc {
                                  face of more corners this places a site in a triangle of them */
 } hf_sites_desc;
 
-/* Adds sites. out_sites: NULL, or receives their numbers in uint32_t[site_count]. A site keeps its number until it is
+/* Adds sites. out_sites: NULL, or uint32_t[site_count] for their numbers. A site keeps its number until it is
  * removed; later sites reuse free numbers. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE,
  * HF_ERROR_INVALID_ARGUMENT (weights, stiffness, isolated vertex), HF_ERROR_UNSUPPORTED (a point in a triangle or a
  * disc on a graph), HF_ERROR_DUPLICATE (the vertex, or a welded copy, has a site of the same values),
@@ -105,19 +105,21 @@ HF_API hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint
  * of the site. Errors: as hf_add_sites. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_add_site(hf_solver solver, uint32_t vertex, const double* values, uint32_t* out_site);
 
-/* Removes sites by number: uint32_t[site_count]. The field is 0 on a component that has no site left. If you add a site
- * there again, the field is exact. Errors: HF_ERROR_NOT_FOUND (also for a number named twice). Thread safety:
+/* Removes sites by number. sites: uint32_t[site_count]. The field is 0 on a component that has no site left. If you add
+ * a site there again, the field is exact. Errors: HF_ERROR_NOT_FOUND (also for a number named twice). Thread safety:
  * changes `solver`. Since 0.1. */
 HF_API hf_result hf_remove_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites);
 
-/* Moves sites to new places. Each site keeps its number, value, stiffness and radius. to: one place for each site; its
+/* Moves sites to new places. Each site keeps its number, value, stiffness and radius. sites:
+ * uint32_t[site_count]. to: one place for each site; its
  * values, stiffness and radii are NULL. Errors: as hf_add_sites and hf_remove_sites. Thread safety: changes `solver`.
  * Since 0.1. */
 HF_API hf_result hf_solver_move_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                       const hf_sites_desc* to);
 
-/* Gives sites new values: double[site_count][channel_count]. The call costs nothing until the next solve. Errors:
- * HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (a value). Thread safety: changes `solver`. Since 0.1.
+/* Gives sites new values. sites: uint32_t[site_count]. values: double[site_count][channel_count]. The call costs
+ * nothing until the next solve. Errors: HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (a value). Thread
+ * safety: changes `solver`. Since 0.1.
  */
 HF_API hf_result hf_solver_set_values(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                       const double* values);
@@ -130,7 +132,7 @@ typedef struct hf_edit_desc {
   uint32_t move_count;
   uint32_t set_count;
   const uint32_t* move_sites;   /* [move_count] */
-  const hf_sites_desc* move_to; /* move_count places */
+  const hf_sites_desc* move_to; /* NULL, or places of [move_count] sites */
   const uint32_t* set_sites;    /* [set_count] */
   const double* set_values;     /* [set_count][channel_count] */
   const hf_sites_desc* add;     /* NULL, or the sites to add */
@@ -147,17 +149,17 @@ HF_API uint32_t hf_solver_get_site_count(hf_solver solver);
  * ordered by site number. */
 typedef struct hf_sites_info {
   uint32_t struct_size;
-  uint32_t capacity;  /* in: entries of each array */
-  uint32_t count;     /* out: number of sites */
-  uint32_t reserved;  /* 0 */
-  uint32_t* sites;    /* numbers */
-  uint32_t* vertices; /* the vertex given, HF_NO_INDEX for a point in a triangle */
-  uint32_t* components;
-  double* values;    /* [capacity][channel_count] */
-  double* stiffness; /* 0 = hard */
-  double* flux;      /* [capacity][channel_count] lambda: what flows into the surface at the site, in value x weight;
+  uint32_t capacity;    /* in: entries of each array */
+  uint32_t count;       /* out: number of sites */
+  uint32_t reserved;    /* 0 */
+  uint32_t* sites;      /* [capacity] numbers */
+  uint32_t* vertices;   /* [capacity] the vertex given, HF_NO_INDEX for a point in a triangle */
+  uint32_t* components; /* [capacity] */
+  double* values;       /* [capacity][channel_count] */
+  double* stiffness;    /* [capacity] 0 = hard */
+  double* flux;         /* [capacity][channel_count] lambda: what flows into the surface at the site, in value x weight;
                         the sum over a disc */
-  double* radii;     /* 0 = a point */
+  double* radii;        /* [capacity] 0 = a point */
 } hf_sites_info;
 
 /* Writes all sites. Thread safety: reads `solver`. Since 0.1. */
@@ -187,11 +189,12 @@ typedef struct hf_solve_info {
   uint32_t unreached_vertex_count;    /* given vertices in them, isolated ones included */
 } hf_solve_info;
 
-/* Solves for the field at every vertex of your mesh. out_values: float[vertex_count] rows of channel_count values,
- * value_stride bytes apart (0 = packed). The field is 0 on components without a site; out_info counts them, or is NULL.
- * Hard sites hold their values exactly. Cost: one backward sweep through the factor, or three sweeps for bi-harmonic
- * fields; 30 to 700 sweeps for these, by the number of sites, where a vertex has more than 1,000 neighbours. Errors:
- * HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (index = vertex, no float). Thread safety: reads `solver`. Since 0.1. */
+/* Solves for the field at every vertex of your mesh. out_values: float[vertex_count][channel_count], rows
+ * value_stride bytes apart (0 = packed). Hard sites hold their values exactly. The field is
+ * 0 on components without a site. out_info: NULL, or receives the counts of these components. Cost: one backward sweep
+ * through the factor, or three sweeps for bi-harmonic fields; 30 to 700 sweeps for these, by the number of sites, where
+ * a vertex has more than 1,000 neighbours. Errors: HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (index = vertex, no float).
+ * Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
 /* Does the same as hf_solve, in double. Thread safety: reads `solver`. Since 0.1. */
@@ -199,7 +202,7 @@ HF_API hf_result hf_solver_solve_f64(hf_solver solver, double* out_values, uint3
                                      hf_solve_info* out_info);
 
 /* Solves for the field at chosen vertices only, with the same bits as hf_solver_solve_f64. out_values:
- * double[vertex_count][channel_count] for uint32_t[vertex_count] vertices. The call reads only those columns of the
+ * double[vertex_count][channel_count]. vertices: uint32_t[vertex_count]. The call reads only those columns of the
  * factor on which these vertices depend (elimination paths), on the calling thread. One path is up to a sixth of the
  * factor, but the paths of many vertices share most of their columns. The call costs a whole solve for bi-harmonic
  * fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of a component without a
@@ -212,8 +215,8 @@ HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, con
  * channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects the
  * vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal. out_vectors:
  * float[vertex_count][3], vector_stride bytes apart (0 = packed), not normalised. out_normals: NULL, or
- * double[vertex_count][3], packed: the normals used. Errors: as hf_solve, HF_ERROR_INVALID_ARGUMENT (not 3 channels).
- * Thread safety: reads `solver`. Since 0.1. */
+ * double[vertex_count][3], packed: the normals used. out_info: NULL, or receives what the sites did not reach. Errors:
+ * as hf_solve, HF_ERROR_INVALID_ARGUMENT (not 3 channels). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride,
                                          double* out_normals, hf_solve_info* out_info);
 
@@ -248,8 +251,8 @@ typedef struct hf_preview_info {
  * than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites. out_info->exact is then
  * 1.
  *
- * out_values: as hf_solve. correction_count: 0 to 8. out_info: NULL, or a struct. Errors: HF_ERROR_INVALID_ARGUMENT
- * (correction_count), HF_ERROR_EMPTY. Thread safety: reads `solver`. Since 0.1. */
+ * out_values: float[vertex_count][channel_count], as hf_solve. correction_count: 0 to 8. out_info: NULL, or a struct.
+ * Errors: HF_ERROR_INVALID_ARGUMENT (correction_count), HF_ERROR_EMPTY. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_preview(hf_solver solver, float* out_values, uint32_t value_stride,
                                          uint32_t correction_count, hf_preview_info* out_info);
 
@@ -265,13 +268,15 @@ HF_API hf_result hf_solver_release_preview(hf_solver solver);
 /* ---- vectors of a 3-channel solver ---- */
 
 /* Moves vector sites to other vertices of their components. Each vector is carried along the shortest path of edges,
- * from vertex normal to vertex normal (parallel transport; Xu and others 2009, Section 3.3). vertices: [site_count].
+ * from vertex normal to vertex normal (parallel transport; Xu and others 2009, Section 3.3). sites, vertices:
+ * uint32_t[site_count].
  * Errors: HF_ERROR_INVALID_ARGUMENT (not 3 channels, another component, isolated vertex), HF_ERROR_NOT_FOUND,
  * HF_ERROR_OUT_OF_RANGE, HF_ERROR_DUPLICATE, HF_ERROR_CONFLICT. Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_move_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites,
                                         const uint32_t* vertices);
 
-/* Turns the vector of site i about its vertex normal, counter-clockwise by angles[i] radians. Does not factorise.
+/* Turns the vector of site i about its vertex normal, counter-clockwise by angles[i] radians. sites:
+ * uint32_t[site_count]. angles: double[site_count]. Does not factorise.
  * Errors: HF_ERROR_INVALID_ARGUMENT (not 3 channels), HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE. Thread safety:
  * changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count, const uint32_t* sites,
@@ -284,7 +289,7 @@ HF_API hf_result hf_solver_rotate_vectors(hf_solver solver, uint32_t site_count,
  * is not finite counts as infinitely wrong. */
 typedef struct hf_certificate {
   uint32_t struct_size;
-  int32_t overshoot_checked; /* out: 1 where a field must keep to the range of its sites: harmonic, intrinsic Delaunay
+  int32_t overshoot_checked; /* out; 1: the field must keep to the range of its sites: harmonic, intrinsic Delaunay
                                 or clamped operator, all sites at vertices */
   double tolerance;          /* in: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5; out: the one used */
   double value_range;        /* out: largest less smallest value (or target), the widest over components and channels */
@@ -318,7 +323,7 @@ HF_API hf_result hf_solver_certify(hf_solver solver, hf_certificate* inout_certi
 HF_API hf_result hf_solver_prepare_rebase(hf_solver solver);
 
 /* These values say how the solver carried out the last edit of site places (hf_solver_statistics.last_route). */
-enum {
+enum hf_route {
   HF_ROUTE_NONE = 0,  /* no place was edited yet, or the engine is not green */
   HF_ROUTE_DENSE = 1, /* rows of the dense system were added and removed */
   HF_ROUTE_FRESH = 2, /* the dense system was recomputed, which was quicker */

@@ -17,14 +17,14 @@ typedef struct hf_surface_object* hf_surface;
 /* Selects how the surface joins vertices at one place. Modelling tools split vertices at texture seams: a horse model
  * can have 1,109 separate pieces as stored and be one piece when welded. Functions write results to every copy of a
  * vertex. */
-enum {
+enum hf_weld {
   HF_WELD_EXACT = 0,    /* bit-equal positions (+0 and -0 are equal) */
   HF_WELD_NONE = 1,     /* vertices as stored */
   HF_WELD_TOLERANCE = 2 /* positions closer than weld_tolerance, transitively */
 };
 
 /* Selects the edge weights w_ij of the discrete Laplacian L of a field u: (L u)_i = sum_j w_ij (u_i - u_j). */
-enum {
+enum hf_operator {
   HF_OPERATOR_INTRINSIC_DELAUNAY = 0, /* cotangent weights of the intrinsic Delaunay triangulation, on the tufted cover
                                          where edges are open or non-manifold (Bobenko and Springborn 2007; Sharp and
                                          Crane 2020). Weights are never negative: a field keeps to the range of its
@@ -37,7 +37,7 @@ enum {
 
 /* Selects the matrix K that a field solves with. A bi-harmonic field is smooth at its sites and overshoots their
  * values. Its factor is 3 to 4 times larger than a harmonic one, and its solve adds one correction step. */
-enum {
+enum hf_field_kind {
   HF_FIELD_HARMONIC = 0,   /* K = L */
   HF_FIELD_BIHARMONIC = 1, /* K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the
                               scale of the mesh */
@@ -45,7 +45,7 @@ enum {
 };
 
 /* Selects how the unknowns are ordered. A good order keeps the factor small. */
-enum {
+enum hf_ordering {
   HF_ORDERING_NESTED_DISSECTION = 0, /* our own; gives the smallest factor */
   HF_ORDERING_MINIMUM_DEGREE = 1,    /* quicker to compute, larger factor on large meshes */
   HF_ORDERING_METIS = 2              /* builds with HF_WITH_GPL only */
@@ -64,7 +64,7 @@ enum { HF_FACTOR_ALIGNMENT = 64 };
 
 /* Selects how the pieces of a mesh are linked. A piece is an edge-connected part, such as an eye or a plate of a robot.
  * Without links every piece is a domain of its own: a field or a pose ends where the piece ends. */
-enum {
+enum hf_link_mode {
   HF_LINK_NONE = 0,   /* pieces stay apart. The default, because a scan or a scene may hold bodies that do not belong
                          together; the programs and bindings for characters link by default */
   HF_LINK_PIECES = 1, /* automatic: a tree over the pieces by smallest distance, and all pieces that touch */
@@ -78,7 +78,7 @@ typedef struct hf_link {
   double barycentrics[3]; /* >= 0, of sum 1 within 1e-3. 1, 0, 0 links two vertices */
   double length;          /* out: at rest, in the unit of the positions. Ignored when read */
   double weight;          /* 1: as strong as an edge between two equilateral triangles; > 0 */
-  int32_t in_tree;        /* out: 1 if the tree over the pieces has it. Ignored when read */
+  int32_t in_tree;        /* out; 1: the tree over the pieces has it. Ignored when read */
   uint32_t reserved;      /* 0 */
 } hf_link;
 
@@ -119,12 +119,12 @@ typedef struct hf_surface_desc {
   uint32_t struct_size;
   uint32_t vertex_count;         /* >= 1 */
   uint32_t triangle_count;       /* >= 1 */
-  uint32_t position_stride;      /* bytes between vertices */
+  uint32_t position_stride;      /* bytes between rows of positions; 0 = packed */
   const float* positions;        /* [vertex_count][3], any unit, any offset */
   const double* positions_f64;   /* [vertex_count][3] */
   const uint32_t* triangles;     /* [triangle_count][3], counter-clockwise seen from outside */
   const uint16_t* triangles_u16; /* [triangle_count][3] */
-  uint32_t triangle_stride;      /* bytes between triangles */
+  uint32_t triangle_stride;      /* bytes between rows of triangles */
   int32_t weld;                  /* HF_WELD_* */
   double weld_tolerance;         /* for HF_WELD_TOLERANCE, in the unit of the positions, > 0 */
   int32_t operator_kind;         /* HF_OPERATOR_* */
@@ -149,7 +149,7 @@ typedef struct hf_surface_desc {
                                   face_sizes [face_count + 1]: the corners of face f end where those of f + 1 start */
   const uint32_t* face_sizes;  /* [face_count] corners of each face, 3 to 65,535. NULL: face_starts is enough */
   const uint32_t* corners;     /* [corner_count] vertices, counter-clockwise seen from outside */
-  uint32_t face_stride;        /* bytes between entries of face_starts and between those of face_sizes */
+  uint32_t face_stride;        /* bytes between entries of face_starts and face_sizes */
   uint32_t corner_stride;      /* bytes between entries of corners */
 } hf_surface_desc;
 
@@ -179,7 +179,7 @@ HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_
  * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of hf_surface_desc. */
 typedef struct hf_graph_desc {
   uint32_t struct_size;
-  uint32_t vertex_count;  /* >= 1 */
+  uint32_t vertex_count;  /* >= 1, also without masses */
   uint32_t edge_count;    /* >= 1 */
   int32_t allow_negative; /* 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
                              tetrahedra do. A field can then leave the range of its sites. 0: they are refused */
@@ -228,11 +228,11 @@ typedef struct hf_surface_info {
   uint32_t struct_size;
   uint32_t vertex_count;   /* as given */
   uint32_t triangle_count; /* as given; of faces, the triangles of their cut */
-  int32_t weld;
+  int32_t weld;            /* HF_WELD_* */
   double weld_tolerance;
-  int32_t operator_kind;
-  int32_t field_kind;
-  int32_t ordering;
+  int32_t operator_kind; /* HF_OPERATOR_* */
+  int32_t field_kind;    /* HF_FIELD_* */
+  int32_t ordering;      /* HF_ORDERING_* */
   uint32_t thread_count;
   uint32_t vertex_limit;
   uint32_t triangle_limit;  /* 0: eight per vertex of the vertex limit */
@@ -305,16 +305,16 @@ HF_API hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity
 HF_API hf_result hf_surface_get_links(hf_surface surface, uint32_t capacity, hf_link* out_links, uint32_t* out_count);
 
 /* Writes the piece of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Pieces are numbered in the
- * order of their lowest vertices. out_pieces: NULL, or uint32_t[capacity]. out_light: NULL, or int32_t[capacity], 1 on
- * light pieces: a site or handle there hardly moves the rest. out_count: NULL, or receives vertex_count. Thread safety:
- * reads `surface`. Since 0.1. */
+ * order of their lowest vertices. out_pieces: NULL, or uint32_t[capacity]. out_light: NULL, or int32_t[capacity], 1: of
+ * a light piece: a site or handle there hardly moves the rest. out_count: NULL, or receives vertex_count. Thread
+ * safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_pieces(hf_surface surface, uint32_t capacity, uint32_t* out_pieces, int32_t* out_light,
                                        uint32_t* out_count);
 
 /* Posed positions of the mesh, of which gaps are measured. Set one of the two. */
 typedef struct hf_gaps_desc {
   uint32_t struct_size;
-  uint32_t position_stride;    /* bytes between vertices; 0 = packed */
+  uint32_t position_stride;    /* bytes between rows of positions; 0 = packed */
   const float* positions;      /* [vertex_count][3]: of a pose, a frame of a transfer, or any other deformation */
   const double* positions_f64; /* [vertex_count][3] */
 } hf_gaps_desc;
@@ -330,9 +330,9 @@ typedef struct hf_gaps_info {
 } hf_gaps_info;
 
 /* Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends are
- * apart than at rest, and 0 if they are nearer. out_gaps: NULL, or double[capacity], in the order of
- * hf_surface_get_links. out_info: NULL, or a struct. Set one of the two at least. Errors: HF_ERROR_NON_FINITE,
- * HF_ERROR_TOO_LARGE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
+ * apart than at rest, and 0 if they are nearer. out_gaps: NULL, or double[capacity], out_info->link_count of them, in
+ * the order of hf_surface_get_links. out_info: NULL, or a struct. Set one of the two at least. Errors:
+ * HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* desc, uint32_t capacity,
                                          double* out_gaps, hf_gaps_info* out_info);
 
@@ -384,9 +384,9 @@ HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, hf_prog
 /* Options of picking: posed positions, if the surface is not at rest, and which triangles count. */
 typedef struct hf_pick_desc {
   uint32_t struct_size;
-  uint32_t position_stride;    /* bytes between vertices; 0 = packed */
+  uint32_t position_stride;    /* bytes between rows of positions; 0 = packed */
   const float* positions;      /* [vertex_count][3] posed positions (hf_deform writes them), or NULL */
-  const double* positions_f64; /* the same in double, or NULL; both NULL: the rest positions */
+  const double* positions_f64; /* [vertex_count][3] in double, or NULL; both NULL: the rest positions */
   int32_t front_only;          /* 1: a ray passes triangles seen from behind */
   uint32_t reserved;           /* 0 */
 } hf_pick_desc;
@@ -416,8 +416,9 @@ HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, c
 
 /* Finds the vertex nearest to a point. point: double[3] in the frame of the positions. desc: NULL for the rest
  * positions. The call ignores isolated vertices. Of several at one distance, such as welded copies,
- * the lowest index counts. out_distance: NULL, or receives the distance. Cost: a pass over the vertices. Errors:
- * HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (1e15 boxes). Thread safety: reads `surface`. Since 0.1. */
+ * the lowest index counts. out_vertex: receives the vertex. out_distance: NULL, or receives the distance. Cost: a pass
+ * over the vertices. Errors: HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (1e15 boxes). Thread safety:
+ * reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_find_vertex(hf_surface surface, const double* point, const hf_pick_desc* desc,
                                         uint32_t* out_vertex, double* out_distance);
 

@@ -17,7 +17,7 @@ extern "C" {
 
 typedef struct hf_transfer_object* hf_transfer;
 
-enum {
+enum hf_transfer_mode {
   HF_TRANSFER_FIELDS = 0, /* a cluster: vertices with similar values of all fields; the default */
   HF_TRANSFER_PAPER = 1,  /* a cluster: vertices between two levels of one field, as in the paper */
   /* Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target vertex
@@ -29,13 +29,13 @@ enum {
   HF_TRANSFER_STRETCH = 2
 };
 
-enum {
+enum hf_ground {
   HF_GROUND_KEEP = 0, /* feet stand, and no part sinks deeper than the source's, but for thin ones. The default */
   HF_GROUND_OFF = 1   /* there is no ground: for flying and swimming, or where the host has its own */
 };
 
-/* These flags describe a pair of regions. They can be combined. */
-enum {
+/* Bits that describe a pair of regions. */
+enum hf_pair_flag {
   HF_PAIR_ANCHOR = 1,       /* the target's region follows the scaled path of the source's (feet, trunk) */
   HF_PAIR_FOOT = 2,         /* an anchor that also stands on the ground, and whose leg gives the scale */
   HF_PAIR_TRUNK = 4,        /* part of the trunk: no rest alignment */
@@ -66,11 +66,11 @@ typedef struct hf_transfer_desc {
    * right x up = forward, must hold within 1e-3. The library takes the nearest rotation. */
   double source_axes[9];
   double target_axes[9];
-  /* Poses in which the two bodies correspond: float[vertex_count][3] in each surface's unit, read by the call, or NULL
+  /* Poses in which the two bodies correspond, in each surface's unit, read by the call, or NULL
    * for the positions of the surface. A character bound in a crouch gets a standing pose here. Motion counts from these
    * poses; the fields stay those of the surfaces. */
-  const float* source_rest;
-  const float* target_rest;
+  const float* source_rest; /* [source.vertex_count][3], or NULL */
+  const float* target_rest; /* [target.vertex_count][3], or NULL */
 } hf_transfer_desc;
 
 /* Creates a transfer between two surfaces; both may be the same. Sets *out_transfer to NULL first. desc: NULL for
@@ -87,19 +87,21 @@ typedef struct hf_pairs_desc {
   uint32_t pair_count;             /* >= 1 */
   const uint32_t* source_counts;   /* [pair_count] vertices of each region, >= 1; repeats are allowed, up to four times
                                       the vertices of the mesh in all */
-  const uint32_t* source_vertices; /* all regions one after the other; vertices as given, up to 4 entries per vertex */
+  const uint32_t* source_vertices; /* [sum(source_counts)] all regions one after the other; vertices as given, up to 4
+                                      entries per vertex */
   const uint32_t* target_counts;   /* [pair_count] */
-  const uint32_t* target_vertices;
-  const uint32_t* flags; /* [pair_count] HF_PAIR_*, or NULL for none */
-  hf_progress progress;  /* NULL, or an object to poll and cancel through */
+  const uint32_t* target_vertices; /* [sum(target_counts)] */
+  const uint32_t* flags;           /* [pair_count] HF_PAIR_*, or NULL for none */
+  hf_progress progress;            /* NULL, or an object to poll and cancel through */
 } hf_pairs_desc;
 
-/* Adds pairs. out_pairs: NULL, or receives their numbers in uint32_t[pair_count]. Does not factorise. The fields and
+/* Adds pairs. out_pairs: NULL, or uint32_t[pair_count] for their numbers. Does not factorise. The fields and
  * clusters of the pairs are made by the next frame. With a progress this call makes them, so that they can be cancelled
  * too: give one with the last pairs you add. It changes no result. Errors: as hf_pose_add_handles, HF_ERROR_TOO_LARGE
  * (HF_PAIR_LIMIT), HF_ERROR_CANCELLED. Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_add_pairs(hf_transfer transfer, const hf_pairs_desc* pairs, uint32_t* out_pairs);
-/* Removes pairs by number. Errors: HF_ERROR_NOT_FOUND. Thread safety: changes `transfer`. Since 0.1. */
+/* Removes pairs by number. pairs: uint32_t[pair_count]. Errors: HF_ERROR_NOT_FOUND. Thread safety: changes `transfer`.
+ * Since 0.1. */
 HF_API hf_result hf_transfer_remove_pairs(hf_transfer transfer, uint32_t pair_count, const uint32_t* pairs);
 
 typedef struct hf_pair_info {
@@ -168,14 +170,14 @@ HF_API hf_result hf_transfer_get_dials(hf_transfer transfer, hf_transfer_dials* 
  * source_positions_f64, and at least one output. Strides are in bytes; 0 = packed. */
 typedef struct hf_transfer_frame {
   uint32_t struct_size;
-  uint32_t source_stride;
-  const float* source_positions; /* [source vertex_count][3] the posed source, its own vertex order */
-  const double* source_positions_f64;
-  uint32_t target_stride;
-  uint32_t normal_stride;
-  float* target_positions; /* [target vertex_count][3], or NULL */
-  double* target_positions_f64;
-  float* target_normals; /* [target vertex_count][3], or NULL */
+  uint32_t source_stride;             /* bytes between rows of source_positions */
+  const float* source_positions;      /* [source.vertex_count][3] the posed source, its own vertex order */
+  const double* source_positions_f64; /* [source.vertex_count][3] */
+  uint32_t target_stride;             /* bytes between rows of target_positions */
+  uint32_t normal_stride;             /* bytes between rows of target_normals */
+  float* target_positions;            /* [target.vertex_count][3], or NULL */
+  double* target_positions_f64;       /* [target.vertex_count][3], or NULL */
+  float* target_normals;              /* [target.vertex_count][3], or NULL */
   /* A hold puts the target region of a pair exactly at a position of yours, such as a foot on a step or a hand on a
    * rail. The mean of the region's vertices lands there; welded copies count once. The rest of the surface follows. */
   uint32_t hold_count;
@@ -202,11 +204,12 @@ typedef struct hf_transfer_frame {
  * HF_TRANSFER_STRETCH). Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
-/* Writes 1 for every target vertex that may sink into the ground, else 0: uint8_t[target vertex_count]. These are limbs
- * flagged HF_PAIR_SINKS, tails (HF_PAIR_TAIL) where they are thin, and thin parts that no pair moves: antlers, ears, a
- * held weapon. Thin is less than 4 % of the bounding box through. Legs (HF_PAIR_FOOT) never sink by themselves, nor
- * does what is thin around an anchor, a contact or the trunk, but for loose pieces without a pair. The first call after
- * a change of pairs solves fields. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
+/* Writes which target vertices may sink into the ground. out_sinking: uint8_t[target.vertex_count], 1: it may sink.
+ * These are limbs flagged HF_PAIR_SINKS, tails (HF_PAIR_TAIL) where they are thin, and thin parts that no pair moves:
+ * antlers, ears, a held weapon. Thin is less than 4 % of the bounding box through. Legs (HF_PAIR_FOOT) never sink by
+ * themselves, nor does what is thin around an anchor, a contact or the trunk, but for loose pieces without a pair. The
+ * first call after a change of pairs solves fields. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`.
+ * Since 0.1. */
 HF_API hf_result hf_transfer_get_sinking(hf_transfer transfer, uint8_t* out_sinking);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin replays

@@ -29,8 +29,8 @@ typedef struct hf_joints_desc {
                          not deform says where a last joint ends */
   const uint32_t* parents; /* [joint_count] number of the parent, HF_NO_INDEX for a root; NULL: all are roots */
   const int32_t* deforms;  /* [joint_count] 1: the joint gets weights; NULL: all do */
-  const uint32_t* sources; /* hf_weights_set_joints: [joint_count] the number that the joint had before, HF_NO_INDEX for
-                              a new one; NULL: the same number. hf_weights_create: NULL */
+  const uint32_t* sources; /* [joint_count] for hf_weights_set_joints: the number that the joint had before, HF_NO_INDEX
+                              for a new one; NULL: the same number. hf_weights_create: NULL */
   hf_progress progress;    /* NULL, or an object to poll and cancel through */
 } hf_joints_desc;
 
@@ -64,7 +64,8 @@ typedef struct hf_pins_desc {
   uint32_t pin_count;         /* 0 removes all pins */
   const uint32_t* vertices;   /* [pin_count] vertices as given, or NULL */
   const uint32_t* triangles;  /* [pin_count] triangles as given, or NULL */
-  const double* barycentrics; /* [pin_count][3] with triangles: weights of the corners, >= 0, of sum 1 within 1e-6 */
+  const double* barycentrics; /* [pin_count][3] with triangles, else NULL: weights of the corners, >= 0, of sum 1
+                                 within 1e-6 */
   const double* radii;        /* [pin_count] of the geodesic disc around the place, in the unit of the mesh; NULL or 0:
                                  the place alone */
   uint32_t influence_count;   /* joints of each pin, 1 to 8 */
@@ -84,15 +85,15 @@ typedef struct hf_pins_desc {
 HF_API hf_result hf_weights_set_pins(hf_weights weights, const hf_pins_desc* pins);
 
 /* Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0 unlocks.
- * values: float[vertex_count][lock_count] weights to keep, 0 to 1, or NULL for the present ones. Welded copies take the
- * values of the first. Pinned vertices keep the weights of their pins. Errors: HF_ERROR_OUT_OF_RANGE (index = entry),
- * HF_ERROR_DUPLICATE (a joint named twice; index = entry), HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (a
- * value; index = vertex). Thread safety: changes `weights`. Since 0.1. */
+ * joints: uint32_t[lock_count]. values: float[vertex_count][lock_count] weights to keep, 0 to 1, or NULL for the
+ * present ones. Welded copies take the values of the first. Pinned vertices keep the weights of their pins. Errors:
+ * HF_ERROR_OUT_OF_RANGE (index = entry), HF_ERROR_DUPLICATE (a joint named twice; index = entry), HF_ERROR_NON_FINITE
+ * and HF_ERROR_INVALID_ARGUMENT (a value; index = vertex). Thread safety: changes `weights`. Since 0.1. */
 HF_API hf_result hf_weights_set_locks(hf_weights weights, uint32_t lock_count, const uint32_t* joints,
                                       const float* values);
 
 /* How the weights of a vertex were found. */
-enum {
+enum hf_weights_origin {
   HF_WEIGHTS_INFORMED = 0, /* it sees its nearest joint */
   HF_WEIGHTS_SOLVED = 1,   /* from the vertices around it */
   HF_WEIGHTS_PINNED = 2,   /* given by a pin */
@@ -110,7 +111,7 @@ typedef struct hf_weights_out {
   uint32_t vertex_count;    /* out */
   uint32_t influence_count; /* out: joints per vertex, 4 or 8 */
   uint32_t* joints;         /* [vertex_capacity][influence_count] */
-  uint16_t* joints_u16;     /* the same in 16 bits */
+  uint16_t* joints_u16;     /* [vertex_capacity][influence_count] the same in 16 bits */
   float* weights;           /* [vertex_capacity][influence_count] descending, of sum exactly 1 */
   uint8_t* origins;         /* [vertex_capacity] HF_WEIGHTS_* */
 } hf_weights_out;
@@ -121,7 +122,7 @@ typedef struct hf_weights_out {
 HF_API hf_result hf_weights_get(hf_weights weights, hf_weights_out* inout_weights);
 
 /* Bits that say why a joint deserves a look. */
-enum {
+enum hf_joint_flag {
   HF_JOINT_NO_LENGTH = 1,    /* it is a point */
   HF_JOINT_COINCIDENT = 2,   /* it lies exactly on a joint of a lower number */
   HF_JOINT_INFORMS_NONE = 4, /* no vertex has it as its nearest joint in sight */
@@ -129,9 +130,9 @@ enum {
   HF_JOINT_HELPER = 16 /* a proposal that follows from the other flags: it looks like a helper that should not deform */
 };
 
-/* Writes what was found about each joint: flags of HF_JOINT_* and the vertices that ask for it, in uint32_t[capacity].
- * Joints that do not deform have no flags. Each array may be NULL. out_count: NULL, or receives the count of joints.
- * Thread safety: reads `weights`. Since 0.1. */
+/* Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not deform have no
+ * flags. out_flags: NULL, or uint32_t[capacity] of HF_JOINT_*. out_vertex_counts: NULL, or uint32_t[capacity].
+ * out_count: NULL, or receives the count of joints. Thread safety: reads `weights`. Since 0.1. */
 HF_API hf_result hf_weights_get_joints(hf_weights weights, uint32_t capacity, uint32_t* out_flags,
                                        uint32_t* out_vertex_counts, uint32_t* out_count);
 
@@ -164,8 +165,8 @@ typedef struct hf_weights_info {
 /* Writes the info. Thread safety: reads `weights`. Since 0.1. */
 HF_API hf_result hf_weights_get_info(hf_weights weights, hf_weights_info* out_info);
 
-/* Reasons why a joint looks like a helper: a root, a target or a control that moves no skin. Bits. */
-enum {
+/* Bits that say why a joint looks like a helper: a root, a target or a control that moves no skin. */
+enum hf_helper_reason {
   HF_HELPER_PROPOSED = 1,     /* the reasons together are enough to propose it */
   HF_HELPER_NAME_ROOT = 2,    /* its name says root, armature, master, ... */
   HF_HELPER_NAME_CONTROL = 4, /* its name says pole, target, IK, control, ... */
@@ -189,10 +190,11 @@ HF_API hf_result hf_weights_get_helpers(hf_weights weights, const char* names, u
 typedef struct hf_weights_transfer_desc {
   uint32_t struct_size;
   uint32_t source_influence_count; /* joints of each vertex in the arrays, 1 to 64 */
-  const uint32_t* joints;          /* [vertices of the source][source_influence_count] */
-  const float* weights;            /* the same, >= 0; a vertex whose weights are all 0 gives none */
-  double distance;          /* a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal */
-  double angle;             /* between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees) */
+  const uint32_t* joints;          /* [source.vertex_count][source_influence_count] */
+  const float* weights; /* [source.vertex_count][source_influence_count] >= 0; a vertex whose weights are all 0 gives
+                           none */
+  double distance;      /* a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal */
+  double angle;         /* between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees) */
   uint32_t influence_count; /* joints of each vertex in the result: 4 or 8; 0: 4 */
   uint32_t reserved;        /* 0 */
   hf_progress progress;     /* NULL, or an object to poll and cancel through */
@@ -223,21 +225,21 @@ HF_API hf_result hf_weights_transfer(hf_surface source, hf_surface target, const
                                      hf_weights_out* inout_weights, hf_weights_transfer_info* out_info);
 
 /* Which side of the plane gives its weights. */
-enum {
+enum hf_mirror_to {
   HF_MIRROR_TO_NEGATIVE = 0, /* the side that the normal points to */
   HF_MIRROR_TO_POSITIVE = 1, /* the other side */
   HF_MIRROR_BOTH = 2         /* each side takes the mean of both */
 };
 
 /* Where a plane of symmetry comes from. */
-enum {
+enum hf_mirror_plane {
   HF_MIRROR_PLANE_GIVEN = 0,
   HF_MIRROR_PLANE_JOINTS = 1, /* from joints with partners */
   HF_MIRROR_PLANE_SURFACE = 2 /* from the surface */
 };
 
 /* How a joint found its partner. */
-enum {
+enum hf_mirror_pairing {
   HF_MIRROR_JOINT_ALONE = 0,  /* it has none, and moves the other side too */
   HF_MIRROR_JOINT_NAMED = 1,  /* the names differ in the side: arm.L and arm.R, LeftArm and RightArm */
   HF_MIRROR_JOINT_PLACED = 2, /* it lies where the partner's reflection lies */
@@ -255,13 +257,13 @@ typedef struct hf_weights_mirror_desc {
   const double* plane;             /* [6] a point and a normal, or NULL: find the plane */
   uint32_t source_influence_count; /* joints of each vertex in the arrays, 1 to 64 */
   int32_t to;                      /* HF_MIRROR_* */
-  const uint32_t* joints;          /* [vertices][source_influence_count] */
-  const float* weights;            /* the same, >= 0; a vertex whose weights are all 0 gives none */
-  double distance;                 /* as in hf_weights_transfer_desc */
-  double angle;                    /* as in hf_weights_transfer_desc */
-  uint32_t influence_count;        /* joints of each vertex in the result: 4 or 8; 0: 4 */
-  uint32_t reserved;               /* 0 */
-  hf_progress progress;            /* NULL, or an object to poll and cancel through */
+  const uint32_t* joints;          /* [vertex_count][source_influence_count] */
+  const float* weights; /* [vertex_count][source_influence_count] >= 0; a vertex whose weights are all 0 gives none */
+  double distance;      /* as in hf_weights_transfer_desc */
+  double angle;         /* as in hf_weights_transfer_desc */
+  uint32_t influence_count; /* joints of each vertex in the result: 4 or 8; 0: 4 */
+  uint32_t reserved;        /* 0 */
+  hf_progress progress;     /* NULL, or an object to poll and cancel through */
 } hf_weights_mirror_desc;
 
 /* The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh. */
@@ -294,7 +296,7 @@ typedef struct hf_weights_mirror_info {
  * point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field fills in the
  * rest. The plane comes from joints with partners, else from the surface. A found normal has a positive largest
  * component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x. inout_weights: as in hf_weights_get. out_partners:
- * uint32_t [joint_count] partners, or NULL. out_pairings: uint32_t[joint_count] HF_MIRROR_JOINT_*, or NULL. out_info:
+ * uint32_t[joint_count] partners, or NULL. out_pairings: uint32_t[joint_count] HF_MIRROR_JOINT_*, or NULL. out_info:
  * NULL, or receives what was found. Errors: as hf_weights_transfer, HF_ERROR_EMPTY (no joint; no weight on the side
  * that gives), HF_ERROR_OUT_OF_RANGE (a partner, index = joint; a joint, index = vertex), HF_ERROR_INVALID_ARGUMENT
  * (names with another count of lines; a partner that has another partner, index = joint; a normal of length 0). Thread

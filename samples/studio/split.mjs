@@ -65,7 +65,7 @@ function firstMinute(hf, faults) {
   const { positions, triangles } = body(faults);
   const surface = new hf.Surface(positions, triangles, { linkPieces: true });
   const [pose, field] = [poseOf, fieldOf].map((make) => make({ hf, surface, positions }));
-  void [surface.report, surface.components, surface.statistics];
+  void [surface.report, surface.components(), surface.statistics];
 
   const place = ({ position, radius }, id) => ({ id, position, radius, ...rest });
   let handles = surface.proposeHandles().slice(0, 3).map(place);

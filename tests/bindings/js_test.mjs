@@ -92,7 +92,7 @@ assert.throws(() => new hf.Surface(square, null, { faces: { corners: [0, 1, 2, 3
 // ---- fields of a desc that an array already answers are no options: they would read or write beyond it
 const posed = new hf.Pose(surface);
 posed.addHandleAt([0, 0, 0], 1);
-for (const option of ['positionStride', 'normalStride', 'firstVertex', 'vertexCount'])
+for (const option of ['positionStride', 'normalStride'])
   assert.throws(() => posed.deform(null, { [option]: 400 }), /no option/, option);
 for (const option of ['positionStride', 'triangleStride', 'vertexCount', 'triangleCount'])
   assert.throws(() => new hf.Surface(positions, triangles, { [option]: 400 }), /no option/, option);
@@ -140,7 +140,7 @@ for (const wrongOut of [bytes, new BigInt64Array(n), new Float32Array(n + 1)])
   assert.throws(() => solver.solve(wrongOut), /out/);
 
 // ---- objects are cloned or refuse to be copied, sent and written, by name
-region.edit({ add: [0, 1, 2, 12, 13, 14] });
+region.edit({ addVertices: [0, 1, 2, 12, 13, 14] });
 for (const thing of [
   surface,
   solver,
@@ -210,8 +210,8 @@ for (let round = 0; round < 120; ++round) {
               ? thing.solve()
               : thing.deform
                 ? thing.deform()
-                : thing.distance
-                  ? thing.distance([0])
+                : thing.findPath
+                  ? thing.solve([0])
                   : thing.apply
                     ? thing.info
                     : thing.fraction,
@@ -283,34 +283,36 @@ if (global.gc) {
 
   const linked = new hf.Surface(places, triangles, { linkPieces: { distance: 0.5 } });
   assert.equal(linked.report.componentCount, 1);
-  assert.deepEqual(new Set(linked.pieces.pieces), new Set([0, 1]));
+  assert.deepEqual(new Set(linked.pieces().pieces), new Set([0, 1]));
   const opened = Float32Array.from(places, (x, i) => x + (i >= 24 && i % 3 === 2 ? 3 : 0));
-  assert.equal(linked.measureGaps(Float32Array.from(places)).worst, 0);
-  const gaps = linked.measureGaps(opened);
+  linked.measureGaps(Float32Array.from(places));
+  assert.equal(linked.gapsInfo.worst, 0);
+  assert.equal(linked.measureGaps(opened).length, linked.report.linkCount);
+  const gaps = linked.gapsInfo;
   assert.ok(gaps.worst > 1 && gaps.worst <= 3 && gaps.linkCount === linked.report.linkCount, `${gaps.worst}`);
   assert.throws(() => linked.measureGaps([0, 0, 0]), /positions must hold 48/);
   const tags = Uint32Array.from({ length: 16 }, (_, v) => Number(v > 7));
   const strangers = new hf.Surface(places, triangles, { linkPieces: { distance: 0.5 }, tags });
   assert.equal(strangers.report.componentCount, 2);
-  assert.throws(() => new hf.Surface(places, triangles, { linkPieces: true, tags: [1] }), /tags must hold one number for each of 16/);
+  assert.throws(() => new hf.Surface(places, triangles, { linkPieces: true, tags: [1] }), /tags must hold 16 numbers/);
 
   const joints = { heads: [0.2, 0.5, 0.5, 1.4, 0.5, 0.5], tails: [0.8, 0.5, 0.5, 2, 0.5, 0.5] };
   const weights = new hf.Weights(apart, joints);
-  const found = weights.weights();
+  const found = weights.get();
   assert.deepEqual([found.influenceCount, found.joints[0], found.joints[4 * 15]], [4, 0, 1]);
   for (let v = 0; v < 16; ++v) assert.ok(Math.abs(1 - found.weights.subarray(4 * v, 4 * v + 4).reduce((a, b) => a + b)) < 1e-6);
   assert.deepEqual([weights.info.jointCount, Array.from(weights.joints().flags)], [2, [0, 0]]);
   weights.record();
   weights.setPins([0], { joints: [1], weights: [1] });
-  assert.deepEqual([weights.weights().joints[0], weights.info.pinCount], [1, 1]);
+  assert.deepEqual([weights.get().joints[0], weights.info.pinCount], [1, 1]);
   weights.undo();
-  assert.equal(weights.weights().joints[0], 0);
+  assert.equal(weights.get().joints[0], 0);
   weights.setLocks([0]);
   assert.equal(weights.info.lockCount, 1);
   const copy = weights.clone();
   copy.setJoints({ heads: [0, 0, 0], tails: [1, 0, 0], sources: [0] });
   assert.deepEqual([copy.info.jointCount, weights.info.jointCount], [1, 2]);
-  assert.throws(() => new hf.Weights(apart, { heads: [0, 0] }), /three numbers/);
-  assert.throws(() => weights.setPins([0], { joints: [0, 1], weights: [1] }), /one length/);
+  assert.throws(() => new hf.Weights(apart, { heads: [0, 0] }), /heads must hold 3 numbers for each/);
+  assert.throws(() => weights.setPins([0], { joints: [0, 1], weights: [1] }), /weights must hold 2 numbers/);
   console.log(`${hf.backend}: reports of calls, links and weights`);
 }

@@ -51,10 +51,10 @@ async function race(kind, calls, seed, shared) {
             () =>
               thing.deform
                 ? thing.deform()
-                : thing.distance
-                  ? thing.distance([0])
+                : thing.findPath
+                  ? thing.solve([0])
                   : thing.edit
-                    ? thing.edit({ add: [pick(n)] })
+                    ? thing.edit({ addVertices: [pick(n)] })
                     : thing.addSites
                       ? thing.addSites([0], [1, 0, 0])
                       : thing.trace(field, { wantedCount: 2 }),

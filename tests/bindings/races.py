@@ -46,9 +46,9 @@ class Race:
                                 lambda: thing.remove_sites([0]), lambda: thing.clone().solve(), lambda: thing.record(),
                                 lambda: thing.undo(), lambda: thing.sites(), lambda: thing.site_count))()
         return {hf.Pose: thing.deform if kind is hf.Pose else None,
-                hf.Geodesics: (lambda: thing.distance([0])), hf.Region: (lambda: thing.edit(add=[draw.randrange(N)])),
+                hf.Geodesics: (lambda: thing.solve([0])), hf.Region: (lambda: thing.edit(add_vertices=[draw.randrange(N)])),
                 hf.Direction: (lambda: thing.add_sites([0], [[1, 0, 0]])),
-                hf.Flow: (lambda: thing.trace(POSITIONS[:, 1].copy(), 2))}[kind]()
+                hf.Flow: (lambda: thing.trace(POSITIONS[:, 1].copy(), wanted_count=2))}[kind]()
 
     def step(self, draw):
         at, action = draw.randrange(len(self.slots)), draw.random()

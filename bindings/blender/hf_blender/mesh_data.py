@@ -177,7 +177,7 @@ def quads_object(obj):
 
 
 def write_quads(mesh, quads):
-    """A quad mesh (hf.QuadMesh) in place of what a mesh holds. Materials stay, and shading where all faces share it."""
+    """A quad mesh (hf.QuadsMesh) in place of what a mesh holds. Materials stay, and shading where all faces share it."""
     first = mesh.polygons[0] if len(mesh.polygons) else None
     smooth, material = (first.use_smooth, first.material_index) if first else (False, 0)
     count = len(quads.faces)

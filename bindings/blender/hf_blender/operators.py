@@ -219,7 +219,7 @@ class HF_OT_field(bpy.types.Operator):
             found.sync(obj)
             if carrier is None or carrier["hf_id"] not in found.numbers:
                 raise hf.NotFoundError("make a handle the active object, or name two vertex groups")
-            values = found.pose.handle_field(found.numbers[carrier["hf_id"]])
+            values = found.pose.field(found.numbers[carrier["hf_id"]])
         (mesh_data.write_group if self.output == "GROUP" else mesh_data.write_colour)(obj, self.name, values)
 
 
@@ -373,8 +373,9 @@ class HF_OT_mirror_weights(bpy.types.Operator):
         obj = context.active_object
         if obj is None or obj.type != "MESH":
             raise hf.InvalidArgumentError("select a mesh object")
-        found = skinning.mirror(obj, hf.MirrorTo[self.to], 4, context.window_manager)
-        self.report({"INFO"}, f"{found.info.matched_count} vertices mirrored, {found.info.alone_count} bones alone")
+        to = hf.MirrorTo.BOTH if self.to == "BOTH" else hf.MirrorTo[f"TO_{self.to}"]
+        info = skinning.mirror(obj, to, 4, context.window_manager)
+        self.report({"INFO"}, f"{info.matched_count} vertices mirrored, {info.alone_count} bones alone")
 
 
 OPERATORS = (HF_OT_bind, HF_OT_unbind, HF_OT_add_handle, HF_OT_add_groups, HF_OT_add_bones, HF_OT_propose, HF_OT_remove_handle,

@@ -27,7 +27,7 @@ def write_skin(obj, skin, name):
     for group in [g for g in obj.vertex_groups if g.name in names]:
         obj.vertex_groups.remove(group)
     groups = [obj.vertex_groups.new(name=n) for n in names]
-    for vertex, (joints, weights) in enumerate(zip(skin.joints, skin.weights)):
+    for vertex, (joints, weights) in enumerate(zip(skin.vertex_joints, skin.vertex_weights)):
         for joint, weight in zip(joints, weights):
             if weight > 0:
                 groups[joint].add([vertex], float(weight), "REPLACE")
@@ -52,8 +52,8 @@ def pose_bones(armature, skin, frame=None):
 
 
 # Words of a group's name in square brackets say what a pair is: "hf hoof left [foot]", "hf rump [trunk anchor]".
-KINDS = {"foot": hf.Pair.FOOT, "trunk": hf.Pair.TRUNK, "anchor": hf.Pair.ANCHOR, "contact": hf.Pair.CONTACT,
-    "sinks": hf.Pair.SINKS, "neck": hf.Pair.NECK, "tail": hf.Pair.TAIL, "arm": hf.Pair.ARM}
+KINDS = {"foot": hf.PairFlag.FOOT, "trunk": hf.PairFlag.TRUNK, "anchor": hf.PairFlag.ANCHOR, "contact": hf.PairFlag.CONTACT,
+    "sinks": hf.PairFlag.SINKS, "neck": hf.PairFlag.NECK, "tail": hf.PairFlag.TAIL, "arm": hf.PairFlag.ARM}
 
 
 def flags_of(name):
@@ -61,7 +61,7 @@ def flags_of(name):
     unknown = [word for word in inside.split() if word not in KINDS]
     if unknown:
         raise hf.InvalidArgumentError(f"group '{name}': '{unknown[0]}' is none of {', '.join(KINDS)}")
-    flags = hf.Pair.NONE
+    flags = hf.PairFlag.NONE
     for word in inside.split():
         flags |= KINDS[word]
     return int(flags)

@@ -77,7 +77,7 @@ class Session:
         begin = time.perf_counter()
         self.rest = rest_of(mesh)
         self.surface = make_surface(self.rest, faces_of(mesh), window_manager, meanwhile, link_pieces=True)
-        self.light = self.surface.pieces[1]
+        self.light = self.surface.pieces()[1]
         self.info = hf.DeformInfo()
         self.remarks = []  # sentences for the panel
         self.pose = hf.Pose(self.surface)
@@ -114,7 +114,8 @@ class Session:
         out, diagonal = [], self.surface.report.bounding_box_diagonal or 1.0
         if self.info.unreached_vertex_count:
             out.append(f"{self.info.unreached_vertex_count} vertices are reached by no handle and stay at rest")
-        gaps = self.surface.measure_gaps(self.posed)
+        gaps = hf.GapsInfo()
+        self.surface.measure_gaps(self.posed, info=gaps)
         if gaps.link_count and gaps.worst > GAP_SAID * diagonal:
             out.append(f"Gap between pieces: {100 * gaps.worst / diagonal:.1f} % of the box at worst")
         for carrier in found.values():

@@ -142,8 +142,8 @@ def describe(info, helpers):
 
 def pin(obj, skin, places):
     """Weights with these pins, into the groups."""
-    skin.weights.set_pins(list(places), [[b] for b in places.values()], [[1.0]] * len(places))
-    found = skin.weights.weights()
+    skin.weights.set_pins(list(places), joints=[[b] for b in places.values()] or None, weights=[[1.0]] * len(places) or None)
+    found = skin.weights.get()
     write_groups(obj, skin.names, found.joints, found.weights, skin.rows)
     skin.places, skin.rows = places, (found.joints, found.weights)
 
@@ -193,7 +193,7 @@ def weights_from_bones(obj, armature, count=4, window_manager=None):
         values /= np.maximum(values.sum(1, keepdims=True), 1)
         weights.set_locks([number[n] for n in locked], values)
     pin(obj, skin, places)
-    info, reasons = weights.info(), weights.helpers(names)
+    info, reasons = weights.info, weights.helpers(names)
     if not any(m.type == "ARMATURE" and m.object == armature for m in obj.modifiers):
         obj.modifiers.new(armature.name, "ARMATURE").object = armature
     helpers = [n for n, r in zip(names, reasons) if r & hf.HelperReason.PROPOSED]
@@ -212,7 +212,8 @@ def carry(source, target, count=4, distance=0.0, window_manager=None):
     points = positions_of(source.data).astype(np.float64) @ to_target[:3, :3].T + to_target[:3, 3]
     with make_surface(points.astype(np.float32), faces_of(source.data), window_manager) as first:
         with make_surface(positions_of(target.data), faces_of(target.data), window_manager) as second:
-            found, info = hf.transfer_weights(first, joints, weights, second, distance=distance, influence_count=count)
+            info = hf.WeightsTransferInfo()
+            found = hf.Weights.transfer(first, second, joints, weights, distance=distance, influence_count=count, info=info)
     write_groups(target, names, found.joints, found.weights)
     if armature is not None and armature_of(target) is None:
         target.modifiers.new(armature.name, "ARMATURE").object = armature
@@ -236,13 +237,14 @@ def mirror(obj, to, count=4, window_manager=None):
     joints, weights = group_weights(obj, names)
     ends = bone_ends(obj, armature, bones)
     with make_surface(positions_of(obj.data), faces_of(obj.data), window_manager) as surface:
-        found = hf.mirror_weights(surface, joints, weights, ends[:, 0], names=names, to=to, influence_count=count)
-    write_groups(obj, names, found.weights.joints, found.weights.weights)
-    info = found.info
-    alone = [n for n, p in zip(names, found.pairings) if p == hf.Pairing.ALONE]
+        info = hf.WeightsMirrorInfo()
+        found, _, pairings = hf.Weights.mirror(surface, ends[:, 0], names, joints=joints, weights=weights, to=to, influence_count=count,
+            info=info)
+    write_groups(obj, names, found.joints, found.weights)
+    alone = [n for n, p in zip(names, pairings) if p == hf.MirrorPairing.ALONE]
     note = [f"mirrored: {info.named_count} bones paired by name, {info.placed_count} by place, {info.centre_count} in the middle",
             f"{info.matched_count} vertices matched, {info.solved_count} filled in, farthest {info.worst_vertex_off:.3g} off"]
     if alone:
         note.append("without a partner: " + ", ".join(alone[:4]) + (f" and {len(alone) - 4} more" if len(alone) > 4 else ""))
     note_on(obj, note)
-    return found
+    return info

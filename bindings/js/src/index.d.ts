@@ -1,5 +1,5 @@
-// Types of hf-fields: the same for the native and the WebAssembly backend. The C headers (include/hf) are the
-// reference.
+// Generated from include/hf/*.h by bindings/generate; do not edit. Types of hf-fields: the same for the native and the
+// WebAssembly backend.
 type Numbers = ArrayLike<number>;
 type Rows = Numbers | ReadonlyArray<Numbers>;
 type Floats = Float32Array | Float64Array;
@@ -13,509 +13,2262 @@ export class HfError extends Error {
   functionName: string;
 }
 
+/** A vertex, or three corners of a triangle and their weights, such as a hit. */
+export type Place = number | { corners: Numbers; barycentrics: Numbers };
+
 export interface Handle {
   readonly closed: boolean;
-  /**
-   * Gives the memory back; later calls do nothing. Objects may be closed in any order, or left to the garbage
-   * collector.
-   */
+  /** Gives the memory back; later calls do nothing. Objects may be closed in any order, or left to the garbage collector. */
   close(): void;
 }
 
-export interface SurfaceOptions {
-  weld?: number;
-  weldTolerance?: number;
-  operatorKind?: number;
-  /** The factor made at once; others are made when a solver or region asks. */
-  fieldKind?: number;
-  ordering?: number;
-  threadCount?: number;
-  vertexLimit?: number;
-  triangleLimit?: number;
-  memoryLimitMb?: number;
+/** Undo on clones: a record is a clone and shares memory with the object. */
+export interface Recorded extends Handle {
+  /** Keeps the present state for undo(). */
+  record(): void;
+  /** Goes back to the last record, bit for bit. Without one it throws HF_ERROR_EMPTY. */
+  undo(): void;
+  /** Goes to the state before the last undo(). Without one since the last record() it throws HF_ERROR_EMPTY. */
+  redo(): void;
+}
+
+/** What Surface takes beyond its options in the header. */
+export interface SurfaceExtras {
   /** Faces instead of triangles. Starts without sizes are offsets, one more than there are faces. */
   faces?: { starts?: Numbers | null; sizes?: Numbers | null; corners: Numbers } | null;
-  /** Joins the pieces of a character by links, so that fields and poses span them; with options of hf_links_desc. */
+  /** Joins the pieces of a character by links, so that fields and poses span them. */
   linkPieces?: boolean | number | { distance?: number; stiffness?: number; overlayDistance?: number };
   /** With linkPieces: a number per vertex. Pieces of different tags stay apart. */
   tags?: Numbers | null;
-  savedFactor?: Uint8Array | null;
-  progress?: Progress | null;
 }
-export interface GraphOptions {
-  /** 1: weights may be below 0, if the matrix stays positive semi-definite. */
-  allowNegative?: number;
-  masses?: Floats | Numbers | null;
-  fieldKind?: number;
-  ordering?: number;
-  threadCount?: number;
-  vertexLimit?: number;
-  edgeLimit?: number;
-  memoryLimitMb?: number;
-  savedFactor?: Uint8Array | null;
-  progress?: Progress | null;
-}
-export interface SolverOptions {
-  fieldKind?: number;
-  engine?: number;
-  channelCount?: number;
-  siteLimit?: number;
-  penalty?: number;
-  progress?: Progress | null;
-}
-/** The first triangle or face on a ray: corners and weights are a site, the vertex is the corner nearest to the hit. */
-export interface Hit {
-  triangle: number;
+
+/** A spring from a vertex to a point of a triangle. Surface.links writes it, hf_links_desc reads it. */
+export interface Link {
+  /** as given, of welded copies the first */
   vertex: number;
-  corners: [number, number, number];
-  barycentrics: [number, number, number];
-  position: [number, number, number];
-  distance: number;
-}
-/** A vertex, or three corners of a triangle and their weights, such as a hit. */
-export type Place = number | { corners: Numbers; barycentrics: Numbers };
-export interface SiteOptions {
-  stiffness?: Numbers | null;
-  radii?: Numbers | null;
-  triangles?: Numbers | null;
-  barycentrics?: Rows | null;
-  /** Three vertices of one face for each site, as a Hit has them. */
-  corners?: Numbers | null;
-}
-export interface Edit {
-  remove?: Numbers;
-  move?: Numbers;
-  moveTo?: Numbers | null;
-  set?: Numbers;
-  setValues?: Numbers | null;
-  add?: Numbers | null;
-  addValues?: Numbers | null;
-}
-export interface Isolines {
-  positions: Float64Array;
-  pointEdges: Uint32Array;
-  parameters: Float64Array;
-  lineStarts: Uint32Array;
-  lineLevels: Uint32Array;
-  lineClosed: Int32Array;
-}
-export interface Skin {
-  jointCount: number;
-  pivots: Float64Array;
-  rotations: Float64Array;
-  translations: Float64Array;
-  joints: Uint32Array;
-  weights: Float32Array;
+  /** the triangle; a corner of barycentric 0 is ignored and can be constants.HF_NO_INDEX */
+  corners: number[];
+  /** >= 0, of sum 1 within 1e-3. 1, 0, 0 links two vertices */
+  barycentrics: number[];
+  /** at rest, in the unit of the positions. Ignored when read */
+  length: number;
+  /** 1: as strong as an edge between two equilateral triangles; > 0 */
+  weight: number;
+  /** 1: the tree over the pieces has it. Ignored when read */
+  inTree: number;
 }
 
-export interface Progress extends Handle {
-  readonly fraction: number;
-  cancel(): void;
-}
-
-/** A mesh, welded, checked, ordered and factorised once. Solvers, poses and the rest are made on it. */
-export interface Surface extends Handle {
-  readonly vertexCount: number;
-  readonly info: Record<string, number>;
-  readonly report: Record<string, number>;
-  readonly statistics: Record<string, number>;
-  readonly components: Uint32Array;
-  /** The piece of every vertex (HF_NO_INDEX for isolated ones), and 1 for each vertex of a light piece. */
-  readonly pieces: { pieces: Uint32Array; light: Int32Array };
-  /** The factor of one kind of field as bytes, for the option savedFactor. */
-  save(fieldKind?: number): Uint8Array;
-  /** The first triangle on a ray, or null. `positions`: a pose of the surface, null for the rest positions. */
-  castRay(
-    origin: Numbers,
-    direction: Numbers,
-    options?: { positions?: Numbers | null; frontOnly?: boolean },
-  ): Hit | null;
-  /** The vertex nearest to a point, and its distance. */
-  findVertex(point: Numbers, options?: { positions?: Numbers | null }): { vertex: number; distance: number };
-  spaceLevels(field: Numbers, levelCount: number, spacing?: number): Float64Array;
-  traceIsolines(field: Numbers, levels: Numbers): Isolines;
-  findCriticalPoints(
-    field: Numbers,
-  ): { vertex: number; kind: number; index: number; component: number; value: number }[];
-  findExtremities(options?: {
-    kind?: number;
-    leastLengthShare?: number;
-    sourceCount?: number;
-    geodesics?: Geodesics | null;
-    progress?: Progress | null;
-  }): { vertex: number; component: number; length: number; position: number[] }[];
-  /** Places for handles, pinned ones first; reason is one of HF_HANDLE_REASON_*. */
-  proposeHandles(options?: { leastLengthShare?: number; limit?: number; progress?: Progress | null }): {
-    vertex: number;
-    component: number;
-    reason: number;
-    pinned: number;
-    joint: number;
-    position: number[];
-    radius: number;
-    length: number;
-  }[];
-}
-
-/** Sites on a surface, and the smooth field through them. */
-export interface Solver extends Handle {
-  readonly vertexCount: number;
-  readonly channelCount: number;
-  readonly info: Record<string, number>;
-  readonly statistics: Record<string, number>;
-  readonly siteCount: number;
-  /** What the last solve or solveVectors told: components and vertices that no site reaches. */
-  readonly solveInfo: Record<string, number>;
-  /** What the last solvePreview told: the error estimate, and components that no site reaches. */
-  readonly previewInfo: Record<string, number>;
-  clone(): Solver;
-  addSites(vertices: Numbers | null, values: Rows | null, options?: SiteOptions): Uint32Array;
-  /** One hard site; values: a number, or one for each channel. */
-  addSite(vertex: number, values?: number | Numbers | null): number;
-  removeSites(sites: Numbers): void;
-  moveSites(sites: Numbers, vertices: Numbers | null, options?: SiteOptions): void;
-  setValues(sites: Numbers, values: Rows): void;
-  editSites(edit: Edit): Uint32Array;
-  sites(): {
-    sites: Uint32Array;
-    vertices: Uint32Array;
-    components: Uint32Array;
-    values: Float64Array;
-    stiffness: Float64Array;
-    flux: Float64Array;
-    radii: Float64Array;
-  };
-  record(): void;
-  undo(): void;
-  redo(): void;
-  prepareRebase(): void;
-  /** vertexCount * channelCount numbers, into `out` when given. */
-  solve<T extends Floats = Float32Array>(out?: T | null, Type?: FloatsType): T;
-  solvePreview<T extends Floats = Float32Array>(
-    out?: T | null,
-    options?: { correctionCount?: number; Type?: FloatsType },
-  ): T;
-  solveAt(vertices: Numbers): Float64Array;
-  solveVectors<T extends Floats = Float32Array>(out?: T | null, Type?: FloatsType): T;
-  certify(options?: { tolerance?: number }): Record<string, number>;
-  releasePreview(): void;
-  moveVectors(sites: Numbers, vertices: Numbers): void;
-  rotateVectors(sites: Numbers, angles: Numbers): void;
-}
-
-export interface Geodesics extends Handle {
-  distance<T extends Floats = Float32Array>(sources: Numbers, out?: T | null, Type?: FloatsType): T;
-  /** The shortest path between two places: xyz of its corners; empty where none leads. */
-  path(from: Place, to: Place): Float64Array;
-  /** The surface around a place laid out in a plane: two coordinates per vertex; NaN beyond the radius (0: no bound). */
-  map(centre: Place, radius?: number, out?: Float64Array): Float64Array;
-}
-
-export interface QuadMesh {
-  positions: Float64Array;
-  /** Four vertices for each quad, counter-clockwise. */
-  faces: Uint32Array;
-  triangles: Uint32Array;
-  barycentrics: Float64Array;
-  /** Three vertices for each vertex of the quad mesh: those that barycentrics belong to. */
-  corners: Uint32Array;
-}
-export interface Streamlines {
-  positions: Float64Array;
-  values: Float64Array;
-  lineStarts: Uint32Array;
-  lineEnds: Uint32Array;
-}
-
-export interface QuadOptions {
-  faceCount?: number;
-  edgeLength?: number;
-  relaxCount?: number;
-  creaseAngle?: number;
-  creaseEdges?: Numbers | null;
-  guideVertices?: Numbers | null;
-  guideVectors?: Numbers | null;
-  guideWeights?: Numbers | null;
-  /** Irregular vertices at places that the user drags: three numbers each. */
-  irregularPoints?: Numbers | null;
-  /** How many quads meet at each irregular vertex: 3 or 5. */
-  irregularValences?: Numbers | null;
-  /** Three numbers each: one side of the irregular vertex runs along them. 0, 0, 0 is any direction. */
-  irregularDirections?: Numbers | null;
-  symmetryPlane?: Numbers | null;
-  progress?: Progress | null;
-}
-
-export interface Quads extends Handle {
-  readonly info: Record<string, number>;
-  /**
-   * Makes the mesh again: for strokes, creases and poles that the user drags. Options that are left out are the
-   * defaults. After an error the mesh is what it was.
-   */
-  update(options?: QuadOptions): void;
-  /** Face i has the corners faces[4 * i] to faces[4 * i + 3], counter-clockwise. */
-  mesh(): QuadMesh;
-}
-
-export interface Region extends Handle {
-  readonly info: Record<string, number>;
-  clone(): Region;
-  /** One edit: what a closed curve encloses; rings more or less; vertices added and removed. */
-  edit(edit: {
-    curve?: Numbers | null;
-    side?: number;
-    seedVertex?: number;
-    /** HF_CURVE_STRAIGHT (the default) or HF_CURVE_EDGES. */
-    curveKind?: number;
-    rings?: number;
-    add?: Numbers | null;
-    remove?: Numbers | null;
-    progress?: Progress | null;
-  }): void;
-  record(): void;
-  undo(): void;
-  redo(): void;
-  /** HF_REGION_INSIDE, HF_REGION_RIM or HF_REGION_SITES. */
-  vertices(list?: number): Uint32Array;
-  /** xyz of the corners of the last closed curve; the last is joined to the first. */
-  curve(): Float64Array;
-  /** 0: the surface, 1: its base without detail. */
-  morph<T extends Floats = Float32Array>(
-    weight: number,
-    out?: T | null,
-    options?: { normals?: Float32Array | null; Type?: FloatsType },
-  ): T;
-}
-
-export interface Detail extends Handle {
-  /** 0: the target's smooth base, 1: with the source's detail. */
-  morph<T extends Floats = Float32Array>(
-    weight: number,
-    out?: T | null,
-    options?: { normals?: Float32Array | null; Type?: FloatsType },
-  ): T;
-}
-
-export interface Flow extends Handle {
-  /**
-   * wantedCount lines of equal flux from the minima of a field, or one through every seed vertex; values rise along
-   * each.
-   */
-  trace(field: Numbers, options?: { wantedCount?: number; seeds?: Numbers | null }): Streamlines;
-}
-
-export interface Direction extends Handle {
-  readonly siteCount: number;
-  /** What the last solve told: components and vertices that no site reaches. */
-  readonly solveInfo: Record<string, number>;
-  clone(): Direction;
-  record(): void;
-  undo(): void;
-  redo(): void;
-  sites(): { sites: Uint32Array; vertices: Uint32Array; vectors: Float64Array };
-  readonly statistics: Record<string, number>;
-  addSites(vertices: Numbers, vectors: Rows): Uint32Array;
-  removeSites(sites: Numbers): void;
-  moveSites(sites: Numbers, vertices: Numbers): void;
-  setVectors(sites: Numbers, vectors: Rows): void;
-  rotateSites(sites: Numbers, angles: Numbers): void;
-  solve<T extends Floats = Float32Array>(out?: T | null, Type?: FloatsType): T;
-  singularities(): { triangle: number; vertex: number; index: number }[];
-}
-
-export interface Pose extends Handle {
-  readonly vertexCount: number;
-  readonly info: Record<string, number>;
-  readonly handleCount: number;
-  /** What the last deform told: vertices that no handle reaches, iterations, clusters, milliseconds. */
-  readonly deformInfo: Record<string, number>;
-  clone(): Pose;
-  /** inPlace: the handles start where the posed surface stands, not at rest; handleInfo says where. */
-  addHandles(
-    regions: ReadonlyArray<Numbers> | null,
-    options?: { points?: Rows | null; radii?: Numbers | null; layer?: number; inPlace?: boolean },
-  ): Uint32Array;
-  /** One handle on layer 0: what is edge-connected within `radius` of a point at rest. */
-  addHandleAt(point: Numbers, radius: number): number;
-  removeHandles(handles: Numbers): void;
-  /** Quaternions x, y, z, w and translations, flat; about the handles' centroids. */
-  setTransforms(handles: Numbers, motion: { rotations?: Rows | null; translations?: Rows | null }): void;
-  /** One handle: a quaternion x, y, z, w and a translation. */
-  setTransform(handle: number, motion: { rotation?: Numbers | null; translation?: Numbers | null }): void;
-  /** 4 x 4, column by column. */
-  setMatrices(handles: Numbers, matrices: Rows): void;
-  handleInfo(handle: number): Record<string, any>;
-  handleField(handle: number, out?: Float32Array | null): Float32Array;
-  deform<T extends Floats = Float32Array>(
-    out?: T | null,
-    options?: {
-      normals?: Float32Array | null;
-      Type?: FloatsType;
-      iterationCount?: number;
-      restart?: number;
-      refine?: number;
-      refineFromLast?: number;
-    },
-  ): T;
-  skin(influenceCount?: number): Skin;
-}
-
-export interface Transfer extends Handle {
-  readonly info: Record<string, number>;
-  addPairs(
-    sourceRegions: ReadonlyArray<Numbers>,
-    targetRegions: ReadonlyArray<Numbers>,
-    flags?: Numbers | null,
-  ): Uint32Array;
-  removePairs(pairs: Numbers): void;
-  pairInfo(pair: number): Record<string, number>;
-  apply<T extends Floats = Float32Array>(
-    sourcePositions: Floats,
-    out?: T | null,
-    options?: { normals?: Float32Array | null; Type?: FloatsType; holds?: Numbers | null; holdPositions?: Rows | null },
-  ): T;
-  skin(influenceCount?: number): Skin;
-}
-
-/** Skin weights of a surface for a skeleton. */
-export interface Weights extends Handle {
-  readonly info: Record<string, number>;
-  clone(): Weights;
-  record(): void;
-  undo(): void;
-  redo(): void;
-  setJoints(joints: Joints): void;
-  /** Places with given weights: `joints` and `weights` hold as many numbers for each. Replaces all pins. */
-  setPins(
-    vertices: Numbers | null,
-    pins?: { joints?: Numbers; weights?: Numbers; radii?: Numbers | null; progress?: Progress | null },
-  ): void;
-  /** Replaces all locks; values: a number for each vertex and lock, or null for the present ones. */
-  setLocks(joints: Numbers, values?: Float32Array | null): void;
-  /** origins: HF_WEIGHTS_* of each vertex. */
-  weights(): VertexWeights;
-  /** flags: bits HF_JOINT_* of each joint; vertexCounts: vertices that ask for it. */
-  joints(): { flags: Uint32Array; vertexCounts: Uint32Array };
-  /** Bits HF_HELPER_* of each joint: why it looks like a helper. names: of the joints, or null. */
-  helpers(names?: string[] | null): Uint32Array;
-}
-export interface VertexWeights {
-  influenceCount: number;
-  joints: Uint32Array;
-  weights: Float32Array;
-  origins: Uint8Array;
-}
-/** As many numbers for each vertex in both. */
-export interface GivenWeights {
-  joints: Numbers;
-  weights: Numbers | Float32Array;
-}
-/** distance and angle (radians): how near a point and its normal must be; 0: the library's own. */
-export interface WeightTransferOptions {
-  distance?: number;
-  angle?: number;
-  influenceCount?: number;
-  progress?: Progress | null;
-}
-/** partners: HF_NO_INDEX: find it. plane: a point and a normal; null: find it. to: HF_MIRROR_*. */
-export interface MirrorOptions extends WeightTransferOptions {
-  names?: string[] | null;
-  partners?: Numbers | null;
-  plane?: Numbers | null;
-  to?: number;
-}
-export interface Joints {
-  heads: Rows;
-  tails?: Rows | null;
-  axes?: Rows | null;
-  parents?: Numbers | null;
-  deforms?: Numbers | null;
-  sources?: Numbers | null;
-  progress?: Progress | null;
-}
-
-export interface Hf {
-  /** `triangles` as Uint16Array or Uint32Array are read in place. */
-  readonly Surface: {
-    new (positions: Floats | Numbers, triangles: Numbers | null, options?: SurfaceOptions): Surface;
-    /** A surface of a graph: two vertices for each edge, and its weight. */
-    fromGraph(vertexCount: number, edges: Numbers, weights: Floats | Numbers, options?: GraphOptions): Surface;
-  };
-  readonly Solver: new (surface: Surface, options?: SolverOptions) => Solver;
-  readonly Pose: new (
-    surface: Surface,
-    options?: {
-      mode?: number;
-      bandCount?: number;
-      iterationCount?: number;
-      rimSiteCount?: number;
-      groupCount?: number;
-    },
-  ) => Pose;
-  readonly Transfer: new (
-    source: Surface,
-    target: Surface,
-    options?: {
-      mode?: number;
-      clusterCount?: number;
-      kernelWidth?: number;
-      scale?: number;
-      alignmentAngle?: number;
-      ground?: number;
-      sourceAxes?: Numbers;
-      targetAxes?: Numbers;
-    },
-  ) => Transfer;
-  readonly Geodesics: new (surface: Surface, options?: { smoothing?: number; method?: number; progress?: Progress | null }) => Geodesics;
-  readonly Direction: new (
-    surface: Surface,
-    options?: { degree?: number; siteLimit?: number; progress?: Progress | null },
-  ) => Direction;
-  readonly Quads: new (surface: Surface, options?: QuadOptions) => Quads;
-  readonly Flow: new (surface: Surface) => Flow;
-  /** `positions`: a pose to work on, null for the rest positions. `base`: HF_BASE_*. */
-  readonly Region: new (
-    surface: Surface,
-    options?: { positions?: Floats | Numbers | null; base?: number; progress?: Progress | null },
-  ) => Region;
-  readonly Detail: new (
-    source: Region,
-    target: Region,
-    options?: {
-      sourceVertices?: Numbers | null;
-      targetVertices?: Numbers | null;
-      scale?: number;
-      progress?: Progress | null;
-    },
-  ) => Detail;
-  readonly Weights: new (surface: Surface, joints: Joints, options?: { influenceCount?: number }) => Weights;
-  /** Carries weights to another surface: clothes, levels of detail. */
-  transferWeights(
-    source: Surface,
-    given: GivenWeights,
-    target: Surface,
-    options?: WeightTransferOptions,
-  ): VertexWeights & { info: Record<string, number> };
-  /** Mirrors weights of one side to the other. heads: three numbers for each joint. */
-  mirrorWeights(
-    surface: Surface,
-    given: GivenWeights,
-    heads: Rows,
-    options?: MirrorOptions,
-  ): VertexWeights & { partners: Uint32Array; pairings: Uint32Array; info: Record<string, unknown> };
-  readonly Progress: new () => Progress;
-  readonly HfError: typeof HfError;
-  readonly constants: Readonly<Record<string, number>>;
-  readonly backend: 'native' | 'wasm';
-  readonly version: [number, number, number];
+/** The options a surface was made with, defaults filled in. */
+export interface SurfaceInfo {
+  /** as given */
+  vertexCount: number;
+  /** as given; of faces, the triangles of their cut */
+  triangleCount: number;
+  /** HF_WELD_* */
+  weld: number;
+  weldTolerance: number;
+  /** HF_OPERATOR_* */
+  operatorKind: number;
+  /** HF_FIELD_* */
+  fieldKind: number;
+  /** HF_ORDERING_* */
+  ordering: number;
+  threadCount: number;
+  vertexLimit: number;
+  /** 0: eight per vertex of the vertex limit */
+  triangleLimit: number;
+  /** 0: none */
+  memoryLimitMb: number;
+  workLimitGflop: number;
+  /** as given to Surface.fromGraph; 0 for a mesh */
+  edgeCount: number;
+  /** of a graph, 0: sixteen per vertex of the vertex limit */
+  edgeLimit: number;
+  /** as given; 0 where triangles were given */
+  faceCount: number;
+  /** as given */
+  cornerCount: number;
 }
 
 /**
- * Loads the library. Native: `library` is a path. WebAssembly: `factory` and `wasmBinary` instead of the files in
- * dist/.
+ * Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are 0.
+ * Where faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces. Degenerate
+ * triangles, negative edges and the smallest angle are of the cut.
  */
+export interface SurfaceReport {
+  /** as given */
+  vertexCount: number;
+  /** as given; of faces, the triangles of their cut */
+  triangleCount: number;
+  /** after welding */
+  weldedVertexCount: number;
+  /** connected components with at least one triangle (or edge), after welding; linked pieces are one component */
+  componentCount: number;
+  /** given vertices in no usable triangle (or edge); fields are 0 there */
+  isolatedVertexCount: number;
+  /** zero area to working precision */
+  degenerateTriangleCount: number;
+  /** equal corners after welding, or on a line and joining nothing; left out */
+  collapsedTriangleCount: number;
+  /** the same corners again after welding, in either direction; they do not count in the edges below */
+  duplicateTriangleCount: number;
+  /** edges of three or more triangles */
+  nonManifoldEdgeCount: number;
+  /** edges that two triangles run through in the same direction */
+  flippedEdgeCount: number;
+  boundaryEdgeCount: number;
+  /** edges of negative cotangent weight, before any clamping */
+  negativeEdgeCount: number;
+  /** radians, over the usable triangles */
+  smallestAngle: number;
+  /** in the unit of the positions, without isolated vertices */
+  boundingBoxDiagonal: number;
+  /**
+   * welded vertices with a weight that is not the mesh's, in the operator of field_kind: of triangles too thin for
+   * it, or cut to the digits that there are. A certificate holds for the weights used; near such vertices the
+   * field may be another's
+   */
+  changedVertexCount: number;
+  /** the first of them, as given; constants.HF_NO_INDEX without one */
+  firstChangedVertex: number;
+  /** edge-connected pieces, linked or not */
+  pieceCount: number;
+  /** Surface.links writes them */
+  linkCount: number;
+  lightPieceCount: number;
+  /** pieces without a link, if there are several */
+  lonePieceCount: number;
+  /** of the tree over the pieces, in the unit of the positions */
+  longestTreeLink: number;
+  /** as given; 0 where triangles were given */
+  faceCount: number;
+  /** faces of more than three corners */
+  polygonCount: number;
+  /** polygons with a corner farther than 1 % of their diameter from their mean plane */
+  nonPlanarCount: number;
+  /** corners of the largest face */
+  largestFace: number;
+  /**
+   * closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The inner wall of a hollow
+   * body is one too. Fields do not change; what uses normals does
+   */
+  insideOutCount: number;
+  /** the first vertex of one, as given; constants.HF_NO_INDEX without one */
+  firstInsideOutVertex: number;
+}
+
+/** How far linked pieces have opened, in the unit of the positions. */
+export interface GapsInfo {
+  linkCount: number;
+  /** 95 of 100 links opened no more than this; 0 without links */
+  percentile95: number;
+  worst: number;
+  /** its number in Surface.links; constants.HF_NO_INDEX without links */
+  worstLink: number;
+}
+
+/**
+ * Surface.statistics writes sizes and times of a surface here. Times are in milliseconds. Bytes are doubles (exact
+ * to 2^53).
+ */
+export interface SurfaceStatistics {
+  /** size of the factored matrix */
+  unknownCount: number;
+  weldMs: number;
+  operatorMs: number;
+  orderingMs: number;
+  symbolicMs: number;
+  numericMs: number;
+  /** non-zeros of the Cholesky factor */
+  factorEntries: number;
+  /** memory of the stored factor with its indices */
+  factorBytes: number;
+  factorFlops: number;
+  /**
+   * in use by this surface and everything made on it, and up to 16 work buffers of a field each that calls leave
+   * for the next, refused calls too
+   */
+  memoryBytes: number;
+  peakMemoryBytes: number;
+  /** to load a saved factor; the times to make it are then 0 */
+  loadMs: number;
+  /** 1: the factor was loaded */
+  factorLoaded: number;
+  /** 1: its numbers are read in place; factor_bytes counts them, memory_bytes does not */
+  factorBorrowed: number;
+  /** to find the links; operator_ms counts them too */
+  linksMs: number;
+}
+
+/** Surface.castRay writes the first triangle that a ray hits here. */
+export interface Hit {
+  /** 1: a triangle was hit; 0: none, and all else is 0 or constants.HF_NO_INDEX */
+  found: number;
+  /** or face, as given */
+  triangle: number;
+  /** its corner nearest to the hit, as given, of welded copies the first */
+  vertex: number;
+  /** weights of `corners`, of sum 1: a site for Solver.addSites */
+  barycentrics: number[];
+  /** in the unit of the positions */
+  position: number[];
+  /** from the origin, in lengths of `direction` */
+  distance: number;
+  /**
+   * the triangle's vertices, as given, of welded copies the first. In a face of more corners three of them: the
+   * triangle of the face's cut that the ray hits
+   */
+  corners: number[];
+}
+
+/** Solver.info writes the options of a solver here, with defaults filled in, and the number of its sites. */
+export interface SolverInfo {
+  /** HF_FIELD_* */
+  fieldKind: number;
+  /** HF_ENGINE_* */
+  engine: number;
+  channelCount: number;
+  siteLimit: number;
+  siteCount: number;
+  penalty: number;
+  /** as given to the surface: rows of a field */
+  vertexCount: number;
+}
+
+/**
+ * Places, values and fluxes of the sites. The arrays are yours; each is null or has `capacity` entries. The
+ * entries are ordered by site number.
+ */
+export interface SitesInfo {
+  /** number of sites */
+  count: number;
+  /** capacity numbers numbers */
+  sites: Uint32Array;
+  /** capacity numbers the vertex given, constants.HF_NO_INDEX for a point in a triangle */
+  vertices: Uint32Array;
+  /** capacity numbers */
+  components: Uint32Array;
+  /** capacity x channelCount numbers */
+  values: Float64Array;
+  /** capacity numbers 0 = hard */
+  stiffness: Float64Array;
+  /**
+   * capacity x channelCount numbers lambda: what flows into the surface at the site, in value x weight; the sum
+   * over a disc
+   */
+  flux: Float64Array;
+  /** capacity numbers 0 = a point */
+  radii: Float64Array;
+}
+
+/** The components that the sites of a solve did not reach. */
+export interface SolveInfo {
+  /** components without a site */
+  unreachedComponentCount: number;
+  /** constants.HF_NO_INDEX for none */
+  firstUnreachedComponent: number;
+  /** given vertices in them, isolated ones included */
+  unreachedVertexCount: number;
+}
+
+/** Counts and errors of a preview. */
+export interface PreviewInfo {
+  /** 1: solved in double, as Solver.solve does */
+  exact: number;
+  /** corrections made; 0 when exact */
+  correctionCount: number;
+  /** components without a site; their vertices hold 0 */
+  unreachedComponentCount: number;
+  /** largest less smallest site value, the widest over components and channels */
+  valueRange: number;
+  /** largest change of a value by the last correction: about the error before it */
+  largestCorrection: number;
+  /**
+   * of the largest error, in the unit of the values: measured when corrections were made, else 1e-5 of
+   * value_range; 0 when exact; infinite where only corrections tell: bi-harmonic fields, long shapes, crowded
+   * sites
+   */
+  errorEstimate: number;
+  /** memory of the single-precision copy, shared by the surface */
+  previewBytes: number;
+}
+
+/**
+ * The certificate says how accurate a field is. Each error is relative to the range of the site values of its
+ * component and channel, and of its targets where it is screened. Where all are equal, it is relative to their
+ * size. A value that is not finite counts as infinitely wrong.
+ */
+export interface Certificate {
+  /**
+   * 1: the field must keep to the range of its sites: harmonic, intrinsic Delaunay or clamped operator, all sites
+   *     at vertices
+   */
+  overshootChecked: number;
+  /** in: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5; out: the one used */
+  tolerance: number;
+  /** largest less smallest value (or target), the widest over components and channels */
+  valueRange: number;
+  /** largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours */
+  residual: number;
+  /** largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
+  siteError: number;
+  /** how far the field leaves the range of its sites; 0 when not checked */
+  overshoot: number;
+  /** as given, where the largest of the three is */
+  worstVertex: number;
+  /**
+   * welded vertices with a weight that a rule set (SurfaceReport). On a mesh, and for bi-harmonic fields, the
+   * errors hold for the weights used; on a graph for your own, within 1e30 of their median
+   */
+  changedVertexCount: number;
+  /**
+   * how far a value may be from the exact field: a bound by K alone where no weight is negative and the field
+   * harmonic, else an estimate by corrections
+   */
+  errorEstimate: number;
+}
+
+/** Counts, memory and cost estimates of a solver. Bytes are doubles (exact to 2^53). */
+export interface SolverStatistics {
+  siteCount: number;
+  /** numeric factorisations this solver made; the surface's own is not counted */
+  factorisationCount: number;
+  /** sparse solves (elimination paths) for added sites */
+  pathSolveCount: number;
+  /** backward sweeps */
+  sweepCount: number;
+  /** HF_ROUTE_* of the last edit */
+  lastRoute: number;
+  /** times sites were moved into the factor */
+  rebaseCount: number;
+  /** edits by rows of the dense system */
+  denseEditCount: number;
+  /** sites in the dense system at present */
+  denseRowCount: number;
+  /** sites that the factor eliminates now */
+  eliminatedCount: number;
+  /** 1: elimination paths outweigh the factor, fields get slower: Solver.prepareRebase */
+  rebaseAdvised: number;
+  /** paths and dense part of the sites */
+  siteMemoryBytes: number;
+  /** the cost model's estimate for the last edit by rows of the dense system ... */
+  predictedDenseMs: number;
+  /** ... and by a rebase, on one thread of the machine it was measured on; 0: none */
+  predictedRebaseMs: number;
+}
+
+/**
+ * Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 -
+ * parameter) a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours: each
+ * is null or as large as its capacity.
+ */
+export interface Isolines {
+  /**  */
+  pointCount: number;
+  /**  */
+  lineCount: number;
+  /** pointCapacity x 2 numbers vertices a and b as given, of welded copies the first */
+  pointEdges: Uint32Array;
+  /** pointCapacity numbers 0 to 1 */
+  parameters: Float64Array;
+  /** pointCapacity x 3 numbers in the unit and frame of the mesh as given */
+  positions: Float64Array;
+  /** lineCapacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1 */
+  lineStarts: Uint32Array;
+  /** lineCapacity numbers position of its level in the list */
+  lineLevels: Uint32Array;
+  /** lineCapacity numbers 1: closed, the first point is not repeated; 0: ends at borders */
+  lineClosed: Int32Array;
+}
+
+export interface CriticalPoint {
+  /** as given, of welded copies the first */
+  vertex: number;
+  /** HF_CRITICAL_* */
+  kind: number;
+  /** 1 for extrema (0 for a maximum on a border), -k for a saddle where k + 1 valleys meet */
+  index: number;
+  /** its piece, as Surface.pieces: links do not count here */
+  component: number;
+  value: number;
+}
+
+export interface CriticalInfo {
+  /** minima + maxima + saddles */
+  pointCount: number;
+  minimumCount: number;
+  maximumCount: number;
+  /** a saddle of several valleys counts once */
+  saddleCount: number;
+  /** of all points */
+  indexSum: number;
+  /** vertices - edges + triangles of the usable surface that has values */
+  eulerCharacteristic: number;
+}
+
+/** A point of the surface in the form of Hit: three corners of a triangle and their weights. */
+export interface SurfacePoint {
+  /** as given; a corner of barycentric 0 is ignored and can be constants.HF_NO_INDEX */
+  corners: number[];
+  /** >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
+  barycentrics: number[];
+}
+
+/**
+ * A path along the surface, from its first point to its last. Each point lies on a mesh edge with the end vertices
+ * a and b, at the position (1 - parameter) a + parameter b; at a vertex a is b. An end inside a triangle has
+ * constants.HF_NO_INDEX for both. The arrays are yours: each is null or as large as the capacity.
+ */
+export interface Path {
+  /** 0: no path leads from one to the other */
+  pointCount: number;
+  /** in the unit of the mesh; -1: no path */
+  length: number;
+  /** pointCapacity x 2 numbers vertices a and b as given, of welded copies the first */
+  pointEdges: Uint32Array;
+  /** pointCapacity numbers 0 to 1 */
+  parameters: Float64Array;
+  /** pointCapacity x 3 numbers in the unit and frame of the mesh as given */
+  positions: Float64Array;
+}
+
+export interface Extremity {
+  /** as given, of welded copies the first */
+  vertex: number;
+  /** its piece, as Surface.pieces: links do not count here */
+  component: number;
+  /**
+   * how far the tip protrudes, in the unit of the mesh. With p the persistence of the peak of the field: sqrt(2 p)
+   * for POISSON, p for GEODESIC
+   */
+  length: number;
+  position: number[];
+}
+
+/**
+ * A singularity is a triangle, or a face, around which the field makes extra turns. They are counted in parts of 1
+ * / degree of a full turn.
+ */
+export interface Singularity {
+  /** or face, as given */
+  triangle: number;
+  /** its corner where the field is shortest, as given; of welded copies the first */
+  vertex: number;
+  /** in parts of 1 / degree: +1 a source or vortex of a vector field, -1 a saddle */
+  index: number;
+}
+
+/** The options a direction field was made with, and counts of its constraints and of the work done so far. */
+export interface DirectionStatistics {
+  degree: number;
+  siteLimit: number;
+  /** two per vertex */
+  unknownCount: number;
+  siteCount: number;
+  /** the first included; grows when very many constraints go into the factor */
+  factorisationCount: number;
+  /** two per constraint added or moved */
+  pathSolveCount: number;
+  sweepCount: number;
+  /** vertices whose triangles are not one fan of one orientation */
+  irregularVertexCount: number;
+  /** constraints that the factor eliminates now */
+  eliminatedCount: number;
+  operatorMs: number;
+  numericMs: number;
+  factorEntries: number;
+  factorBytes: number;
+  siteMemoryBytes: number;
+}
+
+/** Pose.info writes the options of a pose here, with defaults filled in, and the number of its handles. */
+export interface PoseInfo {
+  /** HF_DEFORM_* */
+  mode: number;
+  bandCount: number;
+  iterationCount: number;
+  /** sites per handle on its boundary; 0: all of it */
+  rimSiteCount: number;
+  groupCount: number;
+  handleCount: number;
+  /** as given to the surface: rows of Pose.deform */
+  vertexCount: number;
+}
+
+/**
+ * A rigid motion of a handle from its rest place. It takes a point p to rotation (p - centroid) + centroid +
+ * translation. The centroid is the mean of the region's rest positions, in the unit of the mesh (Pose.handle
+ * writes it).
+ */
+export interface Transform {
+  /** unit quaternion x, y, z, w; normalised inside; all zero = identity */
+  rotation: number[];
+  /** up to 1e15 box diagonals */
+  translation: number[];
+}
+
+/** Pose.handle writes the region of a handle here, its layer, and its motion in the last Pose.deform. */
+export interface HandleInfo {
+  /** of the region, welded copies counted once */
+  vertexCount: number;
+  /** of its boundary */
+  siteCount: number;
+  component: number;
+  /** of the rest region, in the unit of the mesh */
+  centroid: number[];
+  /** with rim_site_count: how far fields are off on the regions; 0 with full rings */
+  leak: number;
+  /**
+   * where the handle stood in the last Pose.deform, as in Transform; on higher layers with what the layers below
+   * did to it
+   */
+  rotation: number[];
+  /** the same of its translation */
+  translation: number[];
+  layer: number;
+}
+
+/** Counts and times of a deform. */
+export interface DeformInfo {
+  /** done */
+  iterationCount: number;
+  clusterCount: number;
+  /** in components without a handle; they stay at rest */
+  unreachedVertexCount: number;
+  /** largest change of a rotation in the last iteration */
+  lastChange: number;
+  solveMs: number;
+  blendMs: number;
+  normalMs: number;
+  refineMs: number;
+}
+
+/**
+ * This struct receives a pose or a transfer as a skin for linear blend skinning. The clusters become joints with
+ * fixed vertex weights, and the skin holds their motion in the last frame. Joint j takes a point p to R (p -
+ * pivot) + translation, with R its rotation. Its inverse bind matrix is the translation by -pivot.
+ *
+ * If you ask for scales, a joint may also stretch along its own axes. With B the rotation of `axes`, the joint
+ * takes p to R B diag(scale) B^-1 (p - pivot) + translation. In a scene file that is a node with rotation R B and
+ * that scale, and the inverse bind matrix takes p to B^-1 (p - pivot). The arrays are yours; each may be null.
+ */
+export interface SkinInfo {
+  /** joints, one per cluster of vertices */
+  jointCount: number;
+  /**  */
+  vertexCount: number;
+  /** jointCapacity x 3 numbers rest centroid of what each joint moves */
+  pivots: Float64Array;
+  /** jointCapacity x 4 numbers quaternion x, y, z, w of the last frame */
+  rotations: Float64Array;
+  /** jointCapacity x 3 numbers posed place of the pivot */
+  translations: Float64Array;
+  /** jointCapacity x 4 numbers quaternion of B, fixed while handles stay */
+  axes: Float64Array;
+  /** jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid */
+  scales?: Float64Array;
+  /** vertexCapacity x influenceCount numbers */
+  vertexJoints: Uint32Array;
+  /** vertexCapacity x influenceCount numbers of sum 1, descending */
+  vertexWeights: Float32Array;
+}
+
+/**
+ * One proposed handle. position and radius are those of hf_handles_desc: the regions of all proposals are
+ * disjoint.
+ */
+export interface HandleProposal {
+  /** nearest to the position; as given, of welded copies the first */
+  vertex: number;
+  /** as Surface.components */
+  component: number;
+  /** HF_HANDLE_REASON_* */
+  reason: number;
+  /** 1: add it at once, it holds the body; 0: offer it, and add it when it is dragged */
+  pinned: number;
+  /** the end joint nearby, or the joint proposed, by position in the list; constants.HF_NO_INDEX = none */
+  joint: number;
+  /** at rest, in the unit and frame of the mesh; inside the surface for a joint */
+  position: number[];
+  /** in the unit of the mesh */
+  radius: number;
+  /** how far the part protrudes, in the unit of the mesh */
+  length: number;
+}
+
+/** Counts of a quad mesh. */
+export interface QuadsInfo {
+  vertexCount: number;
+  faceCount: number;
+  /** vertices - edges + faces, that of the usable surface */
+  eulerCharacteristic: number;
+  /** wanted length, in the unit of the mesh */
+  edgeLength: number;
+}
+
+/** Quads.mesh writes the quad mesh to these arrays. They are yours: each is null or as large as its capacity. */
+export interface QuadsMesh {
+  /**  */
+  vertexCount: number;
+  /**  */
+  faceCount: number;
+  /** vertexCapacity x 3 numbers in the unit and frame of the mesh as given */
+  positions: Float64Array;
+  /** faceCapacity x 4 numbers vertices of each quad, counter-clockwise */
+  faces: Uint32Array;
+  /** vertexCapacity numbers triangle or face as given that the vertex lies in */
+  triangles: Uint32Array;
+  /**
+   * vertexCapacity x 3 numbers weights of that triangle's corners, in its own order, of sum 1; in a face of more
+   * corners the weights of `corners`
+   */
+  barycentrics: Float64Array;
+  /** vertexCapacity x 3 numbers vertices as given, of welded copies the first, that barycentrics belong to */
+  corners: Uint32Array;
+}
+
+export interface Streamlines {
+  /**  */
+  pointCount: number;
+  /**  */
+  lineCount: number;
+  /** pointCapacity x 3 numbers in the unit and frame of the mesh as given */
+  positions: Float64Array;
+  /** pointCapacity numbers of the field, rising along every line */
+  values: Float64Array;
+  /** lineCapacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1 */
+  lineStarts: Uint32Array;
+  /** lineCapacity x 2 numbers vertices where it starts and ends, of welded copies the first */
+  lineEnds: Uint32Array;
+}
+
+/** Counts and areas of a region and of its last edit. Welded copies count as one vertex. */
+export interface RegionInfo {
+  /** HF_FIELD_* */
+  fieldKind: number;
+  /** of the region, without its rim */
+  vertexCount: number;
+  /** vertices next to the region */
+  rimCount: number;
+  /** vertices that fix the base: the rim, for thin plates two rows or more */
+  siteCount: number;
+  /** sites of the last edit ... */
+  insertedCount: number;
+  removedCount: number;
+  keptCount: number;
+  /** numeric factorisations of the region's edits so far */
+  factorisationCount: number;
+  /** sparse solves for added sites, over all edits */
+  pathSolveCount: number;
+  /** HF_ROUTE_* of the last edit */
+  lastRoute: number;
+  /** 1: the last base took a sweep through the whole factor */
+  wholeSweep: number;
+  /** of the triangles with a corner in the region, on the surface, in units^2 */
+  area: number;
+  /** the same on the base */
+  baseArea: number;
+}
+
+export interface PairInfo {
+  flags: number;
+  /** of the pair's fields, see HandleInfo */
+  sourceLeak: number;
+  targetLeak: number;
+  /** between the rest directions of the limb, radians; negative when unknown (trunk, short limb) */
+  alignmentAngle: number;
+  /** 0..1: share of the pair's clusters with enough source vertices */
+  confidence: number;
+  /** how much of that angle the rest alignment takes away, 0 to 1 */
+  alignmentShare: number;
+  /** 1: alignment_share is above 0 */
+  aligned: number;
+  /**
+   * 1: the region lies on one side of the source and on the other of the target, by the axes: left and right may
+   *     be exchanged
+   */
+  crossed: number;
+}
+
+/** Transfer.info writes counts and the scale of a transfer here. */
+export interface TransferInfo {
+  pairCount: number;
+  clusterCount: number;
+  /** pairs whose rest alignment is applied */
+  alignedCount: number;
+  /** pairs that change sides, see PairInfo */
+  crossedCount: number;
+  /** 1: from the legs or the boxes; 0: given in the desc */
+  scaleFound: number;
+  /** numeric factorisations by edits of pairs; 0 unless they are very many */
+  sourceFactorisationCount: number;
+  targetFactorisationCount: number;
+  /** lengths of the target over those of the source, both in the units of their meshes */
+  scale: number;
+}
+
+/**
+ * What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the
+ * result is continuous in each dial.
+ */
+export interface TransferDials {
+  /**
+   * the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted foot
+   * does not slide. The body travels as much farther
+   */
+  stride: number;
+  /**
+   * raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height at rest, -0.5 to
+   * 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised
+   */
+  hipHeightShare: number;
+  /**
+   * pairs flagged HF_PAIR_NECK, together one limb How far a limb follows the source, -1 to 1. 0 = neutral: it
+   * plays the source's motion from its own rest direction. 1: it also takes the rest direction of the source's
+   * limb. -1: it does not move against its root.
+   */
+  neckFollow: number;
+  /** pairs flagged HF_PAIR_TAIL, together one limb */
+  tailFollow: number;
+  /**
+   * turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2 radians; 0 =
+   * neutral
+   */
+  armSpace: number;
+  /**
+   * how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less, so that they
+   * move as far. 1: they make the whole turn. Between, a part may jump that turns by half a turn against the part
+   * before it
+   */
+  longFollow: number;
+}
+
+/** Receives the weights. The arrays are yours; each may be null. */
+export interface WeightsOut {
+  /**  */
+  vertexCount: number;
+  /** joints per vertex, 4 or 8 */
+  influenceCount: number;
+  /** vertexCapacity x influenceCount numbers */
+  joints: Uint32Array;
+  /** vertexCapacity x influenceCount numbers descending, of sum exactly 1 */
+  weights: Float32Array;
+  /** vertexCapacity numbers HF_WEIGHTS_* */
+  origins: Uint8Array;
+}
+
+/** Counts of the weights. Vertices are counted as given. */
+export interface WeightsInfo {
+  vertexCount: number;
+  jointCount: number;
+  pinCount: number;
+  lockCount: number;
+  /** vertices by HF_WEIGHTS_* */
+  informedCount: number;
+  solvedCount: number;
+  pinnedCount: number;
+  nearestCount: number;
+  rigidCount: number;
+  isolatedCount: number;
+  /** pieces without information */
+  nearestPieceCount: number;
+  /** small ones of them */
+  rigidPieceCount: number;
+  /** 1: a piece sees none of its nearest joints and asks for them unseen */
+  blind: number;
+  /** joints by HF_JOINT_* */
+  noLengthCount: number;
+  coincidentCount: number;
+  informsNoneCount: number;
+  outsideCount: number;
+  helperCount: number;
+  /** numeric factorisations since the object was made */
+  factorisationCount: number;
+  /** elimination paths of pins since then */
+  pathSolveCount: number;
+}
+
+/** Counts of transferred weights. Vertices of the target are counted as given. */
+export interface WeightsTransferInfo {
+  vertexCount: number;
+  /** vertices by HF_WEIGHTS_* */
+  matchedCount: number;
+  solvedCount: number;
+  nearestCount: number;
+  rigidCount: number;
+  isolatedCount: number;
+  /** pieces without a match */
+  guessedPieceCount: number;
+}
+
+/** The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh. */
+export interface WeightsMirrorInfo {
+  vertexCount: number;
+  /** HF_MIRROR_PLANE_* */
+  planeFrom: number;
+  /** joints by HF_MIRROR_JOINT_* */
+  namedCount: number;
+  placedCount: number;
+  centreCount: number;
+  givenCount: number;
+  aloneCount: number;
+  /** vertices by HF_WEIGHTS_* */
+  keptCount: number;
+  matchedCount: number;
+  solvedCount: number;
+  nearestCount: number;
+  rigidCount: number;
+  isolatedCount: number;
+  /** the joint farthest off, constants.HF_NO_INDEX: none has a partner */
+  worstJoint: number;
+  /** the vertex farthest off, constants.HF_NO_INDEX: none was mirrored */
+  worstVertex: number;
+  /** of the plane */
+  point: number[];
+  normal: number[];
+  /** mean distance of reflected joints from their partners */
+  jointOff: number;
+  worstJointOff: number;
+  /** mean distance of reflected vertices from the surface */
+  vertexOff: number;
+  worstVertexOff: number;
+}
+
+/**
+ * Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
+ * region, and any single vertex that these surround but for one edge. The rim is the vertices next to them, on or
+ * beyond the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the
+ * curve. A whole border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8
+ * times.
+ */
+export interface CurveDescGiven {
+  /** pointCount numbers vertices as given, or null */
+  vertices?: Rows | null;
+  /** pointCount numbers triangles (or faces of three corners) as given, or null */
+  triangles?: Rows | null;
+  /**
+   * pointCount x 3 numbers with triangles or corners, else null: weights of the corners, >= 0, of sum 1 within
+   * 1e-6
+   */
+  barycentrics?: Rows | null;
+  /** pointCount x 3 numbers three vertices of one face, as Hit has them, or null */
+  corners?: Rows | null;
+  /** HF_SIDE_* */
+  side?: number;
+  /** with HF_SIDE_SEED */
+  seedVertex?: number;
+  /** HF_CURVE_* */
+  kind?: number;
+}
+
+/** A factor that Surface.save wrote. The surface loads it instead of computing it. */
+export interface FactorDescGiven {
+  /** all of them, as saved */
+  bytes?: Uint8Array | null;
+  /**
+   * 0: the bytes are copied. 1: numbers are read in place (a mapped file, say). Then the bytes stay unchanged
+   *     until the surface and everything made on it are destroyed, and are aligned to HF_FACTOR_ALIGNMENT
+   */
+  borrow?: boolean | number;
+}
+
+/**
+ * Says which pieces to link. Joints and weights or tags help the automatic links; each array may be null. A light
+ * piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it.
+ */
+export interface LinksDescGiven {
+  /** vertexCount x influenceCount numbers of a skin: pieces of the same joint link sooner */
+  joints?: Rows | null;
+  /** vertexCount x influenceCount numbers of sum 1; where all are 0, a vertex shares no joint */
+  weights?: Rows | null;
+  /**
+   * vertexCount numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of a
+   * piece counts
+   */
+  tags?: Rows | null;
+  /** linkCount numbers */
+  links?: Rows | null;
+  /** lightCount numbers: their pieces are light */
+  lightVertices?: Rows | null;
+  /** heavyCount numbers: their pieces are not, as one that gets a site or handle */
+  heavyVertices?: Rows | null;
+  /** HF_LINK_* */
+  mode?: number;
+  /** longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal */
+  distance?: number;
+  /** of all links, times each one's weight; 0 = 1 */
+  stiffness?: number;
+  /**
+   * automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of the diagonal,
+   *     below 0: no piece is light unless light_vertices say so
+   */
+  overlayDistance?: number;
+}
+
+/**
+ * Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the
+ * less influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic
+ * disc. A radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices.
+ * For harmonic fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its
+ * vertices do.
+ */
+export interface SitesDescGiven {
+  /** siteCount numbers vertices as given, or null */
+  vertices?: Rows | null;
+  /** siteCount x channelCount numbers, up to 1e200 in size; null = 0 */
+  values?: Rows | null;
+  /** siteCount numbers triangles (or faces of three corners) as given, or null */
+  triangles?: Rows | null;
+  /** siteCount x 3 numbers with triangles or corners, else null: weights of the corners, >= 0, of sum 1 within 1e-6 */
+  barycentrics?: Rows | null;
+  /**
+   * siteCount numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
+   * 1e-12 .. 1e12
+   */
+  stiffness?: Rows | null;
+  /** siteCount numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points */
+  radii?: Rows | null;
+  /**
+   * siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of more corners
+   * this places a site in a triangle of them
+   */
+  corners?: Rows | null;
+}
+
+/**
+ * Reports the progress of a long call. Any thread can poll the object and cancel the call through it. Use one
+ * object for one call at a time.
+ *
+ * Creates a progress object.
+ */
+export interface Progress extends Handle {
+  /** Writes how much of the running call is done. */
+  readonly fraction: number;
+  /** Stops the call that uses this object, or the next one that does. That call returns HF_ERROR_CANCELLED. */
+  cancel(): void;
+}
+export interface ProgressClass {
+  new (): Progress;
+}
+
+/**
+ * hf/surface.h - prepare a mesh once: weld it, check it and factorise its Laplacian.
+ *
+ * Make one surface per mesh, or per graph of your own (Surface.fromGraph). Solvers, poses, direction fields,
+ * regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any number
+ * of threads may use it. An object made on a surface keeps the data it needs, so you can destroy objects in any
+ * order.
+ *
+ * Makes a surface: welds and checks the mesh, builds the operator, orders and factorises it. The call copies the
+ * mesh. Afterwards the surface uses only the allocator and the job runner of the desc. The mesh may be dirty: the
+ * surface counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
+ * Surface.report gives these counts.
+ *
+ * A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are
+ * doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf,
+ * hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any.
+ * Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+ *
+ * positions: vertexCount x 3 numbers, any unit, any offset
+ * triangles: triangleCount x 3 numbers, counter-clockwise seen from outside
+ * face_starts: faceCount numbers first corner of each face. null: the faces follow one another. Without face_sizes
+ *     faceCount + 1 numbers: the corners of face f end where those of f + 1 start
+ * face_sizes: faceCount numbers corners of each face, 3 to 65,535. null: face_starts is enough
+ * corners: cornerCount numbers vertices, counter-clockwise seen from outside
+ * weld: HF_WELD_*
+ * weld_tolerance: for HF_WELD_TOLERANCE, in the unit of the positions, > 0
+ * operator_kind: HF_OPERATOR_*
+ * field_kind: HF_FIELD_*: the factor made now. Others are made when a solver or region asks
+ * ordering: HF_ORDERING_*
+ * thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
+ * vertex_limit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles
+ *     or edges are always refused
+ * triangle_limit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the vertex
+ *     limit
+ * memory_limit_mb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
+ * work_limit_gflop: refuse a factorisation of more than this many 10^9 operations. They are counted before it
+ *     begins; 0 = 100,000, about an hour of one core
+ * progress: an object to poll and cancel through
+ * saved_factor: the saved factor of this mesh; ordering is then 0 or the factor's
+ * links: null: HF_LINK_NONE. A saved factor needs the links it was made with
+ */
+export interface Surface extends Handle {
+  readonly vertexCount: number;
+  /** Writes the options of a surface. */
+  readonly info: SurfaceInfo;
+  /** Writes the report of the mesh. */
+  readonly report: SurfaceReport;
+  /**
+   * Writes the component of every vertex of your mesh, and constants.HF_NO_INDEX for isolated vertices. Components
+   * are numbered in the order of their lowest vertex numbers.
+   */
+  components(): Uint32Array;
+  /**
+   * Writes the links of a surface. You can edit them and give them back with HF_LINK_LIST. A list does not say
+   * which pieces are light: name them in light_vertices, as Surface.pieces marks them. Then the list alone gives
+   * the same surface, bit for bit, without a search.
+   */
+  links(): Link[];
+  /**
+   * Writes the piece of every vertex of your mesh, and constants.HF_NO_INDEX for isolated vertices. Pieces are
+   * numbered in the order of their lowest vertices.
+   */
+  pieces(): { pieces: Uint32Array; light: Int32Array };
+  /**
+   * Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
+   * ends are apart than at rest, and 0 if they are nearer.
+   *
+   * positions: vertexCount x 3 numbers: of a pose, a frame of a transfer, or any other deformation
+   * info: filled in when given
+   *
+   * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
+   */
+  measureGaps(positions?: Rows | null): Float64Array;
+  /**
+   * Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old
+   * one where its matrix has the same pattern: other stiffness, weights or light pieces.
+   *
+   * joints: vertexCount x influenceCount numbers of a skin: pieces of the same joint link sooner
+   * weights: vertexCount x influenceCount numbers of sum 1; where all are 0, a vertex shares no joint
+   * tags: vertexCount numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of
+   *     a piece counts
+   * links: linkCount numbers
+   * light_vertices: lightCount numbers: their pieces are light
+   * heavy_vertices: heavyCount numbers: their pieces are not, as one that gets a site or handle
+   * mode: HF_LINK_*
+   * distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
+   * stiffness: of all links, times each one's weight; 0 = 1
+   * overlay_distance: automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of
+   *     the diagonal, below 0: no piece is light unless light_vertices say so
+   * progress: an object to poll and cancel through.
+   *
+   * Throws HF_ERROR_CANCELLED.
+   */
+  relink(options?: { joints?: Rows | null; weights?: Rows | null; tags?: Rows | null; links?: Rows | null; lightVertices?: Rows | null; heavyVertices?: Rows | null; mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; progress?: Progress | null }): Surface;
+  /** Writes the statistics of a surface and of the factor it was made with. */
+  readonly statistics: SurfaceStatistics;
+  /**
+   * Saves the factor of one kind of field. An authoring tool saves it once. A game ships the bytes beside the mesh
+   * and gives them to Surface, which then takes a fraction of the time. The bytes are the same for the same mesh,
+   * options and library version, whatever the number of threads. The bytes are little-endian and hold a format
+   * version, a hash of the matrix and a checksum. They hold no sites.
+   *
+   * field_kind: HF_FIELD_*; a factor that does not exist yet is made first.
+   * progress: an object to poll and cancel through.
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_TOO_SMALL.
+   */
+  save(fieldKind?: number, options?: { progress?: Progress | null }): Uint8Array;
+  /**
+   * Finds what a mouse click hits: the first triangle on a ray.
+   *
+   * origin: 3 numbers in the frame of the positions; the direction can have any length above 0.
+   * direction: 3 numbers in the frame of the positions; the direction can have any length above 0.
+   * positions: vertexCount x 3 numbers posed positions (Pose.deform writes them), or null
+   * front_only: 1: a ray passes triangles seen from behind
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
+   */
+  castRay(origin: Rows, direction: Rows,
+          options?: { positions?: Rows | null; frontOnly?: boolean | number }): Hit | null;
+  /**
+   * Finds the vertex nearest to a point.
+   *
+   * point: 3 numbers in the frame of the positions.
+   * positions: vertexCount x 3 numbers posed positions (Pose.deform writes them), or null
+   * front_only: 1: a ray passes triangles seen from behind
+   *
+   * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
+   */
+  findVertex(point: Rows,
+          options?: { positions?: Rows | null; frontOnly?: boolean | number }): { vertex: number; distance: number };
+  /**
+   * Writes levels, ascending. HF_LEVELS_AREA makes all strips equal in area. HF_LEVELS_LENGTH makes the mean
+   * widths of the strips equal. So iso-lines around point sites are evenly spaced, where equal steps of the value
+   * would crowd them. HF_LEVELS_LENGTH leaves out the parts where the field is flat to 1e-9 of its range.
+   *
+   * In formulas, A(c) is the area where the field is below c, and L(c) is the length of the iso-line of level c.
+   * Both are exact for the piecewise linear field. HF_LEVELS_AREA takes equal steps of A. HF_LEVELS_LENGTH takes
+   * equal steps of the integral of A'(c) / L(c) dc. That integral is the height on a cylinder and the distance
+   * from the pole on a sphere.
+   *
+   * spacing: HF_LEVELS_*.
+   * level_count: 1 to 1,000,000.
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
+   */
+  spaceLevels(field: Rows, levelCount: number, spacing?: number): Float64Array;
+  /**
+   * Traces the iso-lines of levels. The levels must be finite and can have any order; the lines come in the order
+   * of the levels. A vertex whose value equals a level counts as just above it, so lines have no gaps. A line
+   * either closes or ends. It ends at a border or at a triangle without values. At an edge of three or more
+   * triangles (non-manifold), these are taken in pairs. A line continues inside a pair, and ends at a triangle
+   * without a partner. The function leaves out lines of length zero. Seen from outside a consistently oriented
+   * mesh, the field is higher on the left of a line.
+   *
+   * levels: levelCount numbers.
+   *
+   * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
+   */
+  traceIsolines(field: Rows, levels: Rows): Isolines;
+  /**
+   * Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each vertex
+   * decide (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of its neighbours with lower
+   * values and the edges between them. The vertex number breaks ties, so a flat area has critical points too. The
+   * indices sum to the Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field
+   * can show an extremum away from its sites, because the default operator uses other edges than the mesh.
+   * HF_OPERATOR_CLAMPED uses the edges of the mesh and avoids this.
+   *
+   * info: filled in when given
+   *
+   * Throws HF_ERROR_NON_FINITE.
+   */
+  findCriticalPoints(field: Rows): CriticalPoint[];
+  /**
+   * Proposes the tips of the surface as places for sites and handles, the longest tip first. The list does not
+   * depend on the order of the vertices. Pose and meshing change it only within the resolution of the mesh.
+   *
+   * kind: HF_EXTREMITIES_*
+   * least_length_share: tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10
+   * source_count: sources of the mean distance per component, 1 to 1,000; 0 = 40
+   * geodesics: for HF_EXTREMITIES_GEODESIC: an object of this surface. If its method is HF_GEODESICS_HEAT its
+   *     factor serves; else, and for null, the call makes a factor
+   * progress: an object to poll and cancel through
+   * field: vertexCount numbers, packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
+   *     (Poisson), length (geodesic), each up to a constant per component
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT.
+   */
+  findExtremities(options?: { kind?: number; leastLengthShare?: number; sourceCount?: number; geodesics?: Geodesics | null; progress?: Progress | null; field?: Float64Array | null }): Extremity[];
+  /**
+   * Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first, then
+   * the others, each group by length, the longest first. The places do not depend on the order of the vertices.
+   * They follow translation and scale.
+   *
+   * joints: jointCount x 3 numbers their places at rest, in the unit and frame of the mesh
+   * parents: jointCount numbers position of each joint's parent in the list; constants.HF_NO_INDEX for a root
+   * up: direction away from the ground, of any length; 0 0 0 = 0 1 0
+   * least_length_share: as in hf_extremities_desc; 0 = 0.05
+   * limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
+   * progress: an object to poll and cancel through
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
+   */
+  proposeHandles(options?: { joints?: Rows | null; parents?: Rows | null; up?: Rows | null; leastLengthShare?: number; limit?: number; progress?: Progress | null }): HandleProposal[];
+  /** What the last call told that writes it. */
+  readonly gapsInfo: GapsInfo;
+  /** What the last call told that writes it. */
+  readonly criticalInfo: CriticalInfo;
+}
+export interface SurfaceClass {
+  new (positions?: Rows | null, triangles?: Rows | null,
+          options?: SurfaceExtras & { faceStarts?: Rows | null; faceSizes?: Rows | null; corners?: Rows | null; weld?: number; weldTolerance?: number; operatorKind?: number; fieldKind?: number; ordering?: number; threadCount?: number; vertexLimit?: number; triangleLimit?: number; memoryLimitMb?: number; workLimitGflop?: number; progress?: Progress | null; savedFactor?: FactorDescGiven | Rows | null; links?: LinksDescGiven | Rows | null }): Surface;
+  /**
+   * Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the
+   * graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
+   * reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions,
+   * directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
+   * links, screening, and sites in triangles or on discs.
+   *
+   * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from
+   * the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-harmonic fields
+   * limit weights to 1e3 times the median.
+   *
+   * edges: edgeCount x 2 numbers vertices, in any order. The weights of parallel edges are added up. Self loops
+   *     are ignored
+   * weights: edgeCount numbers any unit, up to 1e100 in size. An edge of weight 0 is left out
+   * masses: vertexCount numbers M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; null: all 1. A mass
+   *     below 1e-4 of the mean of its component counts as that
+   * vertex_count: >= 1, also without masses
+   * allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
+   *     tetrahedra do. A field can then leave the range of its sites. 0: they are refused
+   * field_kind: HF_FIELD_*: the factor made now. Others are made when a solver asks
+   * ordering: HF_ORDERING_*
+   * thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
+   * vertex_limit: refuse larger graphs before allocating; 0 = 20,000,000
+   * edge_limit: refuse more edges; 0 = sixteen per vertex of the vertex limit
+   * memory_limit_mb: refuse to hold more memory than this, in MiB; 0 = no limit
+   * work_limit_gflop: refuse a factorisation of more than this many 10^9 operations; 0 = 100,000
+   * progress: an object to poll and cancel through
+   * saved_factor: the saved factor of this graph; ordering is then 0 or the factor's
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   */
+  fromGraph(edges?: Rows | null, weights?: Rows | null,
+          options?: { masses?: Rows | null; vertexCount?: number; allowNegative?: boolean | number; fieldKind?: number; ordering?: number; threadCount?: number; vertexLimit?: number; edgeLimit?: number; memoryLimitMb?: number; workLimitGflop?: number; progress?: Progress | null; savedFactor?: FactorDescGiven | Rows | null }): Surface;
+}
+
+/**
+ * A set of sites on a surface, and their field.
+ *
+ * Creates a solver without sites.
+ *
+ * field_kind: HF_FIELD_*; if the surface has no factor of that kind yet, it is made now
+ * engine: HF_ENGINE_*
+ * channel_count: fields solved at once, 1 to 64; 0 = 1
+ * site_limit: at most this many sites; 0 = 100,000
+ * penalty: HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
+ * progress: an object to poll and cancel through
+ */
+export interface Solver extends Recorded {
+  readonly channelCount: number;
+  readonly vertexCount: number;
+  /**
+   * Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share the
+   * factor and what the sites have cost, so a copy costs its list of sites only. Use one copy per thread or per
+   * set of sites. For undo, keep copies: one before each edit.
+   */
+  clone(): Solver;
+  /** Writes the options of a solver. */
+  readonly info: SolverInfo;
+  /**
+   * Adds sites.
+   *
+   * vertices: siteCount numbers vertices as given, or null
+   * values: siteCount x channelCount numbers, up to 1e200 in size; null = 0
+   * triangles: siteCount numbers triangles (or faces of three corners) as given, or null
+   * barycentrics: siteCount x 3 numbers with triangles or corners, else null: weights of the corners, >= 0, of sum
+   *     1 within 1e-6
+   * stiffness: siteCount numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
+   *     clamped to 1e-12 .. 1e12
+   * radii: siteCount numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
+   * corners: siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of more
+   *     corners this places a site in a triangle of them
+   *
+   * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   */
+  addSites(vertices?: Rows | null, values?: Rows | null,
+          options?: { triangles?: Rows | null; barycentrics?: Rows | null; stiffness?: Rows | null; radii?: Rows | null; corners?: Rows | null }): Uint32Array;
+  /**
+   * Adds one hard site at a vertex.
+   *
+   * values: channelCount numbers, or null for 0.
+   *
+   * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   */
+  addSite(vertex: number, values?: Rows | null): number;
+  /**
+   * Removes sites by number. The field is 0 on a component that has no site left. If you add a site there again,
+   * the field is exact.
+   *
+   * sites: siteCount numbers.
+   *
+   * Throws HF_ERROR_NOT_FOUND.
+   */
+  removeSites(sites: Rows): void;
+  /**
+   * Moves sites to new places. Each site keeps its number, value, stiffness and radius.
+   *
+   * sites: siteCount numbers.
+   * vertices: siteCount numbers vertices as given, or null
+   * values: siteCount x channelCount numbers, up to 1e200 in size; null = 0
+   * triangles: siteCount numbers triangles (or faces of three corners) as given, or null
+   * barycentrics: siteCount x 3 numbers with triangles or corners, else null: weights of the corners, >= 0, of sum
+   *     1 within 1e-6
+   * stiffness: siteCount numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
+   *     clamped to 1e-12 .. 1e12
+   * radii: siteCount numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
+   * corners: siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of more
+   *     corners this places a site in a triangle of them
+   *
+   * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   */
+  moveSites(sites: Rows, vertices?: Rows | null, values?: Rows | null,
+          options?: { triangles?: Rows | null; barycentrics?: Rows | null; stiffness?: Rows | null; radii?: Rows | null; corners?: Rows | null }): void;
+  /**
+   * Gives sites new values. The call costs nothing until the next solve.
+   *
+   * sites: siteCount numbers.
+   * values: siteCount x channelCount numbers.
+   *
+   * Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE.
+   */
+  setValues(sites: Rows, values: Rows): void;
+  /**
+   * Applies a batch of edits at once.
+   *
+   * remove_sites: removeCount numbers
+   * move_sites: moveCount numbers
+   * set_sites: setCount numbers
+   * set_values: setCount x channelCount numbers
+   * move_to: places of moveCount numbers sites
+   * add: the sites to add
+   */
+  editSites(options?: { removeSites?: Rows | null; moveSites?: Rows | null; setSites?: Rows | null; setValues?: Rows | null; moveTo?: SitesDescGiven | Rows | null; add?: SitesDescGiven | Rows | null }): Uint32Array;
+  /** Returns the number of sites, or 0 for an invalid object. */
+  readonly siteCount: number;
+  /** Writes all sites. */
+  sites(): SitesInfo;
+  /**
+   * Screens the field: (K + A H) u = A H p + W lambda, with A the vertex areas. The field follows p where H is
+   * large, and the influence of a site fades over a distance of about 1 / sqrt(H). A H is at most 1e12 times the
+   * mean diagonal of K. Such a field needs no site on a component where some H is above 0.
+   *
+   * screening: vertexCount numbers H >= 0, in 1 / length^2 with the unit of the mesh; null removes the screening.
+   * targets: vertexCount x channelCount numbers p, or null for 0. Both are copied; welded copies of a vertex take
+   *     the values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores
+   *     the screening with the sites.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_TOO_LARGE,
+   * HF_ERROR_UNSUPPORTED.
+   */
+  setScreening(screening?: Rows | null, targets?: Rows | null): void;
+  /**
+   * Solves for the field at every vertex of your mesh.
+   *
+   * out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on components
+   *     without a site.
+   * info: filled in when given
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.
+   */
+  solve<T extends Floats = Float32Array>(out?: T | null, options?: { Type?: FloatsType }): T;
+  /**
+   * Solves for the field at chosen vertices only, with the same bits as Solver.solve. The call reads only those
+   * columns of the factor on which these vertices depend (elimination paths), on the calling thread. One path is
+   * up to a sixth of the factor, but the paths of many vertices share most of their columns. The call costs a
+   * whole solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A
+   * vertex of a component without a site gets 0.
+   *
+   * vertices: vertexCount numbers.
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+   */
+  solveAt(vertices: Rows): Float64Array;
+  /**
+   * Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section
+   * 3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then
+   * projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
+   *
+   * out: vertexCount x 3 numbers, not normalised.
+   * normals: vertexCount x 3 numbers, packed: the normals used.
+   * info: filled in when given
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.
+   */
+  solveVectors<T extends Floats = Float32Array>(out?: T | null,
+          options?: { Type?: FloatsType; normals?: Float64Array | null }): T;
+  /**
+   * Solves with a single-precision copy of the factor. This reads half the bytes of Solver.solve; use it while the
+   * user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic
+   * fields, long shapes and crowded sites can have an error of any size: ask for corrections there and read
+   * error_estimate. Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a
+   * harmonic field takes the error below 1e-9, a second one below 1e-12. Each correction costs as much as two to
+   * three calls of Solver.solve.
+   *
+   * The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind
+   * on the surface share the copy. It is freed with the last of these solvers, or by Solver.releasePreview.
+   * Engines other than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites.
+   * info.exact is then 1.
+   *
+   * correction_count: 0 to 8.
+   * out: vertexCount x channelCount numbers, as Solver.solve.
+   * info: filled in when given
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.
+   */
+  solvePreview<T extends Floats = Float32Array>(out?: T | null,
+          options?: { correctionCount?: number; Type?: FloatsType }): T;
+  /**
+   * Frees the single-precision copy for all solvers that share it, as soon as no running call uses it. The next
+   * preview makes the copy again.
+   */
+  releasePreview(): void;
+  /**
+   * Moves vector sites to other vertices of their components. Each vector is carried along the shortest path of
+   * edges, from vertex normal to vertex normal (parallel transport; Xu and others 2009, Section 3.3).
+   *
+   * sites: siteCount numbers.
+   * vertices: siteCount numbers.
+   *
+   * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND,
+   * HF_ERROR_OUT_OF_RANGE.
+   */
+  moveVectors(sites: Rows, vertices: Rows): void;
+  /**
+   * Turns the vector of site i about its vertex normal, counter-clockwise by anglesi numbers radians. Does not
+   * factorise.
+   *
+   * sites: siteCount numbers.
+   * angles: siteCount numbers.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
+   */
+  rotateVectors(sites: Rows, angles: Rows): void;
+  /**
+   * Solves the field and checks it against its equations. The check uses only the operator K and the site values.
+   * So it finds a damaged factor, borrowed bytes that changed, or a fault of the machine. The call returns
+   * HF_ERROR_INACCURATE (index = worst vertex) if the check fails, and writes certificate then too. Do not use
+   * fields of that solver; make the surface again.
+   *
+   * tolerance: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT.
+   */
+  certify(options?: { tolerance?: number }): Certificate;
+  /**
+   * Factorises in the background with the hard vertex sites eliminated, so that they cost no dense solve. It runs
+   * on the calling thread, while other threads edit and solve with this solver. The next edit switches to the new
+   * factor. Fields before and after are the same up to rounding. Call it on a thread of yours when
+   * SolverStatistics.rebase_advised is 1. An edit of very many sites does this by itself when that is quicker.
+   * Memory: one more factor, for as long as it eliminates sites.
+   *
+   * Throws HF_ERROR_BUSY, HF_ERROR_EMPTY, HF_ERROR_UNSUPPORTED.
+   */
+  prepareRebase(): void;
+  /** Writes the statistics. */
+  readonly statistics: SolverStatistics;
+  /** What the last call told that writes it. */
+  readonly solveInfo: SolveInfo;
+  /** What the last call told that writes it. */
+  readonly previewInfo: PreviewInfo;
+}
+export interface SolverClass {
+  new (surface: Surface,
+          options?: { fieldKind?: number; engine?: number; channelCount?: number; siteLimit?: number; penalty?: number; progress?: Progress | null }): Solver;
+}
+
+/**
+ * Computes geodesic distances on one surface: the lengths of shortest paths along it.
+ *
+ * Creates the object and the tables of its method. FRONT and EXACT take a pass over the triangles. HEAT takes one
+ * numeric factorisation and holds a factor of its own beside the surface's.
+ *
+ * method: HF_GEODESICS_*
+ * smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to 10,000
+ * progress: an object to poll and cancel through: creation and every later call report to it
+ */
+export interface Geodesics extends Handle {
+  readonly vertexCount: number;
+  /**
+   * Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+   *
+   * sources: sourceCount numbers vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
+   *     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance
+   *     of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The
+   *     error of FRONT falls with the edge length. HEAT rounds the distance off at corners and where two shortest
+   *     paths meet.
+   * out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+   */
+  solve<T extends Floats = Float32Array>(sources: Rows, out?: T | null, options?: { Type?: FloatsType }): T;
+  /**
+   * Finds the shortest path between two points, exact up to rounding, whatever the method of the object. If
+   * several are as short, it writes one of them. The path is straight where its triangles are unfolded; it bends
+   * at vertices only.
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
+   * HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
+   */
+  findPath(from: Place, to: Place): Path;
+  /**
+   * Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each
+   * vertex gets the length of its shortest path from the point, in the direction in which that path leaves the
+   * point.
+   *
+   * radius: vertices farther away get NaN too, and cost nothing; 0 = no bound.
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
+   * HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
+   */
+  map(centre: Place, radius?: number): { map: Float64Array; frame: Float64Array };
+}
+export interface GeodesicsClass {
+  new (surface: Surface, options?: { method?: number; smoothing?: number; progress?: Progress | null }): Geodesics;
+}
+
+/**
+ * A direction field on a surface, with a factor and constraints of its own.
+ *
+ * Makes a direction field without constraints. It computes the connection between tangent planes and the operator,
+ * and factorises once, with two unknowns per vertex.
+ *
+ * degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
+ * site_limit: most constraints; 0 = 100,000
+ * progress: an object to poll and cancel through
+ */
+export interface Direction extends Recorded {
+  readonly vertexCount: number;
+  /**
+   * Makes a direction field with the same constraints under the same numbers; it has the same bits. Both share
+   * connection and factor, so the copy costs the constraints only. For undo, keep copies: one before each edit.
+   */
+  clone(): Direction;
+  /**
+   * Adds constraints: vectors at vertices. The function projects the vectors on the tangent planes. Each
+   * constraint costs two sparse triangular solves (elimination paths) and two rows of a small dense system. For a
+   * batch of very many constraints, the function factorises once instead, with their vertices eliminated. Later
+   * edits cost paths and rows again.
+   *
+   * vertices: siteCount numbers vertices of your mesh.
+   * vectors: siteCount x 3 numbers; a zero vector makes the field 0 there.
+   *
+   * Throws HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
+   * HF_ERROR_TOO_LARGE.
+   */
+  addSites(vertices: Rows, vectors: Rows): Uint32Array;
+  /**
+   * Removes constraints by number.
+   *
+   * sites: siteCount numbers.
+   *
+   * Throws HF_ERROR_NOT_FOUND.
+   */
+  removeSites(sites: Rows): void;
+  /**
+   * Moves constraints to other vertices of the same component. The connection carries each vector along the
+   * shortest path of edges, from tangent plane to tangent plane.
+   *
+   * sites: siteCount numbers.
+   * vertices: siteCount numbers.
+   *
+   * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND,
+   * HF_ERROR_OUT_OF_RANGE.
+   */
+  moveSites(sites: Rows, vertices: Rows): void;
+  /**
+   * Gives constraints new vectors and projects them on the tangent planes. Does not factorise.
+   *
+   * sites: siteCount numbers.
+   * vectors: siteCount x 3 numbers.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
+   */
+  setVectors(sites: Rows, vectors: Rows): void;
+  /**
+   * Turns constraint i by anglesi numbers radians, counter-clockwise seen from outside. Does not factorise.
+   *
+   * sites: siteCount numbers.
+   * angles: siteCount numbers.
+   *
+   * Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
+   */
+  rotateSites(sites: Rows, angles: Rows): void;
+  /** Returns the number of constraints, or 0 for an invalid object. */
+  readonly siteCount: number;
+  /** Writes the constraints by ascending number. */
+  sites(): { sites: Uint32Array; vertices: Uint32Array; vectors: Float64Array };
+  /**
+   * Writes the field as vectors in space. The vectors are tangent to the surface up to 1e-12 of their length. For
+   * degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors;
+   * vertices that no constraint reaches get 0.
+   *
+   * out: vertexCount x 3 numbers.
+   * info: filled in when given
+   *
+   * Throws HF_ERROR_EMPTY.
+   */
+  solve<T extends Floats = Float32Array>(out?: T | null, options?: { Type?: FloatsType }): T;
+  /**
+   * Lists the singularities of the field, ordered by triangle (Crane, Desbrun and Schroeder 2010, Section 5). On a
+   * closed manifold component of one orientation the indices sum to degree times the Euler characteristic.
+   *
+   * Throws HF_ERROR_EMPTY.
+   */
+  singularities(): Singularity[];
+  /** Writes the statistics. */
+  readonly statistics: DirectionStatistics;
+  /** What the last call told that writes it. */
+  readonly solveInfo: SolveInfo;
+}
+export interface DirectionClass {
+  new (surface: Surface, options?: { degree?: number; siteLimit?: number; progress?: Progress | null }): Direction;
+}
+
+/**
+ * A set of handles on a surface.
+ *
+ * Creates a pose without handles.
+ *
+ * mode: HF_DEFORM_*
+ * band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+ * iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+ * rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
+ * group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+ */
+export interface Pose extends Recorded {
+  readonly vertexCount: number;
+  /** Copies a pose with its handles and transforms, so that several threads can pose one rig. */
+  clone(): Pose;
+  /** Writes the options of a pose. */
+  readonly info: PoseInfo;
+  /**
+   * Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a
+   * posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
+   * that its region has in the last pose (Pose.handle writes it), and the surface stays where it is (to 1e-6 of
+   * the box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to
+   * rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once.
+   * HF_DEFORM_PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until
+   * you move the handle. Handles of lower layers hold the surface in place for the higher layers.
+   *
+   * region_vertices: lists of whole numbers: all regions one after the other; vertices as given
+   * points: handleCount x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-
+   *     connected to it within the radius. null: regions are given
+   * radii: handleCount numbers of the regions of points, in the unit of the mesh; null: regions are given. A
+   *     radius below 1 % of the box makes regions of 2 vertices or more
+   * layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
+   * in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+   * progress: an object to poll and cancel through
+   *
+   * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
+   * HF_ERROR_TOO_LARGE.
+   */
+  addHandles(regionVertices?: ReadonlyArray<Numbers> | null,
+          options?: { points?: Rows | null; radii?: Rows | null; layer?: number; inPlace?: boolean | number; progress?: Progress | null }): Uint32Array;
+  /**
+   * Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
+   * edge-connected to it within `radius` of the point.
+   *
+   * point: 3 numbers.
+   *
+   * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
+   * HF_ERROR_TOO_LARGE.
+   */
+  addHandleAt(point: Rows, radius: number): number;
+  /**
+   * Removes handles by number. A handle on a higher layer takes its edit with it: the surface is then, bit for
+   * bit, as if the handle had never been added. On layer 0 this holds when you remove the handles that were added
+   * last, and for frames with `restart`.
+   *
+   * handles: handleCount numbers.
+   *
+   * Throws HF_ERROR_NOT_FOUND.
+   */
+  removeHandles(handles: Rows): void;
+  /**
+   * Places handles. On layer 0 a transform is a motion from the rest place. On a higher layer it is an edit in the
+   * rest frame of the handle. There the region moves by F (edit) F^-1, with F the rigid motion that the lower
+   * layers give the handle. Rotations continue from call to call, so a handle that you dragged past 180 degrees
+   * stays turned that far. The transforms take effect at the next Pose.deform.
+   *
+   * handles: handleCount numbers.
+   * rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity
+   * translations: up to 1e15 box diagonals
+   *
+   * Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
+   */
+  setTransforms(handles: Rows, options?: { rotations?: Rows | null; translations?: Rows | null }): void;
+  /**
+   * Places one handle.
+   *
+   * rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity
+   * translation: up to 1e15 box diagonals
+   *
+   * Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
+   */
+  setTransform(handle: number, options?: { rotation?: Rows | null; translation?: Rows | null }): void;
+  /**
+   * Places handles by 4 x 4 matrices M.
+   *
+   * handles: handleCount numbers.
+   * matrices: handleCount x 16 numbers, column by column, elements 12 to 14 the translation. M takes a rest
+   *     position p to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes
+   *     the nearest rotation. Its last row must be 0 0 0 1.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
+   */
+  setMatrices(handles: Rows, matrices: Rows): void;
+  /**
+   * Writes the info of a handle.
+   *
+   * Throws HF_ERROR_NOT_FOUND.
+   */
+  handle(handle: number): HandleInfo;
+  /** Returns the number of handles, or 0 for an invalid object. */
+  readonly handleCount: number;
+  /**
+   * Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
+   * reaches, the fields of all handles sum to 1.
+   *
+   * out: vertexCount numbers.
+   *
+   * Throws HF_ERROR_NOT_FOUND.
+   */
+  field(handle: number, out?: Float32Array | null): Float32Array;
+  /**
+   * Does the same as Pose.deform, with the options of a desc.
+   *
+   * iteration_count: 1 to 1000; 0 = the pose's
+   * restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose with
+   *     the same handles, added in the same order, and the same transforms. Without restart a frame continues from
+   *     the last one, so it also depends on that
+   * refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about
+   *     0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
+   * refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the smooth
+   *     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still,
+   *     more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of
+   *     1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+   * first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
+   * vertex_count: positions of a range cost only the range, without higher layers, refine and normals
+   * out: vertexCount x 3 numbers posed positions, or null
+   * normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
+   * info: filled in when given
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+   */
+  deform<T extends Floats = Float32Array>(out?: T | null,
+          options?: { iterationCount?: number; restart?: boolean | number; refine?: number; refineFromLast?: boolean | number; firstVertex?: number; vertexCount?: number; Type?: FloatsType; normals?: Float32Array | null }): T;
+  /**
+   * Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were
+   * added. If the handles do not reach some vertices, a last joint that never moves holds those vertices. The
+   * weights of a vertex are its 4 or 8 largest, scaled so that their sum is exactly 1 in single precision. Weights
+   * and pivots change only when handles are added or removed.
+   *
+   * The joint motions bring the skin as near as possible to the last Pose.deform, as it is without refine. With
+   * scales, classic bends, twists and lifts replay within 0.5 per cent of the box. Without scales, bends and
+   * twists replay within 1 per cent and stretched surfaces within about 2.5 per cent.
+   *
+   * influence_count: joints per vertex, 4 or 8; 0 = 4
+   * scales: jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.
+   */
+  skin(options?: { influenceCount?: number; scales?: boolean }): SkinInfo;
+  /** What the last call told that writes it. */
+  readonly deformInfo: DeformInfo;
+}
+export interface PoseClass {
+  new (surface: Surface,
+          options?: { mode?: number; bandCount?: number; iterationCount?: number; rimSiteCount?: number; groupCount?: number }): Pose;
+}
+
+/**
+ * Makes a quad mesh of a surface. Every face is a quad. Edges follow smooth crosses along the curvature. Creases
+ * and borders are straight lines of edges. Irregular vertices are the singularities of the crosses, and places
+ * where the function split quads to keep to the surface.
+ *
+ * The function relaxes the mesh along the surface. Where mesh and surface are farther apart than 0.39 edge
+ * lengths, it snaps vertices to the surface and adds quads. A relaxed quad starts at the corner whose diagonal
+ * keeps nearer to the surface, so a renderer should split quads into triangles from the first corner. If the mesh
+ * stays farther than an edge length from the surface, a limb is lost. Then the function makes up to three finer
+ * meshes, and removes rows of quads until the number is right. The function checks every result: each directed
+ * edge occurs once, no face repeats a corner, and the Euler characteristic is that of the surface.
+ *
+ * The surface may have borders, any genus and several components; the function turns triangles that disagree in
+ * orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two. A
+ * triangle without a partner gets a border. Surface.report counts such edges. A Moebius band is parted across.
+ *
+ * With symmetry_plane a vertex on the plane is its own image, and all others come in pairs, exact to rounding.
+ * Half of the quads lie on each side. Where surface and mirror image differ, by up to 0.05 box diagonals, the side
+ * of the normal counts.
+ *
+ * The user can place irregular vertices and drag them. The function makes each by guides on a ring around the
+ * place, an edge of the quads away. The crosses on the ring make a quarter turn along it. 96 % of 1,000 irregular
+ * vertices at random places of 20 meshes come out within an edge of the place; such a vertex then moves to the
+ * place and stays there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to
+ * four times the Euler characteristic. On a torus or a knot a single one of 5 is often lost.
+ *
+ * crease_edges: creaseCount x 2 numbers the two vertices of each edge, as given
+ * guide_vertices: guideCount numbers as given; guides of one vertex are averaged
+ * guide_vectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector and
+ *     across it
+ * guide_weights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with that
+ *     of the curvature, which has the rest of the weight
+ * irregular_points: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
+ * irregular_valences: irregularCount numbers how many quads meet there: 3 or 5
+ * irregular_directions: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along it;
+ *     0 0 0 = any
+ * face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+ * edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+ * crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
+ *     none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases nearer
+ *     to each other than an edge may be released
+ * relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; constants.HF_NO_INDEX = none, and the mesh is
+ *     not fitted to the surface either
+ * symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads
+ *     are made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the
+ *     other side are not used
+ * progress: an object to poll and cancel through
+ */
+export interface Quads extends Handle {
+  /**
+   * Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result
+   * is that of Quads with the same options, bit for bit. The first update takes as long. It keeps what does not
+   * depend on guides, creases and relax_count, so later updates with the same edge_length, face_count and
+   * symmetry_plane take less: 0.1 s for 15,000 vertices without relaxation (relax_count = constants.HF_NO_INDEX).
+   * Use that while the user drags, and relax_count = 0 at the end. Other sizes and planes are allowed; what
+   * belongs to them is made again. After an error `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until
+   * `quads` is destroyed.
+   *
+   * crease_edges: creaseCount x 2 numbers the two vertices of each edge, as given
+   * guide_vertices: guideCount numbers as given; guides of one vertex are averaged
+   * guide_vectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector and
+   *     across it
+   * guide_weights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with
+   *     that of the curvature, which has the rest of the weight
+   * irregular_points: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
+   * irregular_valences: irregularCount numbers how many quads meet there: 3 or 5
+   * irregular_directions: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along
+   *     it; 0 0 0 = any
+   * face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+   * edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+   * crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
+   *     none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases
+   *     nearer to each other than an edge may be released
+   * relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; constants.HF_NO_INDEX = none, and the mesh
+   *     is not fitted to the surface either
+   * symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads
+   *     are made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the
+   *     other side are not used
+   * progress: an object to poll and cancel through
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_INTERNAL, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   */
+  update(options?: { creaseEdges?: Rows | null; guideVertices?: Rows | null; guideVectors?: Rows | null; guideWeights?: Rows | null; irregularPoints?: Rows | null; irregularValences?: Rows | null; irregularDirections?: Rows | null; faceCount?: number; edgeLength?: number; creaseAngle?: number; relaxCount?: number; symmetryPlane?: Rows | null; progress?: Progress | null }): void;
+  /** Writes the counts. */
+  readonly info: QuadsInfo;
+  /**
+   * Writes every array that is not null.
+   *
+   * Throws HF_ERROR_TOO_SMALL.
+   */
+  mesh(): QuadsMesh;
+}
+export interface QuadsClass {
+  new (surface: Surface,
+          options?: { creaseEdges?: Rows | null; guideVertices?: Rows | null; guideVectors?: Rows | null; guideWeights?: Rows | null; irregularPoints?: Rows | null; irregularValences?: Rows | null; irregularDirections?: Rows | null; faceCount?: number; edgeLength?: number; creaseAngle?: number; relaxCount?: number; symmetryPlane?: Rows | null; progress?: Progress | null }): Quads;
+}
+
+/**
+ * A surface that is prepared for tracing streamlines.
+ *
+ * Prepares a surface for tracing: computes half-edges and weights.
+ */
+export interface Flow extends Handle {
+  readonly vertexCount: number;
+  /**
+   * Traces streamlines of any field that is finite at every vertex in a triangle. For a harmonic field of
+   * HF_OPERATOR_CLAMPED the lines are denser where the field is steeper. Surface.traceIsolines gives the lines
+   * that cross the streamlines.
+   *
+   * seeds: seedCount numbers vertices as given
+   * wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
+   */
+  trace(field: Rows, options?: { seeds?: Rows | null; wantedCount?: number }): Streamlines;
+}
+export interface FlowClass {
+  new (surface: Surface): Flow;
+}
+
+/**
+ * A region of a surface and its smooth base.
+ *
+ * Creates a region without vertices.
+ *
+ * positions: vertexCount x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or any pose
+ *     of them. null: the mesh's own to 1e-15 of the box. Copied
+ * base: HF_BASE_*. If the surface has no factor for it yet, it is made now
+ * progress: an object to poll and cancel through
+ */
+export interface Region extends Recorded {
+  readonly vertexCount: number;
+  /**
+   * Copies a region. The copy shares the factor and all memory, until one of the two is edited. For undo, keep
+   * copies: one before each edit.
+   */
+  clone(): Region;
+  /**
+   * Changes the region and computes its new base. The vertices next to the region (its rim) are sites with their
+   * positions as values. Sites that stay cost nothing; the others are one batch as in Solver.editSites. One
+   * backward sweep over the factor then gives the base; for a small region the sweep covers only the part of the
+   * factor that its vertices need. A region may have several pieces, in several components. Progress covers curve,
+   * sites and base; the call can be cancelled between them.
+   *
+   * remove_vertices: removeCount numbers vertices that leave the region; others are passed over
+   * add_vertices: addCount numbers vertices that join it; those in it already are passed over
+   * ring_count: rings of vertices by which the region grows; below 0 it shrinks
+   * curve: the region becomes what this curve encloses
+   * progress: an object to poll and cancel through
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+   */
+  edit(options?: { removeVertices?: Rows | null; addVertices?: Rows | null; ringCount?: number; curve?: CurveDescGiven | Rows | null; progress?: Progress | null }): void;
+  /** Writes the info of a region. */
+  readonly info: RegionInfo;
+  /**
+   * Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
+   *
+   * list: HF_REGION_*.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT.
+   */
+  vertices(list?: number): Uint32Array;
+  /**
+   * Writes the corners of the region's last curve, to draw it, in order, in the unit and frame of the positions in
+   * hf_region_desc. The last corner is joined to the first. Rings, added and removed vertices leave it as it is.
+   */
+  curve(): Float64Array;
+  /**
+   * Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
+   * hf_region_desc. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A
+   * weight below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p. The call
+   * solves nothing.
+   *
+   * weight: any finite number
+   * out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
+   * normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
+   */
+  morph<T extends Floats = Float32Array>(weight?: number, out?: T | null,
+          options?: { Type?: FloatsType; normals?: Float32Array | null }): T;
+}
+export interface RegionClass {
+  new (surface: Surface, options?: { positions?: Rows | null; base?: number; progress?: Progress | null }): Region;
+}
+
+/**
+ * The detail of a source region, transferred to a target region. Both may be on one surface or on two.
+ *
+ * Carries the detail of the source region to the target region. A harmonic map with positive weights takes each
+ * region to the unit disc (an embedding: Tutte 1963, Floater 1997). Vertices around a region (its rim) lie on the
+ * circle, by arc length between the pairs of desc. Points at the same place in the disc correspond. The function
+ * stores the offset from base to surface in a local frame of the Both regions must be discs: in one piece, one rim
+ * loop, no hole, manifold, of one orientation.
+ *
+ * source: the normal of the base, and the direction in which the first disc coordinate grows. It interpolates the
+ *     offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades
+ *     to nothing at the rim. If source and target are the same region, the result is the surface itself. Later
+ *     edits of the regions do not change the object.
+ * source_vertices: pairCount numbers rim vertices of the source, as given
+ * target_vertices: pairCount numbers rim vertices of the target, as given
+ * scale: of the detail, > 0; 0 = square root of target base area over source base area
+ * progress: an object to poll and cancel through
+ */
+export interface Detail extends Handle {
+  readonly vertexCount: number;
+  /**
+   * Writes the target's surface with its detail replaced. A vertex of the target region gets base + weight
+   * (transferred detail); all others keep their positions. Weight 0 gives the smooth base, and weight 1 the detail
+   * as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
+   *
+   * weight: any finite number
+   * out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
+   * normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
+   */
+  morph<T extends Floats = Float32Array>(weight?: number, out?: T | null,
+          options?: { Type?: FloatsType; normals?: Float32Array | null }): T;
+}
+export interface DetailClass {
+  new (source: Region, target: Region,
+          options?: { sourceVertices?: Rows | null; targetVertices?: Rows | null; scale?: number; progress?: Progress | null }): Detail;
+}
+
+/**
+ * hf/transfer.h - play the motion of one surface on another.
+ *
+ * You pair regions of the source surface with regions of the target surface. From the pairs both surfaces get the
+ * same harmonic coordinates, and places of equal coordinates correspond. The vertices around such a place form a
+ * cluster. The target takes over the rotations of the source's clusters. Its translations follow from its own
+ * shape (Xu, Zhang, Cohen-Or and Xiong 2009, Section 6), and from where the source's clusters turn about one
+ * another. A limb whose parts reach farther than the source's turns less, so that it moves as far: a held sword, a
+ * long tail, a large head. The dial long_follow gives it the whole turn.
+ *
+ * Creates a transfer between two surfaces; both may be the same.
+ *
+ * source_rest: source.vertexCount x 3 numbers, or null Poses in which the two bodies correspond, in each surface's
+ *     unit, read by the call, or null for the positions of the surface. A character bound in a crouch gets a
+ *     standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+ * target_rest: target.vertexCount x 3 numbers, or null
+ * mode: HF_TRANSFER_*
+ * cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
+ * ground: HF_GROUND_*
+ * kernel_width: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is
+ *     more, up to 0.12
+ * scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no
+ *     pair is a foot
+ * alignment_angle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times
+ *     the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
+ * source_axes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward
+ *     +z). Lengths, and right x up = forward, must hold within 1e-3. The library takes the nearest rotation.
+ */
+export interface Transfer extends Handle {
+  readonly vertexCount: number;
+  /**
+   * Adds pairs.
+   *
+   * source_vertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries
+   *     per vertex
+   * target_vertices: lists of whole numbers:
+   * flags: pairCount numbers HF_PAIR_*, or null for none
+   * progress: an object to poll and cancel through
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+   */
+  addPairs(sourceVertices?: ReadonlyArray<Numbers> | null, targetVertices?: ReadonlyArray<Numbers> | null,
+          flags?: Rows | null, options?: { progress?: Progress | null }): Uint32Array;
+  /**
+   * Removes pairs by number.
+   *
+   * pairs: pairCount numbers.
+   *
+   * Throws HF_ERROR_NOT_FOUND.
+   */
+  removePairs(pairs: Rows): void;
+  /**
+   * Writes the info of a pair. The first call after a change of pairs solves the fields of all pairs, unless
+   * Transfer.apply has done so. This changes no result.
+   *
+   * Throws HF_ERROR_NOT_FOUND.
+   */
+  pair(pair: number): PairInfo;
+  /**
+   * Writes the info of the whole transfer. The first call after a change of pairs solves fields, as Transfer.pair
+   * does.
+   *
+   * Throws HF_ERROR_EMPTY.
+   */
+  readonly info: TransferInfo;
+  /**
+   * Sets the dials of a transfer for the next frames.
+   *
+   * stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A
+   *     planted foot does not slide. The body travels as much farther
+   * hip_height_share: raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height
+   *     at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised
+   * neck_follow: pairs flagged HF_PAIR_NECK, together one limb How far a limb follows the source, -1 to 1. 0 =
+   *     neutral: it plays the source's motion from its own rest direction. 1: it also takes the rest direction of
+   *     the source's limb. -1: it does not move against its root.
+   * tail_follow: pairs flagged HF_PAIR_TAIL, together one limb
+   * arm_space: turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2 radians;
+   *     0 = neutral
+   * long_follow: how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less,
+   *     so that they move as far. 1: they make the whole turn. Between, a part may jump that turns by half a turn
+   *     against the part before it
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
+   */
+  setDials(options?: { stride?: number; hipHeightShare?: number; neckFollow?: number; tailFollow?: number; armSpace?: number; longFollow?: number }): void;
+  /** Writes the dials; stride is never 0. */
+  readonly dials: TransferDials;
+  /**
+   * Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions
+   * differ much on the two surfaces (PairInfo), it takes the direction of the source's limb instead, by a share.
+   *
+   * The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
+   * Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The
+   * result changes as little as the source does: a source that stands still, but for noise, gives a target that
+   * stands still.
+   *
+   * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region
+   * follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
+   * follows its scaled path exactly. No part of the target sinks deeper into the ground than the source, scaled,
+   * but for those of Transfer.sinking. What would sink bends up. The ground does not move regions that you hold. A
+   * lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
+   * unchanged. All rules of the ground come in continuously. HF_GROUND_OFF switches them off.
+   *
+   * source_positions: source.vertexCount x 3 numbers the posed source, its own vertex order
+   * hold_pairs: holdCount numbers each pair at most once
+   * hold_positions: holdCount x 3 numbers in the target's unit and frame
+   * out: target.vertexCount x 3 numbers, or null
+   * target_normals: target.vertexCount x 3 numbers, or null
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE,
+   * HF_ERROR_UNSUPPORTED.
+   */
+  apply<T extends Floats = Float32Array>(sourcePositions?: Rows | null, out?: T | null,
+          options?: { holdPairs?: Rows | null; holdPositions?: Rows | null; Type?: FloatsType; targetNormals?: Float32Array | null }): T;
+  /**
+   * Writes which target vertices may sink into the ground.
+   *
+   * Throws HF_ERROR_EMPTY.
+   */
+  sinking(): Uint8Array;
+  /**
+   * Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
+   * replays Transfer.apply exactly, because that function also uses the four largest weights.
+   *
+   * influence_count: joints per vertex, 4 or 8; 0 = 4
+   * scales: jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.
+   */
+  skin(options?: { influenceCount?: number; scales?: boolean }): SkinInfo;
+}
+export interface TransferClass {
+  new (source: Surface, target: Surface,
+          options?: { sourceRest?: Rows | null; targetRest?: Rows | null; mode?: number; clusterCount?: number; ground?: number; kernelWidth?: number; scale?: number; alignmentAngle?: number; sourceAxes?: Rows | null; targetAxes?: Rows | null }): Transfer;
+}
+
+/**
+ * The weights of one surface for one skeleton.
+ *
+ * Computes weights.
+ *
+ * heads: jointCount x 3 numbers
+ * tails: jointCount x 3 numbers, or null: heads are joints, and the library finds the tails
+ * axes: jointCount x 3 numbers with tails null: where each joint points, any length, 0 for unknown; or null. A
+ *     joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says
+ *     where a last joint ends
+ * parents: jointCount numbers number of the parent, constants.HF_NO_INDEX for a root; null: all are roots
+ * deforms: jointCount numbers 1: the joint gets weights; null: all do
+ * sources: jointCount numbers for Weights.setJoints: the number that the joint had before, constants.HF_NO_INDEX
+ *     for a new one; null: the same number. Weights: null
+ * progress: an object to poll and cancel through
+ * influence_count: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has none,
+ *     it is made now. Sets *weights to null first.
+ */
+export interface Weights extends Recorded {
+  readonly vertexCount: number;
+  /**
+   * Copies the weights with joints, pins and locks. The copy shares the factors and all memory, until one of the
+   * two is changed. For undo, keep copies: one before each change.
+   */
+  clone(): Weights;
+  /**
+   * Replaces all
+   *
+   * heads: jointCount x 3 numbers
+   * tails: jointCount x 3 numbers, or null: heads are joints, and the library finds the tails
+   * axes: jointCount x 3 numbers with tails null: where each joint points, any length, 0 for unknown; or null. A
+   *     joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says
+   *     where a last joint ends
+   * parents: jointCount numbers number of the parent, constants.HF_NO_INDEX for a root; null: all are roots
+   * deforms: jointCount numbers 1: the joint gets weights; null: all do
+   * sources: jointCount numbers for Weights.setJoints: the number that the joint had before, constants.HF_NO_INDEX
+   *     for a new one; null: the same number. Weights: null
+   * progress: an object to poll and cancel through
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT,
+   * HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_UNSUPPORTED.
+   */
+  setJoints(options?: { heads?: Rows | null; tails?: Rows | null; axes?: Rows | null; parents?: Rows | null; deforms?: Rows | null; sources?: Rows | null; progress?: Progress | null }): void;
+  /**
+   * Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
+   * disc. Pins at the same places with other weights cost no path.
+   *
+   * vertices: pinCount numbers vertices as given, or null
+   * triangles: pinCount numbers triangles as given, or null
+   * barycentrics: pinCount x 3 numbers with triangles, else null: weights of the corners, >= 0, of sum 1 within
+   *     1e-6
+   * radii: pinCount numbers of the geodesic disc around the place, in the unit of the mesh; null or 0: the place
+   *     alone
+   * joints: pinCount x influenceCount numbers joints
+   * weights: pinCount x influenceCount numbers >= 0, scaled to the sum 1
+   * progress: an object to poll and cancel through
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT,
+   * HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+   */
+  setPins(vertices?: Rows | null,
+          options?: { triangles?: Rows | null; barycentrics?: Rows | null; radii?: Rows | null; joints?: Rows | null; weights?: Rows | null; progress?: Progress | null }): void;
+  /**
+   * Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0
+   * unlocks.
+   *
+   * joints: lockCount numbers.
+   * values: vertexCount x lockCount numbers weights to keep, 0 to 1, or null for the present ones. Welded copies
+   *     take the values of the first. Pinned vertices keep the weights of their pins.
+   *
+   * Throws HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
+   */
+  setLocks(joints: Rows, values?: Rows | null): void;
+  /**
+   * Writes the weights. Welded copies of a vertex get the same. Unused places have weight 0 and the first joint of
+   * the vertex.
+   *
+   * Throws HF_ERROR_TOO_LARGE.
+   */
+  get(): WeightsOut;
+  /**
+   * Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not deform
+   * have no flags.
+   */
+  joints(): { flags: Uint32Array; vertexCounts: Uint32Array };
+  /** Writes the info. */
+  readonly info: WeightsInfo;
+  /**
+   * Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and
+   * sets deforms to 0.
+   *
+   * names: one line for each joint in UTF-8, or null.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT.
+   */
+  helpers(names?: string | readonly string[] | null): Uint32Array;
+}
+export interface WeightsClass {
+  new (surface: Surface,
+          options?: { heads?: Rows | null; tails?: Rows | null; axes?: Rows | null; parents?: Rows | null; deforms?: Rows | null; sources?: Rows | null; progress?: Progress | null; influenceCount?: number }): Weights;
+  /**
+   * Transfers weights from one surface to another: clothes, hair, levels of detail, new topology. Both stand in
+   * the same frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-
+   * harmonic field fills in the vertices without such a point. A piece without any takes the weights of the
+   * nearest points.
+   *
+   * joints: source.vertexCount x sourceInfluenceCount numbers
+   * weights: source.vertexCount x sourceInfluenceCount numbers >= 0; a vertex whose weights are all 0 gives none
+   * distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
+   * angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
+   * influence_count: joints of each vertex in the result: 4 or 8; 0: 4
+   * progress: an object to poll and cancel through
+   * info: filled in when given
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL, HF_ERROR_UNSUPPORTED.
+   */
+  transfer(source: Surface, target: Surface,
+          options?: { joints?: Rows | null; weights?: Rows | null; distance?: number; angle?: number; influenceCount?: number; progress?: Progress | null }): WeightsOut & { info: WeightsTransferInfo };
+  /**
+   * Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the
+   * nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
+   * fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a
+   * positive largest component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x.
+   *
+   * heads: jointCount x 3 numbers the joints at rest, in the frame of the mesh
+   * names: one line for each joint in UTF-8, or null: joints are paired by their places
+   * partners: jointCount numbers the joint of the other side, constants.HF_NO_INDEX: find it; or null
+   * plane: 6 numbers a point and a normal, or null: find the plane
+   * joints: vertexCount x sourceInfluenceCount numbers
+   * weights: vertexCount x sourceInfluenceCount numbers >= 0; a vertex whose weights are all 0 gives none
+   * to: HF_MIRROR_*
+   * distance: as in hf_weights_transfer_desc
+   * angle: as in hf_weights_transfer_desc
+   * influence_count: joints of each vertex in the result: 4 or 8; 0: 4
+   * progress: an object to poll and cancel through
+   * info: filled in when given
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL, HF_ERROR_UNSUPPORTED.
+   */
+  mirror(surface: Surface,
+          options?: { heads?: Rows | null; names?: string | readonly string[] | null; partners?: Rows | null; plane?: Rows | null; joints?: Rows | null; weights?: Rows | null; to?: number; distance?: number; angle?: number; influenceCount?: number; progress?: Progress | null }): WeightsOut & { partners: Uint32Array; pairings: Uint32Array; info: WeightsMirrorInfo };
+}
+
+export interface Api {
+  Progress: ProgressClass;
+  Surface: SurfaceClass;
+  Solver: SolverClass;
+  Geodesics: GeodesicsClass;
+  Direction: DirectionClass;
+  Pose: PoseClass;
+  Quads: QuadsClass;
+  Flow: FlowClass;
+  Region: RegionClass;
+  Detail: DetailClass;
+  Transfer: TransferClass;
+  Weights: WeightsClass;
+  HfError: typeof HfError;
+  /** HF_* of the headers. */
+  constants: Readonly<Record<string, number>>;
+  backend: 'native' | 'wasm';
+  version: [number, number, number];
+}
+/** node: library, path of the shared library. Browser: factory and wasmBinary, else both are loaded from dist/. */
 export function load(options?: {
   library?: string;
-  factory?: unknown;
+  factory?: (options: object) => Promise<object>;
   wasmBinary?: ArrayBuffer | Uint8Array;
-}): Promise<Hf>;
+}): Promise<Api>;

@@ -93,40 +93,6 @@ export function doubles(values, name, count) {
   return array;
 }
 
-/** Positions: Float32Array or Float64Array as they are, others as float64. */
-export function points(values, name, count) {
-  if (values === null || values === undefined) fail(`${name} is ${values}`, 'HF_ERROR_NULL_POINTER');
-  const array = values instanceof Float32Array ? values : doubles(values, name);
-  if (count === undefined ? array.length % 3 : array.length !== count)
-    fail(`${name} must hold ${count ?? 'three numbers a vertex'}, not ${array.length}`);
-  return array;
-}
-
-/** The caller's array of that many numbers, or a new one of `Type`. */
-export function output(out, count, Type) {
-  if (out === undefined || out === null) return new Type(count);
-  if (!(out instanceof Float32Array) && !(out instanceof Float64Array))
-    fail('out must be a Float32Array or Float64Array');
-  if (out.length !== count) fail(`out must hold ${count} numbers, not ${out.length}`, 'HF_ERROR_TOO_SMALL');
-  return out;
-}
-
-/** Lists of vertices one after the other: { counts, vertices }. */
-export function regions(lists, name) {
-  if (lists === null || lists === undefined) return { counts: null, vertices: null };
-  if (!Array.isArray(lists)) fail(`${name} must be a list of lists`);
-  const arrays = lists.map(
-    (list, i) => integers(list, `${name}[${i}]`) ?? fail(`${name}[${i}] is null`, 'HF_ERROR_NULL_POINTER'),
-  );
-  const vertices = new Uint32Array(arrays.reduce((sum, array) => sum + array.length, 0));
-  let at = 0;
-  for (const array of arrays) {
-    vertices.set(array, at);
-    at += array.length;
-  }
-  return { counts: Uint32Array.from(arrays, (array) => array.length), vertices };
-}
-
 const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
 const fieldNames = new Map(); // struct -> camelCase -> C name
 function fieldsOf(struct) {

@@ -1,60 +1,26 @@
-"""Finds and loads the shared library; exceptions from result codes; arrays in and out without copies; owned handles."""
+"""Finds and loads the shared library; turns numpy arrays into pointers and counts; owns handles. What is made from the
+headers (_api.py) stands on this."""
 
 from __future__ import annotations
 
 import ctypes
+import math
 import operator
 import os
 import pathlib
 import sys
-from typing import Any, Optional, Sequence, Union
+from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from . import _raw
+from . import _errors, _raw
+from ._errors import EmptyError, InvalidArgumentError, NullPointerError, OutOfRangeError, TooSmallError
 
 ArrayLike = Any
 NO_INDEX = _raw.HF_NO_INDEX
-
-
-class HfError(Exception):
-    """A call that failed. code: HF_ERROR_*; name: its name; index: what it is about, or None; function: of the C ABI."""
-
-    code: int = 0
-
-    def __init__(self, message: str, code: Optional[int] = None, index: Optional[int] = None,
-        function: str = "") -> None:
-        self.code = type(self).code if code is None else code
-        self.name = _raw.RESULT_NAMES.get(self.code, str(self.code))
-        self.index, self.function, self.message = index, function, message
-        super().__init__(f"{function + ': ' if function else ''}{message} ({self.name})")
-
-
-class InvalidArgumentError(HfError, ValueError): code = _raw.HF_ERROR_INVALID_ARGUMENT
-class NullPointerError(HfError, TypeError): code = _raw.HF_ERROR_NULL_POINTER
-class InvalidObjectError(HfError): code = _raw.HF_ERROR_INVALID_OBJECT
-class InvalidDescError(HfError): code = _raw.HF_ERROR_INVALID_DESC
-class OutOfRangeError(HfError, IndexError): code = _raw.HF_ERROR_OUT_OF_RANGE
-class NonFiniteError(HfError, ValueError): code = _raw.HF_ERROR_NON_FINITE
-class EmptyError(HfError, ValueError): code = _raw.HF_ERROR_EMPTY
-class DuplicateError(HfError, ValueError): code = _raw.HF_ERROR_DUPLICATE
-class NotFoundError(HfError, KeyError): code = _raw.HF_ERROR_NOT_FOUND
-class ConflictError(HfError, ValueError): code = _raw.HF_ERROR_CONFLICT
-class UnsupportedError(HfError, NotImplementedError): code = _raw.HF_ERROR_UNSUPPORTED
-class BusyError(HfError): code = _raw.HF_ERROR_BUSY
-class ReentrantError(HfError): code = _raw.HF_ERROR_REENTRANT
-class TooSmallError(HfError, ValueError): code = _raw.HF_ERROR_TOO_SMALL
-class OutOfMemoryError(HfError, MemoryError): code = _raw.HF_ERROR_OUT_OF_MEMORY
-class TooLargeError(HfError, ValueError): code = _raw.HF_ERROR_TOO_LARGE
-class CancelledError(HfError): code = _raw.HF_ERROR_CANCELLED
-class NotPositiveDefiniteError(HfError, ArithmeticError): code = _raw.HF_ERROR_NOT_POSITIVE_DEFINITE
-class InaccurateError(HfError, ArithmeticError): code = _raw.HF_ERROR_INACCURATE
-class InternalError(HfError): code = _raw.HF_ERROR_INTERNAL
-
-
-EXCEPTIONS = {cls.code: cls for cls in HfError.__subclasses__()}
-for _cls in EXCEPTIONS.values():  # KeyError would show the repr of the message
-    _cls.__str__ = Exception.__str__  # type: ignore[method-assign]
+_TYPES = {"f4": np.float32, "f8": np.float64, "u4": np.uint32, "u2": np.uint16, "u1": np.uint8, "i4": np.int32}
+_KINDS: Dict[str, list] = {}
+_SUFFIX = {"f8": "_f64", "u2": "_u16"}  # the field that takes the other type of array
 
 
 def _candidates() -> list:
@@ -102,78 +68,38 @@ def call(name: str, *arguments: Any) -> None:
         detail = _raw.hf_error_detail()
         lib.hf_error_get_detail(ctypes.byref(detail))
         index = None if detail.index == NO_INDEX else detail.index
-        raise EXCEPTIONS.get(code, HfError)(detail.message.decode("utf-8", "replace"), code, index,
-            detail.function.decode())
+        raise _errors.EXCEPTIONS.get(code, _errors.HfError)(detail.message.decode("utf-8", "replace"), code, index,
+                                                            detail.function.decode())
 
 
-_INTEGERS = {ctypes.c_int32: (-(1 << 31), (1 << 31) - 1), ctypes.c_uint32: (0, (1 << 32) - 1),
+# ---- numbers ----
+
+_INTEGERS: Dict[Any, tuple] = {ctypes.c_int32: (-(1 << 31), (1 << 31) - 1), ctypes.c_uint32: (0, (1 << 32) - 1),
              ctypes.c_size_t: (0, 2 * sys.maxsize + 1)}
-_FLOATS = {ctypes.c_float: float(np.finfo(np.float32).max), ctypes.c_double: float(np.finfo(np.float64).max)}
-_types: dict = {}  # struct -> field -> ctypes type
+_FLOATS: Dict[Any, float] = {ctypes.c_float: float(np.finfo(np.float32).max), ctypes.c_double: float(np.finfo(np.float64).max)}
 
 
-def _type_of(struct: type, key: str) -> Any:
-    if struct not in _types:
-        _types[struct] = {field[0]: field[1] for field in struct._fields_}
-    return _types[struct][key]
-
-
-def whole(value: Any, name: str, low: int = 0, high: int = NO_INDEX) -> int:
-    """A whole number in a range. Floats and bools are refused: they are slips where a count or an index is asked for."""
+def number(value: Any, name: str, kind: Any = ctypes.c_uint32, flag: bool = True) -> Any:
+    """A number of a C type. ctypes would wrap what does not fit, and take floats and bools for counts; here they are refused by
+    name. Flags (int32_t) take bools."""
+    is_bool: bool = isinstance(value, (bool, np.bool_))
+    if kind in _FLOATS:
+        if is_bool or not isinstance(value, (int, float, np.integer, np.floating)):
+            raise InvalidArgumentError(f"{name} must be a number, not {value!r}")
+        value = value if isinstance(value, int) else float(value)
+        if _FLOATS[kind] < abs(value) < float("inf"):
+            raise OutOfRangeError(f"{name} is {value}; it must lie within {_FLOATS[kind]:g}")
+        return float(value)
     try:
-        number = operator.index(value)
+        whole = None if is_bool and not (flag and kind is ctypes.c_int32) else operator.index(int(value) if is_bool else value)
     except TypeError:
-        number = None
-    if number is None or isinstance(value, (bool, np.bool_)):
+        whole = None
+    if whole is None:
         raise InvalidArgumentError(f"{name} must be a whole number, not {value!r}")
-    if not low <= number <= high:
-        raise OutOfRangeError(f"{name} is {number}; it must lie in {low} to {high}")
-    return number
-
-
-def real(value: Any, name: str, largest: float = float(np.finfo(np.float64).max)) -> float:
-    """A number; float32 fields do not turn what is too large into infinity."""
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise InvalidArgumentError(f"{name} must be a number, not {value!r}")
-    if largest < abs(value) < float("inf"):
-        raise OutOfRangeError(f"{name} is {value}; it must lie within {largest:g}")
-    return float(value)
-
-
-def put(desc: Any, key: str, value: Any, name: str) -> None:
-    """Sets a field of a desc. ctypes would wrap what does not fit; here it is an error that names it. Flags take bools."""
-    kind = _type_of(type(desc), key)
-    if kind in _INTEGERS:
-        flag = kind is ctypes.c_int32 and isinstance(value, (bool, np.bool_))
-        value = int(value) if flag else whole(value, name, *_INTEGERS[kind])
-    elif kind in _FLOATS:
-        value = real(value, name, _FLOATS[kind])
-    setattr(desc, key, value)
-
-
-def make(struct: type, **fields: Any) -> Any:
-    """A desc with every byte zero but its size and the given fields."""
-    desc = struct()
-    desc.struct_size = ctypes.sizeof(struct)
-    for key, value in fields.items():
-        put(desc, key, value, key)
-    return desc
-
-
-# what the package fills in itself; without corners, face_count is a wish and not the length of an array
-_OWN = ("struct_size", "reserved", "vertex_count", "triangle_count", "face_count", "corner_count", "edge_count",
-        "site_count", "crease_count", "guide_count", "irregular_count")
-
-
-def options_into(desc: Any, options: dict) -> None:
-    """Sets the named scalar options of a desc; an unknown one is an error that names it."""
-    allowed = {f[0] for f in desc._fields_ if f[1] in _INTEGERS or f[1] in _FLOATS}
-    own = _OWN if "corner_count" in allowed else tuple(name for name in _OWN if name != "face_count")
-    allowed = {name for name in allowed if name not in own and not name.endswith("_stride")}
-    for key, value in options.items():
-        if key not in allowed:
-            raise InvalidArgumentError(f"no option '{key}'; there are: {', '.join(sorted(allowed))}")
-        put(desc, key, value, f"option '{key}'")
+    low, high = _INTEGERS[kind]
+    if not low <= whole <= high:
+        raise OutOfRangeError(f"{name} is {whole}; it must lie in {low} to {high}")
+    return whole
 
 
 def numbers(values: ArrayLike, name: str) -> np.ndarray:
@@ -196,150 +122,293 @@ def numbers(values: ArrayLike, name: str) -> np.ndarray:
     return array
 
 
+def _whole(array: np.ndarray, name: str, dtype: Any, sentinel: bool) -> np.ndarray:
+    """Whole numbers of a type, checked. sentinel: -1 stands for NO_INDEX."""
+    if array.size and array.dtype.kind not in "iu":
+        raise InvalidArgumentError(f"{name} must be whole numbers, not {array.dtype}")
+    limits, flat = np.iinfo(dtype), array.ravel()
+    bad: Any = np.flatnonzero((flat < (-1 if sentinel else limits.min)) | (flat > limits.max)) if array.size else ()
+    if len(bad):
+        raise OutOfRangeError(f"{name} holds {flat[bad[0]]}", index=int(bad[0]))
+    return (array & limits.max if sentinel and array.size else array).astype(dtype)
+
+
+def converted(values: ArrayLike, name: str, kinds: str, sentinel: bool = False) -> np.ndarray:
+    """An array of one of the types that the library takes ('f4 f8'), as given when it is one."""
+    types = _KINDS.get(kinds) or _KINDS.setdefault(kinds, [np.dtype(_TYPES[kind]) for kind in kinds.split()])
+    if type(values) is np.ndarray and values.dtype in types:
+        return values
+    array = numbers(values, name)
+    if array.dtype in types:
+        return array
+    if types[-1].kind == "f":
+        return array.astype(types[-1])
+    if array.dtype.kind == "b" or types[0] == np.int32:
+        return array.astype(np.int32)
+    if array.dtype == np.int32 and types[0] == np.uint32 and array.flags.c_contiguous and (not array.size or array.min() >= 0):
+        return array.view(np.uint32)  # the same bits
+    return _whole(array, name, types[0], sentinel)
+
+
 def address(array: Optional[np.ndarray]) -> Optional[int]:
     """Where an array's memory is; None is NULL."""
     return None if array is None or array.size == 0 else array.__array_interface__["data"][0]
 
 
-def integers(values: Optional[ArrayLike], name: str) -> Optional[np.ndarray]:
-    """uint32, as given when it is that already."""
-    if values is None:
-        return None
-    array = numbers(values, name)
-    if array.dtype == np.int32 and array.flags.c_contiguous and (array.size == 0 or array.min() >= 0):
-        array = array.view(np.uint32)  # the same bits
-    if array.dtype != np.uint32:
-        if array.size and array.dtype.kind not in "iu":
-            raise InvalidArgumentError(f"{name} must be whole numbers, not {array.dtype}")
-        bad = np.flatnonzero((array.ravel() < 0) | (array.ravel() > NO_INDEX)) if array.size else ()
-        if len(bad):
-            raise OutOfRangeError(f"{name} holds {array.ravel()[bad[0]]}", index=int(bad[0]))
-        array = array.astype(np.uint32)
-    return np.ascontiguousarray(array)
+Place = Union[int, Tuple[Sequence[int], Sequence[float]]]
 
 
-def corners(values: Optional[ArrayLike], name: str) -> tuple:
-    """Rows of three corners in uint32 or uint16 with any stride between rows, without a copy. Returns (array, stride)."""
-    if values is None:
-        return None, 0
-    array = numbers(values, name)
-    rows = array.ndim == 2 and array.shape[1] == 3
-    if array.size % 3 or (array.ndim == 2 and not rows):
-        raise InvalidArgumentError(f"{name} must have the shape (m, 3), not {array.shape}")
-    in_place = rows and array.dtype in (np.uint16, np.uint32) and array.strides[1] == array.itemsize
-    if not in_place or not 3 * array.itemsize <= array.strides[0] < 1 << 31:
-        array = (np.ascontiguousarray(array) if array.dtype == np.uint16 else integers(array, name)).reshape(-1, 3)
-    return array, array.strides[0] if len(array) > 1 else 0
+def place(kind: type, value: Place) -> Any:
+    """A point of the surface: a vertex, or the three vertices of a triangle and their weights."""
+    point = kind()
+    corners, weights = ((value,) * 3, (1.0, 0.0, 0.0)) if isinstance(value, (int, np.integer)) else value
+    point.corners[:] = [number(corner, "place") for corner in corners]  # type: ignore[attr-defined]
+    point.barycentrics[:] = [number(weight, "place", ctypes.c_double) for weight in weights]  # type: ignore[attr-defined]
+    return point
 
 
-def faces_into(desc: Any, faces: Any) -> list:
-    """Sets the faces of a desc: (m, k) corners, (offsets, corners) or (starts, sizes, corners). Returns what to keep."""
-    if isinstance(faces, tuple):
-        if len(faces) not in (2, 3):
-            raise InvalidArgumentError("faces must be (offsets, corners) or (starts, sizes, corners)")
-        starts, sizes = integers(faces[0], "faces[0]"), integers(faces[1], "faces[1]") if len(faces) == 3 else None
-        around = integers(faces[-1], f"faces[{len(faces) - 1}]")
-        if around is None or (starts is None and sizes is None):
-            raise NullPointerError("faces holds no corners, or neither starts nor sizes")
-        if starts is not None and sizes is not None and starts.size != sizes.size:
-            raise InvalidArgumentError(f"faces holds {starts.size} starts, but {sizes.size} sizes")
-        count = max(starts.size - 1, 0) if sizes is None else sizes.size
-    else:
-        around = integers(faces, "faces")
-        if around.ndim != 2 or around.shape[1] < 3:
-            raise InvalidArgumentError(f"faces must have the shape (m, 3) or wider, not {around.shape}")
-        count, starts = len(around), None
-        sizes = np.full(count, around.shape[1], np.uint32)
-    desc.face_count, desc.corner_count = count, around.size
-    desc.face_starts, desc.face_sizes, desc.corners = address(starts), address(sizes), address(around)
-    return [starts, sizes, around]
+def ref(struct: Any) -> Any:
+    return None if struct is None else ctypes.byref(struct)
 
 
-def index(value: Any, name: str) -> int:
-    """One whole number for a uint32 parameter."""
-    return whole(value, name)
+# ---- one call ----
 
+class Call:
+    """The arrays of one call, kept until it is over, and the counts that follow from them and from the objects."""
 
-def count_of(array: Optional[np.ndarray]) -> int:
-    """Elements of a list; a missing list counts one, so that the library says what is missing."""
-    return 1 if array is None else array.size
+    def __init__(self, *objects: Any, **named: Any) -> None:
+        self.n: Dict[str, int] = {}
+        self.keep: list = []
+        for thing in objects:
+            self.n.update(thing._n)
+        for name, thing in named.items():
+            for key, value in getattr(thing, "_n", {}).items():
+                self.n[f"{name}.{key}"] = self.n[key] = value
 
+    def _size(self, dim: Any) -> Optional[int]:
+        if dim.__class__ is int:
+            return dim
+        size = self.n.get(dim)
+        if size is None and " + " in dim:
+            base, _, more = dim.partition(" + ")
+            return None if base not in self.n else self.n[base] + int(more)
+        return size
 
-def paired(sites: ArrayLike, vertices: ArrayLike) -> tuple:
-    """Numbers of sites and as many vertices."""
-    numbers, at = integers(sites, "sites"), integers(vertices, "vertices")
-    if numbers is None or at is None or numbers.size != at.size:
-        raise InvalidArgumentError("sites and vertices must be of one length")
-    return numbers, at
+    def _fit(self, array: np.ndarray, name: str, dims: tuple) -> np.ndarray:
+        """The array in the shape that dims say; a dimension that is not known yet becomes known."""
+        known, loose = 1, None
+        sizes: Any = []
+        for dim in dims:
+            size = dim if dim.__class__ is int else self._size(dim)
+            sizes.append(size)
+            if size is not None:
+                known *= size
+            elif loose is None:
+                loose = dim
+            elif array.ndim != len(dims):
+                self._refuse(array, name, dims, sizes)
+        if array.ndim == 0 and loose is None:
+            return np.full(sizes, array)  # one number for all
+        if array.ndim == len(dims) > 1:
+            for dim, size, have in zip(dims, sizes, array.shape):
+                if size is None:
+                    self._learn(dim, have)
+                elif size != have:
+                    self._refuse(array, name, dims, sizes)
+        elif loose is None:
+            if array.size != known:
+                raise InvalidArgumentError(f"{name} must hold {known} numbers, not {array.size}")
+        elif known and array.size % known == 0:
+            self._learn(loose, array.size // known)
+        elif array.size:
+            self._refuse(array, name, dims, sizes)
+        else:
+            self._learn(loose, 0)
+        return array
 
+    def _learn(self, dim: str, size: int) -> None:
+        base, _, more = dim.partition(" + ")
+        self.n[base] = max(size - int(more or 0), 0)
 
-def scalars(field: Optional[ArrayLike], vertex_count: int) -> tuple:
-    """A field as the library reads it, in place where it can be. Returns (desc or None, what to keep alive)."""
-    if field is None:
-        return None, None
-    array = numbers(field, "field")
-    fits = array.dtype in (np.float32, np.float64) and array.ndim == 1 and array.size == vertex_count
-    if not fits or array.strides[0] <= 0:
-        array = doubles(field, "field", vertex_count).ravel()
-    desc = make(_raw.hf_scalars, value_stride=array.strides[0])
-    setattr(desc, "values" if array.dtype == np.float32 else "values_f64", address(array))
-    return desc, array
+    def _refuse(self, array: np.ndarray, name: str, dims: tuple, sizes: list) -> None:
+        wanted = ", ".join(str(dim if size is None else size) for dim, size in zip(dims, [*sizes, None, None]))
+        raise InvalidArgumentError(f"{name} must have the shape ({wanted}), not {array.shape}")
 
+    def array(self, name: str, values: Optional[ArrayLike], kinds: str, dims: tuple, sentinel: bool = False) -> Optional[int]:
+        """The address of packed numbers."""
+        if values is None:
+            return None
+        array = np.ascontiguousarray(self._fit(converted(values, name, kinds, sentinel), name, dims))
+        self.keep.append(array)
+        return address(array)
 
-def doubles(values: Optional[ArrayLike], name: str, count: Optional[int] = None) -> Optional[np.ndarray]:
-    """float64, as given when it is that already; count: how many numbers there must be."""
-    if values is None:
-        return None
-    array = np.ascontiguousarray(numbers(values, name), dtype=np.float64)
-    if count is not None and array.size != count:
-        raise InvalidArgumentError(f"{name} must hold {count} numbers, not {array.size}")
-    return array
+    def rows(self, desc: Any, field: str, values: Optional[ArrayLike], kinds: str, dims: tuple, stride: str = "",
+             sentinel: bool = False, name: str = "") -> None:
+        """Sets the pointer of a desc and its stride. Where it has a stride, rows are used in place."""
+        if values is None:
+            return
+        array, name = self._fit(converted(values, name or field, kinds, sentinel), name or field, dims), name or field
+        inner = len(dims) == 1 or (array.ndim == 2 and array.strides[1] == array.itemsize)
+        row = array.itemsize * (array.shape[1] if array.ndim == 2 else 1)
+        if not (stride and array.ndim == len(dims) and inner and row <= array.strides[0] < 1 << 31):
+            array = np.ascontiguousarray(array)
+        elif len(array) > 1:
+            setattr(desc, stride, array.strides[0])
+        self.keep.append(array)
+        second = kinds.split()[-1]
+        other = second in _SUFFIX and " " in kinds and array.dtype == _TYPES[second]
+        setattr(desc, field + _SUFFIX[second] if other else field, address(array))
 
+    def struct(self, kind: type, options: Dict[str, Any], prefix: str = "") -> Any:
+        """A struct with its size and the scalars among its fields set."""
+        made, types = kind(), dict(field[:2] for field in kind._fields_)  # type: ignore[attr-defined]
+        for key, value in options.items():
+            setattr(made, key, number(value, key, types[key]))
+        self.keep.append(made)
+        return made
 
-def points(values: ArrayLike, name: str) -> tuple:
-    """Rows of xyz in float32 or float64 with any stride between rows, without a copy. Returns (array, stride)."""
-    if values is None:
-        raise NullPointerError(f"{name} is None")
-    array = numbers(values, name)
-    if array.dtype not in (np.float32, np.float64):
-        array = array.astype(np.float64)
-    if array.ndim == 1 and array.size % 3 == 0:
-        array = np.ascontiguousarray(array).reshape(-1, 3)
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise InvalidArgumentError(f"{name} must have the shape (n, 3), not {array.shape}")
-    if array.strides[1] != array.itemsize or array.strides[0] < 3 * array.itemsize or array.strides[0] >= 1 << 31:
-        array = np.ascontiguousarray(array)
-    return array, array.strides[0] if len(array) > 1 else 0
+    def counts(self, desc: Any, **fields: Any) -> None:
+        """Sets the counts of a desc. (key, least): least where no array says."""
+        for field, (key, least) in fields.items():
+            setattr(desc, field, self.n.setdefault(key, least))
 
+    def ragged(self, desc: Any, counts: str, field: str, lists: Optional[Sequence[ArrayLike]], key: str) -> None:
+        """Lists of different lengths, one after the other."""
+        if lists is None:
+            return
+        if any(part is None for part in lists):
+            raise NullPointerError(f"{field} holds None")
+        arrays = [converted(part, f"{field}[{i}]", "u4").ravel() for i, part in enumerate(lists)]
+        if self.n.setdefault(key, len(arrays)) != len(arrays):
+            raise InvalidArgumentError(f"{field} must hold {self.n[key]} lists, not {len(arrays)}")
+        sizes = np.array([part.size for part in arrays], np.uint32)
+        together = np.concatenate(arrays) if arrays else np.empty(0, np.uint32)
+        self.keep += [sizes, together]
+        setattr(desc, counts, address(sizes))
+        setattr(desc, field, address(together))
 
-def output(out: Optional[np.ndarray], shape: tuple, dtype: Any, name: str = "out") -> tuple:
-    """The caller's array, or a new one; any stride between rows. Returns (array, stride)."""
-    if out is None:
-        return np.empty(shape, dtype), 0
-    wanted = [np.dtype(t) for t in (dtype if isinstance(dtype, tuple) else (dtype,))]
-    if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray) or out.dtype not in wanted:
-        raise InvalidArgumentError(f"{name} must be an array of {' or '.join(str(t) for t in wanted)}")
-    if out.size != int(np.prod(shape)):
-        raise TooSmallError(f"{name} must have the shape {shape}, not {out.shape}")
-    if not out.flags.writeable:
-        raise InvalidArgumentError(f"{name} is read-only")
-    row = out.itemsize * (shape[1] if len(shape) > 1 else 1)
-    if out.flags.c_contiguous:
-        return out, 0
-    if out.shape != tuple(shape) or out.strides[0] < row or (len(shape) > 1 and out.strides[1] != out.itemsize):
-        raise InvalidArgumentError(f"{name} may have a stride between rows only")
-    return out, out.strides[0]
+    def fixed(self, struct: Any, field: str, values: Optional[ArrayLike], name: str = "") -> None:
+        """A field of a fixed number of numbers."""
+        if values is not None:
+            into = getattr(struct, field)
+            kind = np.dtype(into._type_)
+            array = numbers(values, name or field) if kind.kind == "f" else _whole(numbers(values, name or field), name or field, kind, True)
+            into[:] = self._fit(array, name or field, (len(into),)).ravel().tolist()
 
+    def records(self, kind: type, dims: tuple, fields: Dict[str, tuple]) -> Optional[int]:
+        """Rows of a plain struct, given field by field: field -> (name, values)."""
+        given = {field: (name, numbers(values, name)) for field, (name, values) in fields.items() if values is not None}
+        types: Any = np.dtype(kind)
+        for field, (name, array) in given.items():
+            given[field] = (name, self._fit(array, name, (*dims, *types[field].shape)))
+        rows: Any = np.zeros(self.n.get(dims[0], 0), types)
+        for field, (_, array) in given.items():
+            rows[field] = array.reshape(rows[field].shape)
+        self.keep.append(rows)
+        return address(rows)
 
-def regions(lists: Optional[Sequence[ArrayLike]], name: str) -> tuple:
-    """Lists of vertices one after the other. Returns (counts, vertices)."""
-    if lists is None:
-        return None, None
-    arrays = [integers(region, f"{name}[{i}]") for i, region in enumerate(lists)]
-    if any(a is None for a in arrays):
-        raise NullPointerError(f"{name} holds None")
-    counts = np.array([a.size for a in arrays], np.uint32)
-    return counts, np.concatenate([a.ravel() for a in arrays]) if arrays else np.empty(0, np.uint32)
+    def written(self, name: str, values: Optional[ArrayLike], kind: type, dims: tuple) -> Optional[int]:
+        """Records that the library wrote, given back to it."""
+        if values is None:
+            return None
+        if not isinstance(values, np.ndarray) or values.dtype != np.dtype(kind):
+            raise InvalidArgumentError(f"{name} must be records of numpy.dtype(hf.constants.{kind.__name__})")
+        rows = np.ascontiguousarray(self._fit(values, name, dims))
+        self.keep.append(rows)
+        return address(rows)
+
+    def text(self, values: Any) -> Optional[int]:
+        """Lines in UTF-8: a string, or a list of one for each."""
+        if values is None:
+            return None
+        lines = values if isinstance(values, str) else "".join(str(line).replace("\n", " ") + "\n" for line in values)
+        self.keep.append(ctypes.create_string_buffer(lines.encode()))
+        return ctypes.addressof(self.keep[-1])
+
+    def bytes(self, desc: Any, field: str, count: str, values: Any) -> None:
+        if values is not None:
+            try:
+                block = np.frombuffer(values, np.uint8)
+            except (TypeError, ValueError, BufferError) as error:
+                raise InvalidArgumentError(f"{field} must be bytes: {error}") from None
+            self.keep.append(block)
+            setattr(desc, field, address(block))
+            setattr(desc, count, block.size)
+
+    def inner(self, given: Any, first: str, fill: Callable, prefix: str) -> Optional[int]:
+        """A desc inside a desc: a dict of its arguments, or its first array alone."""
+        if given is None:
+            return None
+        return ctypes.addressof(fill(self, prefix, **(given if isinstance(given, dict) else {first: given})))
+
+    def known(self, key: str, value: int) -> None:
+        if number(value, key):
+            self.n[key] = int(value)
+
+    # ---- what comes out ----
+
+    def into(self, struct: Any, room: Dict[str, int], arrays: Dict[str, Any]) -> None:
+        for key, value in room.items():
+            setattr(struct, key, value)
+        for key, array in arrays.items():
+            setattr(struct, key, address(array))
+
+    def shape(self, dims: tuple) -> tuple:
+        """channel_count and the like leave the shape where they are 1."""
+        sizes = [self._size(dim) or 0 for dim in dims]
+        return tuple(s for k, (s, dim) in enumerate(zip(sizes, dims)) if not (k and s == 1 and isinstance(dim, str)))
+
+    def out(self, out: Optional[np.ndarray], kinds: str, dims: tuple, dtype: Any = None, name: str = "out") -> tuple:
+        """The caller's array, or a new one. Rows may have a stride. Returns (array, stride)."""
+        shape, wanted = self.shape(dims), [np.dtype(_TYPES[kind]) for kind in kinds.split()]
+        if out is None and np.dtype(dtype or wanted[0]) not in wanted:
+            raise InvalidArgumentError(f"dtype must be {' or '.join(map(str, wanted))}, not {dtype}")
+        if out is None:
+            return np.empty(shape, dtype or wanted[0]), 0
+        if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray) or out.dtype not in wanted:
+            raise InvalidArgumentError(f"{name} must be an array of {' or '.join(map(str, wanted))}")
+        if out.size != math.prod(shape):
+            raise TooSmallError(f"{name} must have the shape {shape}, not {out.shape}")
+        if not out.flags.writeable:
+            raise InvalidArgumentError(f"{name} is read-only")
+        if out.flags.c_contiguous:
+            return out, 0
+        row = out.itemsize * (shape[1] if len(shape) > 1 else 1)
+        if out.shape != shape or out.strides[0] < row or (len(shape) > 1 and out.strides[1] != out.itemsize):
+            raise InvalidArgumentError(f"{name} may have a stride between rows only")
+        return out, out.strides[0]
+
+    def grow(self, owner: Any, function: str, run: Callable, tell: Callable, rooms: Dict[str, Any], arrays: Dict[str, tuple]) -> Any:
+        """Arrays of lengths that the library tells. run(room, arrays) calls it, and again with more room when that was too
+        little; tell() gives the counts. rooms: capacity -> the first to try, or None: what sufficed last time."""
+        memory = owner.__dict__.setdefault("_rooms", {})
+        room = {key: memory.get((function, key), 1024) if first is None else first for key, first in rooms.items()}
+        while True:
+            self.n.update(room)
+            blind = any(self._size(dim) is None for _, dims in arrays.values() for dim in dims)  # asks for counts alone
+            made: Any = {name: None if blind else np.zeros(self.shape(dims), dtype) for name, (dtype, dims) in arrays.items()}
+            try:
+                run({key: 0 if blind else value for key, value in room.items()}, made)
+                counts = tell()
+                if not blind and all(counts[key] <= room[key] for key in room):
+                    break
+            except TooSmallError:
+                counts = tell()
+                if all(counts[key] <= room[key] for key in room):
+                    raise
+            room = {key: counts[key] if blind else max(value, counts[key] + counts[key] // 8) for key, value in room.items()}
+            self.n.update({key: value for key, value in counts.items() if key not in room})
+        memory.update({(function, key): max(value, 1) for key, value in room.items()})
+        self.n.update(counts)
+        return {name: array[:self._size(arrays[name][1][0])] for name, array in made.items()}
+
+    def info(self, info: Any, kind: Any) -> Any:
+        """A struct of the caller to fill, or NULL."""
+        if info is None:
+            return None
+        if not isinstance(info, kind):
+            raise InvalidArgumentError(f"info must be a {kind.__name__}, not {type(info).__name__}")
+        return ctypes.byref(info)
 
 
 class Object:
@@ -349,22 +418,22 @@ class Object:
     """
 
     _destroy = ""
-    _raw_handle: Optional[int] = None
+    _handle: Optional[int] = None
     _open = False
+    _counts: tuple = ()  # of the object: how long its arrays are
+    _n: Dict[str, int] = {}
 
-    def _own(self, handle: ctypes.c_void_p) -> None:
-        self._raw_handle, self._open = handle.value, True
-
-    def _read(self, function: str, struct: type) -> Any:
-        """A struct that a function of this object fills."""
-        info = make(struct)
-        call(function, self._raw_handle, ctypes.byref(info))
-        return info
+    def _own(self, function: str, call_of: Call, *arguments: Any) -> None:
+        """Makes the object: the last argument of the function receives its handle."""
+        handle = ctypes.c_void_p()
+        call(function, *arguments, ctypes.byref(handle))
+        self._handle, self._open = handle.value, True
+        self._n = {key: value for key, value in call_of.n.items() if key.rpartition(".")[2] in self._counts}
 
     @property
-    def handle(self) -> Optional[int]:
+    def raw_handle(self) -> Optional[int]:
         """The handle of the C ABI."""
-        return self._raw_handle
+        return self._handle
 
     @property
     def closed(self) -> bool:
@@ -374,7 +443,7 @@ class Object:
         """Gives the memory back. Later calls do nothing."""
         if self._open:
             self._open = False
-            getattr(library(), self._destroy)(self._raw_handle)
+            getattr(library(), self._destroy)(self._handle)
 
     def __reduce_ex__(self, protocol: Any) -> Any:
         """A handle means nothing in another process, and two owners would close it twice."""
@@ -428,13 +497,13 @@ class Recorded(Object):
                              "nothing was undone since the last record()")
         state = states[-1]
         setattr(self, kept, [*getattr(self, kept, []), state])
-        self._raw_handle, state._raw_handle = state._raw_handle, self._raw_handle
+        self._handle, state._handle = state._handle, self._handle
         states.pop()
 
 
-def handle_of(thing: Optional[Union[Object, int]], kind: type, name: str) -> Optional[int]:
+def handle_of(thing: Any, kind: type, name: str) -> Optional[int]:
     if thing is None:
         return None
-    if not isinstance(thing, kind):
+    if not isinstance(thing, kind) or not isinstance(thing, Object):
         raise InvalidArgumentError(f"{name} must be a {kind.__name__}, not {type(thing).__name__}")
-    return thing._raw_handle
+    return thing._handle

@@ -1,9 +1,24 @@
 """Generated from include/hf/*.h by bindings/generate; do not edit. The C ABI as ctypes sees it."""
 # fmt: off
-from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p)
+from ctypes import (CDLL, Structure, c_char, c_char_p, c_double, c_float, c_int32, c_size_t, c_uint32, c_void_p, sizeof)
 
 HEADER_VERSION = "0.1.0"
 
+class Struct(Structure):
+    """A struct of zeros with its size set, shown with its fields."""
+
+    def __init__(self, *values, **fields) -> None:
+        super().__init__(*values, **fields)
+        if self._fields_[0][0] == "struct_size":
+            self.struct_size = sizeof(self)
+
+    def __repr__(self) -> str:
+        shown = []
+        for name, *_ in self._fields_:
+            value = getattr(self, name)
+            if name not in ("struct_size", "reserved"):
+                shown.append(f"{name}={list(value) if hasattr(value, '_length_') else value!r}")
+        return f"{type(self).__name__}({', '.join(shown)})"
 HF_VERSION_MAJOR = 0
 HF_VERSION_MINOR = 1
 HF_VERSION_PATCH = 0
@@ -163,7 +178,7 @@ RESULT_NAMES = {
 }
 
 
-class hf_error_detail(Structure):
+class hf_error_detail(Struct):
     """Details of the last failed call on this thread."""
     code: int
     index: int
@@ -177,7 +192,7 @@ class hf_error_detail(Structure):
     ]
 
 
-class hf_allocator(Structure):
+class hf_allocator(Struct):
     """Your allocator, which serves a surface and everything made from it."""
     allocate: int
     release: int
@@ -189,7 +204,7 @@ class hf_allocator(Structure):
     ]
 
 
-class hf_job_runner(Structure):
+class hf_job_runner(Struct):
     """Your job system."""
     run: int
     user: int
@@ -199,7 +214,7 @@ class hf_job_runner(Structure):
     ]
 
 
-class hf_factor_desc(Structure):
+class hf_factor_desc(Struct):
     """A factor that hf_surface_save wrote."""
     struct_size: int
     borrow: int
@@ -213,7 +228,7 @@ class hf_factor_desc(Structure):
     ]
 
 
-class hf_link(Structure):
+class hf_link(Struct):
     """A spring from a vertex to a point of a triangle."""
     vertex: int
     corners: object
@@ -233,7 +248,7 @@ class hf_link(Structure):
     ]
 
 
-class hf_links_desc(Structure):
+class hf_links_desc(Struct):
     """Says which pieces to link."""
     struct_size: int
     mode: int
@@ -269,7 +284,7 @@ class hf_links_desc(Structure):
     ]
 
 
-class hf_surface_desc(Structure):
+class hf_surface_desc(Struct):
     """The mesh and the options of a surface."""
     struct_size: int
     vertex_count: int
@@ -337,7 +352,7 @@ class hf_surface_desc(Structure):
     ]
 
 
-class hf_graph_desc(Structure):
+class hf_graph_desc(Struct):
     """A graph of your own and the options of its surface"""
     struct_size: int
     vertex_count: int
@@ -381,7 +396,7 @@ class hf_graph_desc(Structure):
     ]
 
 
-class hf_surface_info(Structure):
+class hf_surface_info(Struct):
     """The options a surface was made with, defaults filled in."""
     struct_size: int
     vertex_count: int
@@ -421,7 +436,7 @@ class hf_surface_info(Structure):
     ]
 
 
-class hf_surface_report(Structure):
+class hf_surface_report(Struct):
     """Counts of what the surface found in the mesh."""
     struct_size: int
     vertex_count: int
@@ -485,7 +500,7 @@ class hf_surface_report(Structure):
     ]
 
 
-class hf_gaps_desc(Structure):
+class hf_gaps_desc(Struct):
     """Posed positions of the mesh, of which gaps are measured."""
     struct_size: int
     position_stride: int
@@ -499,7 +514,7 @@ class hf_gaps_desc(Structure):
     ]
 
 
-class hf_gaps_info(Structure):
+class hf_gaps_info(Struct):
     """How far linked pieces have opened, in the unit of the positions."""
     struct_size: int
     link_count: int
@@ -517,7 +532,7 @@ class hf_gaps_info(Structure):
     ]
 
 
-class hf_surface_statistics(Structure):
+class hf_surface_statistics(Struct):
     """hf_surface_get_statistics writes sizes and times of a surface here."""
     struct_size: int
     unknown_count: int
@@ -555,7 +570,7 @@ class hf_surface_statistics(Structure):
     ]
 
 
-class hf_pick_desc(Structure):
+class hf_pick_desc(Struct):
     """Options of picking"""
     struct_size: int
     position_stride: int
@@ -573,7 +588,7 @@ class hf_pick_desc(Structure):
     ]
 
 
-class hf_hit(Structure):
+class hf_hit(Struct):
     """hf_surface_cast_ray writes the first triangle that a ray hits here."""
     struct_size: int
     found: int
@@ -597,8 +612,7 @@ class hf_hit(Structure):
     ]
 
 
-class hf_solver_desc(Structure):
-    """Selects the engine"""
+class hf_solver_desc(Struct):
     struct_size: int
     field_kind: int
     engine: int
@@ -619,7 +633,7 @@ class hf_solver_desc(Structure):
     ]
 
 
-class hf_solver_info(Structure):
+class hf_solver_info(Struct):
     """hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites."""
     struct_size: int
     field_kind: int
@@ -643,7 +657,7 @@ class hf_solver_info(Structure):
     ]
 
 
-class hf_sites_desc(Structure):
+class hf_sites_desc(Struct):
     """Places and values of sites."""
     struct_size: int
     site_count: int
@@ -667,7 +681,7 @@ class hf_sites_desc(Structure):
     ]
 
 
-class hf_edit_desc(Structure):
+class hf_edit_desc(Struct):
     """One batch of edits, applied in the order remove, move, set, add."""
     struct_size: int
     remove_count: int
@@ -693,7 +707,7 @@ class hf_edit_desc(Structure):
     ]
 
 
-class hf_sites_info(Structure):
+class hf_sites_info(Struct):
     """Places, values and fluxes of the sites."""
     struct_size: int
     capacity: int
@@ -721,7 +735,7 @@ class hf_sites_info(Structure):
     ]
 
 
-class hf_solve_info(Structure):
+class hf_solve_info(Struct):
     """The components that the sites of a solve did not reach."""
     struct_size: int
     unreached_component_count: int
@@ -735,7 +749,7 @@ class hf_solve_info(Structure):
     ]
 
 
-class hf_preview_info(Structure):
+class hf_preview_info(Struct):
     """Counts and errors of a preview."""
     struct_size: int
     exact: int
@@ -757,7 +771,7 @@ class hf_preview_info(Structure):
     ]
 
 
-class hf_certificate(Structure):
+class hf_certificate(Struct):
     """The certificate says how accurate a field is."""
     struct_size: int
     overshoot_checked: int
@@ -783,7 +797,7 @@ class hf_certificate(Structure):
     ]
 
 
-class hf_solver_statistics(Structure):
+class hf_solver_statistics(Struct):
     """Counts, memory and cost estimates of a solver."""
     struct_size: int
     site_count: int
@@ -819,7 +833,7 @@ class hf_solver_statistics(Structure):
     ]
 
 
-class hf_scalars(Structure):
+class hf_scalars(Struct):
     """This struct passes a field with one value per vertex of your mesh."""
     struct_size: int
     value_stride: int
@@ -833,7 +847,7 @@ class hf_scalars(Structure):
     ]
 
 
-class hf_isolines(Structure):
+class hf_isolines(Struct):
     """Iso-lines as polylines."""
     struct_size: int
     point_capacity: int
@@ -863,8 +877,7 @@ class hf_isolines(Structure):
     ]
 
 
-class hf_critical_point(Structure):
-    """---- critical points ----"""
+class hf_critical_point(Struct):
     vertex: int
     kind: int
     index: int
@@ -879,7 +892,7 @@ class hf_critical_point(Structure):
     ]
 
 
-class hf_critical_info(Structure):
+class hf_critical_info(Struct):
     struct_size: int
     point_count: int
     minimum_count: int
@@ -900,8 +913,7 @@ class hf_critical_info(Structure):
     ]
 
 
-class hf_geodesics_desc(Structure):
-    """Selects how distances are computed."""
+class hf_geodesics_desc(Struct):
     struct_size: int
     method: int
     smoothing: float
@@ -914,7 +926,7 @@ class hf_geodesics_desc(Structure):
     ]
 
 
-class hf_surface_point(Structure):
+class hf_surface_point(Struct):
     """A point of the surface in the form of hf_hit"""
     corners: object
     reserved: int
@@ -926,7 +938,7 @@ class hf_surface_point(Structure):
     ]
 
 
-class hf_path(Structure):
+class hf_path(Struct):
     """A path along the surface, from its first point to its last."""
     struct_size: int
     point_capacity: int
@@ -948,8 +960,7 @@ class hf_path(Structure):
     ]
 
 
-class hf_extremities_desc(Structure):
-    """Selects how hf_surface_find_extremities finds tips."""
+class hf_extremities_desc(Struct):
     struct_size: int
     kind: int
     least_length_share: float
@@ -970,7 +981,7 @@ class hf_extremities_desc(Structure):
     ]
 
 
-class hf_extremity(Structure):
+class hf_extremity(Struct):
     vertex: int
     component: int
     length: float
@@ -983,7 +994,7 @@ class hf_extremity(Structure):
     ]
 
 
-class hf_direction_desc(Structure):
+class hf_direction_desc(Struct):
     struct_size: int
     degree: int
     site_limit: int
@@ -998,7 +1009,7 @@ class hf_direction_desc(Structure):
     ]
 
 
-class hf_singularity(Structure):
+class hf_singularity(Struct):
     """A singularity is a triangle, or a face, around which the field makes extra turns."""
     triangle: int
     vertex: int
@@ -1010,7 +1021,7 @@ class hf_singularity(Structure):
     ]
 
 
-class hf_direction_statistics(Structure):
+class hf_direction_statistics(Struct):
     """The options a direction field was made with, and counts of its constraints and of the work done so far."""
     struct_size: int
     degree: int
@@ -1046,8 +1057,7 @@ class hf_direction_statistics(Structure):
     ]
 
 
-class hf_pose_desc(Structure):
-    """Selects how vertices follow the handles."""
+class hf_pose_desc(Struct):
     struct_size: int
     mode: int
     band_count: int
@@ -1064,7 +1074,7 @@ class hf_pose_desc(Structure):
     ]
 
 
-class hf_pose_info(Structure):
+class hf_pose_info(Struct):
     """hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles."""
     struct_size: int
     mode: int
@@ -1086,7 +1096,7 @@ class hf_pose_info(Structure):
     ]
 
 
-class hf_handles_desc(Structure):
+class hf_handles_desc(Struct):
     """The handles to add."""
     struct_size: int
     handle_count: int
@@ -1110,7 +1120,7 @@ class hf_handles_desc(Structure):
     ]
 
 
-class hf_transform(Structure):
+class hf_transform(Struct):
     """A rigid motion of a handle from its rest place."""
     rotation: object
     translation: object
@@ -1120,7 +1130,7 @@ class hf_transform(Structure):
     ]
 
 
-class hf_handle_info(Structure):
+class hf_handle_info(Struct):
     """hf_pose_get_handle writes the region of a handle here, its layer, and its motion in the last hf_deform."""
     struct_size: int
     vertex_count: int
@@ -1146,7 +1156,7 @@ class hf_handle_info(Structure):
     ]
 
 
-class hf_deform_info(Structure):
+class hf_deform_info(Struct):
     """Counts and times of a deform."""
     struct_size: int
     iteration_count: int
@@ -1170,7 +1180,7 @@ class hf_deform_info(Structure):
     ]
 
 
-class hf_deform_desc(Structure):
+class hf_deform_desc(Struct):
     """The options of hf_pose_deform are outputs, strides and a range of vertices."""
     struct_size: int
     position_stride: int
@@ -1202,7 +1212,7 @@ class hf_deform_desc(Structure):
     ]
 
 
-class hf_skin_info(Structure):
+class hf_skin_info(Struct):
     """This struct receives a pose or a transfer as a skin for linear blend skinning."""
     struct_size: int
     joint_capacity: int
@@ -1234,8 +1244,7 @@ class hf_skin_info(Structure):
     ]
 
 
-class hf_handle_proposals_desc(Structure):
-    """Says why a place is proposed as a handle."""
+class hf_handle_proposals_desc(Struct):
     struct_size: int
     joint_count: int
     joints: int
@@ -1258,7 +1267,7 @@ class hf_handle_proposals_desc(Structure):
     ]
 
 
-class hf_handle_proposal(Structure):
+class hf_handle_proposal(Struct):
     """One proposed handle."""
     vertex: int
     component: int
@@ -1282,7 +1291,7 @@ class hf_handle_proposal(Structure):
     ]
 
 
-class hf_quads_desc(Structure):
+class hf_quads_desc(Struct):
     """Options of a quad mesh."""
     struct_size: int
     face_count: int
@@ -1322,7 +1331,7 @@ class hf_quads_desc(Structure):
     ]
 
 
-class hf_quads_info(Structure):
+class hf_quads_info(Struct):
     """Counts of a quad mesh."""
     struct_size: int
     vertex_count: int
@@ -1338,7 +1347,7 @@ class hf_quads_info(Structure):
     ]
 
 
-class hf_quads_mesh(Structure):
+class hf_quads_mesh(Struct):
     """hf_quads_get_mesh writes the quad mesh to these arrays."""
     struct_size: int
     vertex_capacity: int
@@ -1366,7 +1375,7 @@ class hf_quads_mesh(Structure):
     ]
 
 
-class hf_streamlines(Structure):
+class hf_streamlines(Struct):
     struct_size: int
     wanted_count: int
     seed_count: int
@@ -1397,8 +1406,7 @@ class hf_streamlines(Structure):
     ]
 
 
-class hf_region_desc(Structure):
-    """The smooth base of a region."""
+class hf_region_desc(Struct):
     struct_size: int
     base: int
     positions: int
@@ -1417,7 +1425,7 @@ class hf_region_desc(Structure):
     ]
 
 
-class hf_curve_desc(Structure):
+class hf_curve_desc(Struct):
     """Describes a closed curve through at least 3 points, on the mesh at rest."""
     struct_size: int
     point_count: int
@@ -1443,7 +1451,7 @@ class hf_curve_desc(Structure):
     ]
 
 
-class hf_region_edit_desc(Structure):
+class hf_region_edit_desc(Struct):
     """A change of a region."""
     struct_size: int
     ring_count: int
@@ -1465,7 +1473,7 @@ class hf_region_edit_desc(Structure):
     ]
 
 
-class hf_region_info(Structure):
+class hf_region_info(Struct):
     """Counts and areas of a region and of its last edit."""
     struct_size: int
     field_kind: int
@@ -1499,7 +1507,7 @@ class hf_region_info(Structure):
     ]
 
 
-class hf_morph_desc(Structure):
+class hf_morph_desc(Struct):
     """Gives hf_region_morph and hf_detail_morph their weight and outputs."""
     struct_size: int
     position_stride: int
@@ -1521,7 +1529,7 @@ class hf_morph_desc(Structure):
     ]
 
 
-class hf_detail_desc(Structure):
+class hf_detail_desc(Struct):
     struct_size: int
     pair_count: int
     source_vertices: int
@@ -1538,7 +1546,7 @@ class hf_detail_desc(Structure):
     ]
 
 
-class hf_transfer_desc(Structure):
+class hf_transfer_desc(Struct):
     """most pairs of a transfer"""
     struct_size: int
     mode: int
@@ -1566,7 +1574,7 @@ class hf_transfer_desc(Structure):
     ]
 
 
-class hf_pairs_desc(Structure):
+class hf_pairs_desc(Struct):
     """The pairs to add."""
     struct_size: int
     pair_count: int
@@ -1588,7 +1596,7 @@ class hf_pairs_desc(Structure):
     ]
 
 
-class hf_pair_info(Structure):
+class hf_pair_info(Struct):
     struct_size: int
     flags: int
     source_leak: float
@@ -1611,7 +1619,7 @@ class hf_pair_info(Structure):
     ]
 
 
-class hf_transfer_info(Structure):
+class hf_transfer_info(Struct):
     """hf_transfer_get_info writes counts and the scale of a transfer here."""
     struct_size: int
     pair_count: int
@@ -1635,7 +1643,7 @@ class hf_transfer_info(Structure):
     ]
 
 
-class hf_transfer_dials(Structure):
+class hf_transfer_dials(Struct):
     """What an animator turns while a transfer plays."""
     struct_size: int
     reserved: int
@@ -1657,7 +1665,7 @@ class hf_transfer_dials(Structure):
     ]
 
 
-class hf_transfer_frame(Structure):
+class hf_transfer_frame(Struct):
     """Describes one frame"""
     struct_size: int
     source_stride: int
@@ -1689,7 +1697,7 @@ class hf_transfer_frame(Structure):
     ]
 
 
-class hf_joints_desc(Structure):
+class hf_joints_desc(Struct):
     """The joints of a skeleton, in the unit and frame of the mesh."""
     struct_size: int
     joint_count: int
@@ -1713,7 +1721,7 @@ class hf_joints_desc(Structure):
     ]
 
 
-class hf_pins_desc(Structure):
+class hf_pins_desc(Struct):
     """Places with given weights."""
     struct_size: int
     pin_count: int
@@ -1741,7 +1749,7 @@ class hf_pins_desc(Structure):
     ]
 
 
-class hf_weights_out(Structure):
+class hf_weights_out(Struct):
     """Receives the weights."""
     struct_size: int
     vertex_capacity: int
@@ -1763,7 +1771,7 @@ class hf_weights_out(Structure):
     ]
 
 
-class hf_weights_info(Structure):
+class hf_weights_info(Struct):
     """Counts of the weights."""
     struct_size: int
     vertex_count: int
@@ -1813,7 +1821,7 @@ class hf_weights_info(Structure):
     ]
 
 
-class hf_weights_transfer_desc(Structure):
+class hf_weights_transfer_desc(Struct):
     """Weights to transfer from one surface to another."""
     struct_size: int
     source_influence_count: int
@@ -1837,7 +1845,7 @@ class hf_weights_transfer_desc(Structure):
     ]
 
 
-class hf_weights_transfer_info(Structure):
+class hf_weights_transfer_info(Struct):
     """Counts of transferred weights."""
     struct_size: int
     vertex_count: int
@@ -1859,7 +1867,7 @@ class hf_weights_transfer_info(Structure):
     ]
 
 
-class hf_weights_mirror_desc(Structure):
+class hf_weights_mirror_desc(Struct):
     """Weights to mirror."""
     struct_size: int
     joint_count: int
@@ -1895,7 +1903,7 @@ class hf_weights_mirror_desc(Structure):
     ]
 
 
-class hf_weights_mirror_info(Structure):
+class hf_weights_mirror_info(Struct):
     """The findings of a mirror."""
     struct_size: int
     vertex_count: int

@@ -673,7 +673,6 @@ impl Default for hf_hit {
     }
 }
 
-/// Selects the engine
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_solver_desc {
@@ -1013,7 +1012,6 @@ impl Default for hf_isolines {
     }
 }
 
-/// ---- critical points ----
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_critical_point {
@@ -1067,7 +1065,6 @@ impl hf_critical_info {
     }
 }
 
-/// Selects how distances are computed.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_geodesics_desc {
@@ -1122,7 +1119,6 @@ impl Default for hf_path {
     }
 }
 
-/// Selects how hf_surface_find_extremities finds tips.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_extremities_desc {
@@ -1244,7 +1240,6 @@ impl hf_direction_statistics {
     }
 }
 
-/// Selects how vertices follow the handles.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_pose_desc {
@@ -1472,7 +1467,6 @@ impl Default for hf_skin_info {
     }
 }
 
-/// Says why a place is proposed as a handle.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_handle_proposals_desc {
@@ -1630,7 +1624,6 @@ impl Default for hf_streamlines {
     }
 }
 
-/// The smooth base of a region.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hf_region_desc {

@@ -83,7 +83,7 @@ const tasks = {
     body.detail = detailOf(body);
     smoothNormals(positions, sums, body.normals);
     const report = surface.report;
-    const answer = { proposals, report, normals: body.normals.slice(), components: surface.components };
+    const answer = { proposals, report, normals: body.normals.slice(), components: surface.components() };
     answer.openMs = performance.now() - begin;
     return [answer, [answer.normals.buffer, answer.components.buffer]];
   },
@@ -167,7 +167,8 @@ const tasks = {
     const normals = new Float32Array(posed.length);
     smoothNormals(posed, body.sums, normals);
     const milliseconds = performance.now() - begin;
-    const gap = body.surface.measureGaps(posed).worst / body.surface.report.boundingBoxDiagonal;
+    body.surface.measureGaps(posed);
+    const gap = body.surface.gapsInfo.worst / body.surface.report.boundingBoxDiagonal;
     return [{ positions: posed, normals, milliseconds, gap }, [posed.buffer, normals.buffer]];
   },
   transferSkin({ positions }) {

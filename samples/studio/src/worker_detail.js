@@ -39,7 +39,7 @@ function keeper(hf, surface, rest, triangles) {
       if (!region || wish !== key || !same(positions)) {
         const next = new hf.Region(surface, { positions });
         try {
-          next.edit({ curve, seedVertex, side: 0, rings });
+          next.edit({ curve: curve && { vertices: curve, seedVertex }, ringCount: rings });
         } catch (error) {
           next.close();
           throw error;

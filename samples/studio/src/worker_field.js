@@ -7,7 +7,7 @@ export function fieldOf(body) {
   const { hf, surface } = body;
   let solver = null;
   let held = new Map(); // id -> { number, corners, barycentrics, value, soft }
-  const components = surface.components;
+  const components = surface.components();
 
   const place = (list) => ({
     corners: list.flatMap((site) => site.corners),

@@ -3,7 +3,7 @@
 export function weightsOf(body, bones, influenceCount, pins) {
   const { hf, surface } = body;
   const begin = performance.now();
-  const weights = new hf.Weights(surface, bones, { influenceCount });
+  const weights = new hf.Weights(surface, { ...bones, influenceCount });
   try {
     if (pins.length)
       weights.setPins(
@@ -11,7 +11,7 @@ export function weightsOf(body, bones, influenceCount, pins) {
         { joints: pins.map(({ bone }) => bone), weights: pins.map(() => 1), radii: pins.map(({ radius }) => radius) },
       );
     return {
-      ...weights.weights(),
+      ...weights.get(),
       ...weights.joints(),
       info: weights.info,
       milliseconds: performance.now() - begin,

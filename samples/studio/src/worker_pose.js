@@ -79,7 +79,7 @@ export function poseOf(body) {
       change([...handles, ...added], true);
       grabbed = true;
       return held.slice(handles.length).map(({ number }) => {
-        const { rotation, translation } = pose.handleInfo(number);
+        const { rotation, translation } = pose.handle(number);
         return { rotation, translation };
       });
     },
@@ -105,12 +105,18 @@ export function poseOf(body) {
       });
       told = pose.deformInfo;
       told.added = added;
-      if (way !== 'follow') told.gap = surface.measureGaps(positions).worst / surface.report.boundingBoxDiagonal;
-      told.handles = held.map(({ id, number }) => ({ id, centroid: pose.handleInfo(number).centroid }));
+      if (way !== 'follow') {
+        surface.measureGaps(positions);
+        told.gap = surface.gapsInfo.worst / surface.report.boundingBoxDiagonal;
+      }
+      told.handles = held.map(({ id, number }) => ({ id, centroid: pose.handle(number).centroid }));
       return positions;
     },
     told: () => told,
-    skin: () => pose.skin(4),
+    skin: () => {
+      const { vertexJoints: joints, vertexWeights: weights, ...skin } = pose.skin({ influenceCount: 4 });
+      return { ...skin, joints, weights };
+    },
     close: () => pose?.close(),
   };
 }

@@ -75,7 +75,10 @@ export function transferOf(body, source) {
       dials = next;
     },
     apply: (positions) => transfer.apply(positions),
-    skin: () => transfer.skin(4),
+    skin: () => {
+      const { vertexJoints: joints, vertexWeights: weights, ...skin } = transfer.skin({ influenceCount: 4 });
+      return { ...skin, joints, weights };
+    },
     close() {
       transfer?.close();
       source.close();

@@ -257,9 +257,9 @@ def distances(positions, triangles, threads):
     surface = hf.Surface(positions, triangles.astype(np.uint32), thread_count=threads)
     begin = time.perf_counter()
     ours = hf.Geodesics(surface)
-    ours.distance([source])
+    ours.solve([source])
     first = (time.perf_counter() - begin) * 1e3
-    later, hf_field = timed(lambda: ours.distance([source], dtype=np.float64))
+    later, hf_field = timed(lambda: ours.solve([source], dtype=np.float64))
     begin = time.perf_counter()
     theirs = potpourri3d.MeshHeatMethodDistanceSolver(positions, triangles)
     theirs.compute_distance(source)

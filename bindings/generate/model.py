@@ -1,0 +1,221 @@
+"""What follows from the headers: the role of every field and parameter, the object and the verb of every function.
+
+derive(api) adds them to the description; every layer reads the same. Roles:
+  size, reserved    struct_size and reserved
+  array             numbers or plain structs, `dims` rows by columns; string and bytes likewise
+  count             how long an array is: a layer takes it from the array
+  capacity, stride  of the caller's arrays
+  handle, struct, callback, enum, flag, scalar, fixed (double[3])
+"""
+
+import re
+
+SUFFIXES = ("_f64", "_u16")  # the same array in another type
+
+class Problems(Exception):
+    pass
+
+
+def symbols(dims):
+    """Names in dimensions: ['vertex_count', '3'] -> {'vertex_count'}."""
+    return {name for dim in dims for name in re.findall(r"[A-Za-z_][\w.]*", dim) if name != "sum"}
+
+
+def named(items, name):
+    return next((item for item in items if item["name"] == name), None)
+
+
+def role_of(api, item, struct=None):
+    handle, inner = named(api["handles"], item["type"]), named(api["structs"], item["type"])
+    if struct and item["name"] == "struct_size":
+        return "size"
+    if struct and item["name"].startswith("reserved"):
+        return "reserved"
+    if item["type"] == "function" or item["name"] == "user":
+        return "callback"
+    if handle:
+        return "handle"
+    if inner and (item["dims"] or not item["pointer"]):
+        return "array" if item["pointer"] else "callback" if any(f["role"] == "callback" for f in inner["fields"]) else "struct"
+    if inner:
+        return "struct"
+    if item["type"] == "char" and item["pointer"]:
+        return "string"
+    if item["type"] == "void" and item["pointer"]:
+        return "bytes"
+    if item["pointer"]:
+        return "array" if item["dims"] else "scalar"
+    if item.get("count"):
+        return "string" if item["type"] == "char" else "fixed"
+    if item.get("rows_of") or item["name"].endswith("_stride"):
+        return "stride"
+    if re.fullmatch(r"(\w+_)?capacity", item["name"]):
+        return "capacity"
+    return "flag" if item.get("flag") else "enum" if item["enum"] and item["type"] == "int32_t" else "scalar"
+
+
+def twins(items):
+    """An array of the same name with _f64 or _u16 is the same in another type."""
+    for item in items:
+        base = next((item["name"][:-len(end)] for end in SUFFIXES if item["name"].endswith(end)), "")
+        item["twin_of"] = base if named(items, base) else ""
+
+
+def enums_of(api):
+    found = {}
+    for enum in api["enums"]:
+        names = [member["name"] for member in enum["members"]]
+        prefix = names[0]
+        while not all(name.startswith(prefix) for name in names) or not prefix.endswith("_"):
+            prefix = prefix[:-1]
+        enum["prefix"] = prefix
+        found.setdefault(prefix, enum["name"])
+    return found
+
+
+def look_at_struct(api, struct, enums, problems):
+    where, fields = struct["name"], struct["fields"]
+    counted = set().union(*(symbols(f["dims"]) | symbols(sum(f["without"].values(), [])) for f in fields if f["const"]), set())
+    twins(fields)
+    for field in fields:
+        field["role"] = role_of(api, field, struct)
+        if field["name"].endswith("_count"):
+            field["enum"] = ""
+        if field["enum"]:
+            field["enum"] = enums.get(field["enum"]) or problems.append(f"{where}.{field['name']}: no enum has the values {field['enum']}*")
+        if field["role"] == "scalar" and field["name"] in counted and not field["direction"] and struct["used"] == "in" and (
+                "also without" not in field["doc"]):
+            field["role"] = "count"
+        if struct["used"] == "inout" and field["direction"] == "in" and field["name"] in counted and field["role"] == "scalar" and any(
+                f["const"] and field["name"] in symbols(f["dims"]) for f in fields):
+            field["role"] = "count"
+        if struct["used"] == "inout" and field["role"] == "capacity":
+            field["counted_by"] = re.sub("capacity$", "count", field["name"])
+            if not named(fields, field["counted_by"]):
+                problems.append(f"{where}.{field['name']}: no field {field['counted_by']} says how many were written")
+        if field["pointer"] and field["role"] == "scalar":
+            problems.append(f"{where}.{field['name']}: how many? start its comment with [count]")
+        if field["role"] == "stride" and not field["rows_of"]:
+            problems.append(f"{where}.{field['name']}: of which arrays? say: bytes between rows of NAME; 0 = packed")
+        for name in field["rows_of"]:
+            if not named(fields, name):
+                problems.append(f"{where}.{field['name']}: no field {name}")
+        if struct["used"] == "inout" and not field["pointer"] and field["role"] not in ("size", "reserved") and not field["direction"]:
+            problems.append(f"{where}.{field['name']}: who writes it? start its comment with in: or out:")
+        if not field["direction"]:
+            field["direction"] = ("out" if not field["const"] else "in") if field["role"] == "array" else (
+                "out" if struct["used"] == "out" else "in")
+
+
+def use_of(api):
+    """in, out or inout: how functions take each struct; plain for rows of arrays and values."""
+    for struct in api["structs"]:
+        struct["used"] = "plain" if struct["fields"][0]["name"] != "struct_size" else ""
+    for function in api["functions"]:
+        for p in function["parameters"]:
+            struct = named(api["structs"], p["type"])
+            if struct and struct["used"] != "plain":
+                struct["written"] = struct.get("written", False) or p["name"].startswith("out_")
+                struct["used"] = "inout" if p["name"].startswith("inout_") else "in" if p["const"] else "out" if not struct["used"] else struct["used"]
+    for struct in api["structs"]:
+        for field in struct["fields"]:
+            inner = named(api["structs"], field["type"])
+            if inner and field["const"] and not inner["used"]:
+                inner["used"] = "in"
+        struct["used"] = struct["used"] or "in"
+
+
+def look_at_parameters(api, function, enums, problems):
+    where, items = function["name"], function["parameters"]
+    twins(items)
+    counted = set().union(*(symbols(p["dims"]) for p in items if p["const"]), set())
+    for place, p in enumerate(items):
+        p["role"] = role_of(api, p)
+        if p["enum"] and not p["pointer"]:
+            p["enum"] = enums.get(p["enum"]) or problems.append(f"{where}, {p['name']}: no enum has the values {p['enum']}*")
+            p["role"] = "enum"
+        elif p["enum"]:
+            p["enum"] = enums.get(p["enum"], "")
+        p["direction"] = next((d for d in ("inout", "out") if p["name"].startswith(d + "_")), "in")
+        if p["role"] == "scalar" and p["pointer"] and (p["const"] or not p["receives"]):
+            problems.append(f"{where}, {p['name']}: how many? say in the comment: {p['name']}: {p['type']}[count], or {p['name']}: receives ...")
+        if p["role"] == "scalar" and not p["pointer"] and p["name"] in counted:
+            p["role"] = "count"
+        if p["role"] == "struct" and p["direction"] == "out" and any(q["name"] == "capacity" for q in items) and "capacity" in p["doc"] and not p["dims"]:
+            problems.append(f"{where}, {p['name']}: say {p['type']}[capacity]")
+        if p["pointer"] and not p["const"] and p["direction"] == "in":
+            problems.append(f"{where}, {p['name']}: written by the library, so its name starts with out_ or inout_")
+        if p["role"] == "capacity":
+            tells = [q["name"] for q in items if q["name"] in ("out_count", "out_size")]
+            for q in items:
+                told = re.search(rf"(\w+)->(\w+) of them", q["doc"])
+                tells += [f"{told.group(1)}.{told.group(2)}"] if told else []
+            p["counted_by"] = tells[0] if tells else ""
+            if not tells:
+                problems.append(f"{where}, {p['name']}: who says how many were written? out_count, or: out_info->some_count of them")
+        if p["role"] == "stride":
+            before = items[place - 1]
+            p["rows_of"] = [before["name"]] if before["role"] == "array" else problems.append(
+                f"{where}, {p['name']}: a stride follows its array")
+
+
+def place_of(api, function):
+    """(object, verb): hf_noun_verb, or the object that a short name makes or takes first."""
+    handles = [h["name"] for h in api["handles"]]
+    name, parameters = function["name"], function["parameters"]
+    noun = max((h for h in handles if name.startswith(h + "_")), key=len, default="")
+    if noun:
+        return noun, name[len(noun) + 1:]
+    own = next((p["type"] for p in parameters if p["type"] in handles and p["pointer"]), None)
+    own = own or next((p["type"] for p in parameters if p["type"] in handles and not p["pointer"]), None)
+    return own or "", name[3:]
+
+
+def kind_of(api, function):
+    parameters, noun = function["parameters"], function["noun"]
+    made = [p for p in parameters if p["role"] == "handle" and p["pointer"]]
+    out = [p for p in parameters if p["direction"] != "in"]
+    if made:
+        takes = any(p["type"] == noun and not p["pointer"] for p in parameters)
+        return ("clone" if function["verb"] == "clone" else "derive") if takes else "create"
+    if function["verb"] == "destroy":
+        return "destroy"
+    if any(p["role"] == "capacity" for p in parameters):
+        return "arrays"
+    if len(out) == 1 and out[0]["role"] == "struct" and len(parameters) == 2 and out[0]["direction"] == "out":
+        return "info"
+    return "count" if function["returns"]["type"] not in ("hf_result", "void") else "call"
+
+
+def derive(api):
+    problems = []
+    enums = enums_of(api)
+    use_of(api)
+    for struct in api["structs"]:
+        look_at_struct(api, struct, enums, problems)
+    for function in api["functions"]:
+        same = re.match(r"Does the same as (\w+), in double\.", function["doc"])
+        function["double_of"] = same.group(1) if same else ""
+        for p, q in zip(function["parameters"], named(api["functions"], function["double_of"])["parameters"] if same else ()):
+            p.update({key: q[key] for key in q if key not in ("name", "type", "pointer", "const")})
+        look_at_parameters(api, function, enums, problems)
+        function["noun"], function["verb"] = place_of(api, function)
+        function["kind"] = kind_of(api, function)
+        known = set().union(*(names_known(api, function, p) for p in function["parameters"]), {"vertex_count", "channel_count"})
+        for p in function["parameters"]:
+            for name in symbols(p["dims"]):
+                if name not in known and name.split(".")[0] not in known and not name.endswith(".vertex_count"):
+                    problems.append(f"{function['name']}, {p['name']}: what is {name}?")
+    for function in api["functions"]:
+        also = [named(api["functions"], name) for pair in function.pop("errors_as") for name in pair if name]
+        function["errors"] = sorted(set(function["errors"]).union(*(f["errors"] for f in also if f)))
+        long = named(api["functions"], f"{function['noun']}_{function['verb']}")
+        function["short_of"] = long["name"] if long and long is not function else ""
+    if problems:
+        raise Problems("\n  ".join(["the headers leave open:", *problems]))
+    return api
+
+
+def names_known(api, function, parameter):
+    struct = named(api["structs"], parameter["type"])
+    return {parameter["name"]} | ({f["name"] for f in struct["fields"]} if struct else set())

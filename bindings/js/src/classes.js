@@ -1,0 +1,1453 @@
+// Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.
+
+export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, none, written }) {
+
+  const factorDesc = (c, prefix, options) => {
+    const { bytes = null, borrow = false, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_factor_desc', { borrow });
+    c.bytes(desc, 'bytes', 'byte_count', bytes, 'bytes');
+    return desc;
+  };
+
+  const linksDesc = (c, prefix, options) => {
+    const { joints = null, weights = null, tags = null, links = null, lightVertices = null, heavyVertices = null,
+            mode = 0, distance = 0, stiffness = 0, overlayDistance = 0, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_links_desc', { mode, distance, stiffness, overlay_distance: overlayDistance });
+    c.rows(desc, 'joints', 'joints', joints, 'u2', ['vertex_count', prefix + 'influence_count']);
+    c.rows(desc, 'weights', 'weights', weights, 'f4', ['vertex_count', prefix + 'influence_count']);
+    c.rows(desc, 'tags', 'tags', tags, 'u4', ['vertex_count']);
+    desc.set('links', c.written('links', links, 'hf_link', [prefix + 'link_count']));
+    c.rows(desc, 'light_vertices', 'lightVertices', lightVertices, 'u4', [prefix + 'light_count']);
+    c.rows(desc, 'heavy_vertices', 'heavyVertices', heavyVertices, 'u4', [prefix + 'heavy_count']);
+    c.counts(desc, { influence_count: [prefix + 'influence_count', 0], link_count: [prefix + 'link_count', 0],
+            light_count: [prefix + 'light_count', 0], heavy_count: [prefix + 'heavy_count', 0] });
+    return desc;
+  };
+
+  const surfaceDesc = (c, prefix, options) => {
+    const { positions = null, triangles = null, faceStarts = null, faceSizes = null, corners = null, weld = 0,
+            weldTolerance = 0, operatorKind = 0, fieldKind = 0, ordering = 0, threadCount = 0, vertexLimit = 0,
+            triangleLimit = 0, memoryLimitMb = 0, workLimitGflop = 0, progress = null, savedFactor = null, links = null,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_surface_desc', { weld, weld_tolerance: weldTolerance, operator_kind: operatorKind,
+            field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
+            triangle_limit: triangleLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
+    c.rows(desc, 'positions', 'positions', positions, 'f4 f8', [prefix + 'vertex_count', 3]);
+    c.rows(desc, 'triangles', 'triangles', triangles, 'u4 u2', [prefix + 'triangle_count', 3]);
+    c.rows(desc, 'face_starts', 'faceStarts', faceStarts, 'u4',
+            faceSizes ? [prefix + 'face_count'] : [prefix + 'face_count + 1']);
+    c.rows(desc, 'face_sizes', 'faceSizes', faceSizes, 'u4', [prefix + 'face_count']);
+    c.rows(desc, 'corners', 'corners', corners, 'u4', [prefix + 'corner_count']);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    desc.set('saved_factor', c.inner(savedFactor, 'bytes', factorDesc, 'saved_factor.'));
+    desc.set('links', c.inner(links, 'joints', linksDesc, 'links.'));
+    c.counts(desc, { vertex_count: [prefix + 'vertex_count', 0], triangle_count: [prefix + 'triangle_count', 0],
+            face_count: [prefix + 'face_count', 0], corner_count: [prefix + 'corner_count', 0] });
+    return desc;
+  };
+
+  const graphDesc = (c, prefix, options) => {
+    const { edges = null, weights = null, masses = null, vertexCount = 0, allowNegative = false, fieldKind = 0,
+            ordering = 0, threadCount = 0, vertexLimit = 0, edgeLimit = 0, memoryLimitMb = 0, workLimitGflop = 0,
+            progress = null, savedFactor = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_graph_desc', { vertex_count: vertexCount, allow_negative: allowNegative,
+            field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
+            edge_limit: edgeLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
+    c.known('vertex_count', vertexCount);
+    c.rows(desc, 'edges', 'edges', edges, 'u4', [prefix + 'edge_count', 2]);
+    c.rows(desc, 'weights', 'weights', weights, 'f8', [prefix + 'edge_count']);
+    c.rows(desc, 'masses', 'masses', masses, 'f8', ['vertex_count']);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    desc.set('saved_factor', c.inner(savedFactor, 'bytes', factorDesc, 'saved_factor.'));
+    c.counts(desc, { edge_count: [prefix + 'edge_count', 1] });
+    return desc;
+  };
+
+  const gapsDesc = (c, prefix, options) => {
+    const { positions = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_gaps_desc', {});
+    c.rows(desc, 'positions', 'positions', positions, 'f4 f8', ['vertex_count', 3]);
+    return desc;
+  };
+
+  const pickDesc = (c, prefix, options) => {
+    const { positions = null, frontOnly = false, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_pick_desc', { front_only: frontOnly });
+    c.rows(desc, 'positions', 'positions', positions, 'f4 f8', ['vertex_count', 3]);
+    return desc;
+  };
+
+  const solverDesc = (c, prefix, options) => {
+    const { fieldKind = 0, engine = 0, channelCount = 0, siteLimit = 0, penalty = 0, progress = null,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_solver_desc', { field_kind: fieldKind, engine, channel_count: channelCount,
+            site_limit: siteLimit, penalty });
+    c.known('channel_count', channelCount || 1);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    return desc;
+  };
+
+  const sitesDesc = (c, prefix, options) => {
+    const { vertices = null, values = null, triangles = null, barycentrics = null, stiffness = null, radii = null,
+            corners = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_sites_desc', {});
+    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'site_count']);
+    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'site_count']);
+    c.rows(desc, 'barycentrics', 'barycentrics', barycentrics, 'f8', [prefix + 'site_count', 3]);
+    c.rows(desc, 'values', 'values', values, 'f8', [prefix + 'site_count', 'channel_count']);
+    c.rows(desc, 'stiffness', 'stiffness', stiffness, 'f8', [prefix + 'site_count']);
+    c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'site_count']);
+    c.rows(desc, 'corners', 'corners', corners, 'u4', [prefix + 'site_count', 3]);
+    c.counts(desc, { site_count: [prefix + 'site_count', 1] });
+    return desc;
+  };
+
+  const editDesc = (c, prefix, options) => {
+    const { removeSites = null, moveSites = null, setSites = null, setValues = null, moveTo = null, add = null,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_edit_desc', {});
+    c.rows(desc, 'remove_sites', 'removeSites', removeSites, 'u4', [prefix + 'remove_count']);
+    c.rows(desc, 'move_sites', 'moveSites', moveSites, 'u4', [prefix + 'move_count']);
+    c.rows(desc, 'set_sites', 'setSites', setSites, 'u4', [prefix + 'set_count']);
+    c.rows(desc, 'set_values', 'setValues', setValues, 'f8', [prefix + 'set_count', 'channel_count']);
+    desc.set('move_to', c.inner(moveTo, 'vertices', sitesDesc, 'move_to.'));
+    desc.set('add', c.inner(add, 'vertices', sitesDesc, 'add.'));
+    c.counts(desc, { remove_count: [prefix + 'remove_count', 0], move_count: [prefix + 'move_count', 0],
+            set_count: [prefix + 'set_count', 0] });
+    return desc;
+  };
+
+  const geodesicsDesc = (c, prefix, options) => {
+    const { method = 0, smoothing = 0, progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_geodesics_desc', { method, smoothing });
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    return desc;
+  };
+
+  const extremitiesDesc = (c, prefix, options) => {
+    const { kind = 0, leastLengthShare = 0, sourceCount = 0, geodesics = null, progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_extremities_desc', { kind, least_length_share: leastLengthShare,
+            source_count: sourceCount });
+    c.known('source_count', sourceCount || 40);
+    desc.set('geodesics', handleOf(geodesics, Geodesics, 'geodesics') || null);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    return desc;
+  };
+
+  const directionDesc = (c, prefix, options) => {
+    const { degree = 0, siteLimit = 0, progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_direction_desc', { degree, site_limit: siteLimit });
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    return desc;
+  };
+
+  const poseDesc = (c, prefix, options) => {
+    const { mode = 0, bandCount = 0, iterationCount = 0, rimSiteCount = 0, groupCount = 0, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_pose_desc', { mode, band_count: bandCount, iteration_count: iterationCount,
+            rim_site_count: rimSiteCount, group_count: groupCount });
+    return desc;
+  };
+
+  const handlesDesc = (c, prefix, options) => {
+    const { regionVertices = null, points = null, radii = null, layer = 0, inPlace = false, progress = null,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_handles_desc', { layer, in_place: inPlace });
+    c.ragged(desc, 'region_counts', 'region_vertices', 'regionVertices', regionVertices, prefix + 'handle_count');
+    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'handle_count', 3]);
+    c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'handle_count']);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    c.counts(desc, { handle_count: [prefix + 'handle_count', 1] });
+    return desc;
+  };
+
+  const deformDesc = (c, prefix, options) => {
+    const { iterationCount = 0, restart = false, refine = 0, refineFromLast = false, firstVertex = 0, vertexCount = 0,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_deform_desc', { iteration_count: iterationCount, restart, refine,
+            refine_from_last: refineFromLast, first_vertex: firstVertex, vertex_count: vertexCount });
+    c.known('vertex_count', vertexCount);
+    return desc;
+  };
+
+  const handleProposalsDesc = (c, prefix, options) => {
+    const { joints = null, parents = null, up = null, leastLengthShare = 0, limit = 0, progress = null,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_handle_proposals_desc', { least_length_share: leastLengthShare, limit });
+    c.rows(desc, 'joints', 'joints', joints, 'f8', [prefix + 'joint_count', 3]);
+    c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
+    c.fixed(desc, 'up', 'up', up);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    c.counts(desc, { joint_count: [prefix + 'joint_count', 0] });
+    return desc;
+  };
+
+  const quadsDesc = (c, prefix, options) => {
+    const { creaseEdges = null, guideVertices = null, guideVectors = null, guideWeights = null, irregularPoints = null,
+            irregularValences = null, irregularDirections = null, faceCount = 0, edgeLength = 0, creaseAngle = 0,
+            relaxCount = 0, symmetryPlane = null, progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_quads_desc', { face_count: faceCount, edge_length: edgeLength, crease_angle: creaseAngle,
+            relax_count: relaxCount });
+    c.rows(desc, 'crease_edges', 'creaseEdges', creaseEdges, 'u4', [prefix + 'crease_count', 2]);
+    c.rows(desc, 'guide_vertices', 'guideVertices', guideVertices, 'u4', [prefix + 'guide_count']);
+    c.rows(desc, 'guide_vectors', 'guideVectors', guideVectors, 'f8', [prefix + 'guide_count', 3]);
+    c.rows(desc, 'guide_weights', 'guideWeights', guideWeights, 'f4', [prefix + 'guide_count']);
+    c.rows(desc, 'irregular_points', 'irregularPoints', irregularPoints, 'f8', [prefix + 'irregular_count', 3]);
+    c.rows(desc, 'irregular_valences', 'irregularValences', irregularValences, 'u4', [prefix + 'irregular_count']);
+    c.rows(desc, 'irregular_directions', 'irregularDirections', irregularDirections, 'f8', [prefix + 'irregular_count',
+            3]);
+    c.fixed(desc, 'symmetry_plane', 'symmetryPlane', symmetryPlane);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    c.counts(desc, { crease_count: [prefix + 'crease_count', 0], guide_count: [prefix + 'guide_count', 0],
+            irregular_count: [prefix + 'irregular_count', 0] });
+    return desc;
+  };
+
+  const regionDesc = (c, prefix, options) => {
+    const { positions = null, base = 0, progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_region_desc', { base });
+    c.rows(desc, 'positions', 'positions', positions, 'f4 f8', ['vertex_count', 3]);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    return desc;
+  };
+
+  const curveDesc = (c, prefix, options) => {
+    const { vertices = null, triangles = null, barycentrics = null, corners = null, side = 0, seedVertex = 0, kind = 0,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_curve_desc', { side, seed_vertex: seedVertex, kind });
+    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'point_count']);
+    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'point_count']);
+    c.rows(desc, 'barycentrics', 'barycentrics', barycentrics, 'f8', [prefix + 'point_count', 3]);
+    c.rows(desc, 'corners', 'corners', corners, 'u4', [prefix + 'point_count', 3]);
+    c.counts(desc, { point_count: [prefix + 'point_count', 0] });
+    return desc;
+  };
+
+  const regionEditDesc = (c, prefix, options) => {
+    const { removeVertices = null, addVertices = null, ringCount = 0, curve = null, progress = null,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_region_edit_desc', { ring_count: ringCount });
+    c.rows(desc, 'remove_vertices', 'removeVertices', removeVertices, 'u4', [prefix + 'remove_count']);
+    c.rows(desc, 'add_vertices', 'addVertices', addVertices, 'u4', [prefix + 'add_count']);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    desc.set('curve', c.inner(curve, 'vertices', curveDesc, 'curve.'));
+    c.counts(desc, { remove_count: [prefix + 'remove_count', 0], add_count: [prefix + 'add_count', 0] });
+    return desc;
+  };
+
+  const morphDesc = (c, prefix, options) => {
+    const { weight = 0, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_morph_desc', { weight });
+    return desc;
+  };
+
+  const detailDesc = (c, prefix, options) => {
+    const { sourceVertices = null, targetVertices = null, scale = 0, progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_detail_desc', { scale });
+    c.rows(desc, 'source_vertices', 'sourceVertices', sourceVertices, 'u4', [prefix + 'pair_count']);
+    c.rows(desc, 'target_vertices', 'targetVertices', targetVertices, 'u4', [prefix + 'pair_count']);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    c.counts(desc, { pair_count: [prefix + 'pair_count', 0] });
+    return desc;
+  };
+
+  const transferDesc = (c, prefix, options) => {
+    const { sourceRest = null, targetRest = null, mode = 0, clusterCount = 0, ground = 0, kernelWidth = 0, scale = 0,
+            alignmentAngle = 0, sourceAxes = null, targetAxes = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_transfer_desc', { mode, cluster_count: clusterCount, ground, kernel_width: kernelWidth,
+            scale, alignment_angle: alignmentAngle });
+    c.rows(desc, 'source_rest', 'sourceRest', sourceRest, 'f4', ['source.vertex_count', 3]);
+    c.rows(desc, 'target_rest', 'targetRest', targetRest, 'f4', ['target.vertex_count', 3]);
+    c.fixed(desc, 'source_axes', 'sourceAxes', sourceAxes);
+    c.fixed(desc, 'target_axes', 'targetAxes', targetAxes);
+    return desc;
+  };
+
+  const pairsDesc = (c, prefix, options) => {
+    const { sourceVertices = null, targetVertices = null, flags = null, progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_pairs_desc', {});
+    c.ragged(desc, 'source_counts', 'source_vertices', 'sourceVertices', sourceVertices, prefix + 'pair_count');
+    c.ragged(desc, 'target_counts', 'target_vertices', 'targetVertices', targetVertices, prefix + 'pair_count');
+    c.rows(desc, 'flags', 'flags', flags, 'u4', [prefix + 'pair_count']);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    c.counts(desc, { pair_count: [prefix + 'pair_count', 1] });
+    return desc;
+  };
+
+  const transferDials = (c, prefix, options) => {
+    const { stride = 0, hipHeightShare = 0, neckFollow = 0, tailFollow = 0, armSpace = 0, longFollow = 0,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_transfer_dials', { stride, hip_height_share: hipHeightShare, neck_follow: neckFollow,
+            tail_follow: tailFollow, arm_space: armSpace, long_follow: longFollow });
+    return desc;
+  };
+
+  const transferFrame = (c, prefix, options) => {
+    const { sourcePositions = null, holdPairs = null, holdPositions = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_transfer_frame', {});
+    c.rows(desc, 'source_positions', 'sourcePositions', sourcePositions, 'f4 f8', ['source.vertex_count', 3]);
+    c.rows(desc, 'hold_pairs', 'holdPairs', holdPairs, 'u4', [prefix + 'hold_count']);
+    c.rows(desc, 'hold_positions', 'holdPositions', holdPositions, 'f8', [prefix + 'hold_count', 3]);
+    c.counts(desc, { hold_count: [prefix + 'hold_count', 0] });
+    return desc;
+  };
+
+  const jointsDesc = (c, prefix, options) => {
+    const { heads = null, tails = null, axes = null, parents = null, deforms = null, sources = null, progress = null,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_joints_desc', {});
+    c.rows(desc, 'heads', 'heads', heads, 'f8', [prefix + 'joint_count', 3]);
+    c.rows(desc, 'tails', 'tails', tails, 'f8', [prefix + 'joint_count', 3]);
+    c.rows(desc, 'axes', 'axes', axes, 'f8', [prefix + 'joint_count', 3]);
+    c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
+    c.rows(desc, 'deforms', 'deforms', deforms, 'i4', [prefix + 'joint_count']);
+    c.rows(desc, 'sources', 'sources', sources, 'u4', [prefix + 'joint_count']);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    c.counts(desc, { joint_count: [prefix + 'joint_count', 0] });
+    return desc;
+  };
+
+  const pinsDesc = (c, prefix, options) => {
+    const { vertices = null, triangles = null, barycentrics = null, radii = null, joints = null, weights = null,
+            progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_pins_desc', {});
+    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'pin_count']);
+    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'pin_count']);
+    c.rows(desc, 'barycentrics', 'barycentrics', barycentrics, 'f8', [prefix + 'pin_count', 3]);
+    c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'pin_count']);
+    c.rows(desc, 'joints', 'joints', joints, 'u4', [prefix + 'pin_count', prefix + 'influence_count']);
+    c.rows(desc, 'weights', 'weights', weights, 'f4', [prefix + 'pin_count', prefix + 'influence_count']);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    c.counts(desc, { pin_count: [prefix + 'pin_count', 0], influence_count: [prefix + 'influence_count', 0] });
+    return desc;
+  };
+
+  const weightsTransferDesc = (c, prefix, options) => {
+    const { joints = null, weights = null, distance = 0, angle = 0, influenceCount = 0, progress = null,
+            ...more } = options;
+    none(more);
+    const desc = c.struct('hf_weights_transfer_desc', { distance, angle, influence_count: influenceCount });
+    c.known('influence_count', influenceCount || 4);
+    c.rows(desc, 'joints', 'joints', joints, 'u4', ['source.vertex_count', prefix + 'source_influence_count']);
+    c.rows(desc, 'weights', 'weights', weights, 'f4', ['source.vertex_count', prefix + 'source_influence_count']);
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    c.counts(desc, { source_influence_count: [prefix + 'source_influence_count', 0] });
+    return desc;
+  };
+
+  const weightsMirrorDesc = (c, prefix, options) => {
+    const { heads = null, names = null, partners = null, plane = null, joints = null, weights = null, to = 0,
+            distance = 0, angle = 0, influenceCount = 0, progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_weights_mirror_desc', { to, distance, angle, influence_count: influenceCount });
+    c.known('influence_count', influenceCount || 4);
+    c.rows(desc, 'heads', 'heads', heads, 'f8', [prefix + 'joint_count', 3]);
+    c.rows(desc, 'partners', 'partners', partners, 'u4', [prefix + 'joint_count']);
+    c.rows(desc, 'plane', 'plane', plane, 'f8', [6]);
+    c.rows(desc, 'joints', 'joints', joints, 'u4', ['vertex_count', prefix + 'source_influence_count']);
+    c.rows(desc, 'weights', 'weights', weights, 'f4', ['vertex_count', prefix + 'source_influence_count']);
+    desc.set('names', c.text(names, 'names'));
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    c.counts(desc, { joint_count: [prefix + 'joint_count', 0],
+            source_influence_count: [prefix + 'source_influence_count', 0] });
+    return desc;
+  };
+
+  class Progress extends Handle {
+    static destroy = 'hf_progress_destroy';
+    static counts = [];
+
+    constructor(first) {
+      super();
+      if (first === bare) return;
+      const c = new Call(null);
+      this._own('hf_progress_create', c);
+    }
+
+    get fraction() {
+      const c = new Call(this);
+      const fraction = new Float64Array(1);
+      call('hf_progress_get_fraction', this._handle, written(fraction));
+      return fraction[0];
+    }
+
+    cancel() {
+      const c = new Call(this);
+      call('hf_progress_cancel', this._handle);
+    }
+  }
+
+  class Surface extends Handle {
+    static destroy = 'hf_surface_destroy';
+    static counts = ['vertex_count'];
+    get vertexCount() {
+      return this._n.vertex_count;
+    }
+
+    constructor(positions, triangles = null, options = {}) {
+      super();
+      if (positions === bare) return;
+      const c = new Call(null);
+      const desc = surfaceDesc(c, '', { positions, triangles, ...options });
+      this._own('hf_surface_create', c, desc);
+    }
+
+    static fromGraph(edges = null, weights = null, options = {}) {
+      const c = new Call(null);
+      const desc = graphDesc(c, '', { edges, weights, ...options });
+      const made = new this(bare);
+      made._own('hf_surface_create_graph', c, desc);
+      return made;
+    }
+
+    get info() {
+      const c = new Call(this);
+      const info = c.struct('hf_surface_info', {});
+      call('hf_surface_get_info', this._handle, info);
+      return info.toObject();
+    }
+
+    get report() {
+      const c = new Call(this);
+      const report = c.struct('hf_surface_report', {});
+      call('hf_surface_get_report', this._handle, report);
+      return report.toObject();
+    }
+
+    components() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_surface_get_components', (room, made) => call('hf_surface_get_components',
+              this._handle, room.capacity, written(made.components), written(count)), () => ({ capacity: count[0] }),
+              { capacity: null }, { components: ['u4', ['capacity']] });
+      return found.components;
+    }
+
+    links() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_surface_get_links', (room, made) => call('hf_surface_get_links', this._handle,
+              room.capacity, written(made.links), written(count)), () => ({ capacity: count[0] }), { capacity: null },
+              { links: ['hf_link', ['capacity']] });
+      return found.links;
+    }
+
+    pieces() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_surface_get_pieces', (room, made) => call('hf_surface_get_pieces', this._handle,
+              room.capacity, written(made.pieces), written(made.light), written(count)), () => ({ capacity: count[0] }),
+              { capacity: null }, { pieces: ['u4', ['capacity']], light: ['i4', ['capacity']] });
+      return { pieces: found.pieces, light: found.light };
+    }
+
+    measureGaps(positions = null) {
+      const c = new Call(this);
+      const info = c.told(this, 'hf_gaps_info');
+      const desc = gapsDesc(c, '', { positions });
+      const found = c.grow(this, 'hf_surface_measure_gaps', (room, made) => call('hf_surface_measure_gaps',
+              this._handle, desc, room.capacity, written(made.gaps), info),
+              () => ({ capacity: info.get('link_count') }), { capacity: null }, { gaps: ['f8', ['capacity']] });
+      return found.gaps;
+    }
+
+    relink(options = {}) {
+      const { progress = null, ...more } = options;
+      const c = new Call(this);
+      const desc = linksDesc(c, '', more);
+      const made = new this.constructor(bare);
+      Object.assign(c.n, this._n);
+      made._own('hf_surface_relink', c, this._handle, desc, handleOf(progress, Progress, 'progress'));
+      return made;
+    }
+
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_surface_statistics', {});
+      call('hf_surface_get_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
+    save(fieldKind = 0, options = {}) {
+      const { progress = null, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const size = c.sizes();
+      call('hf_surface_save', this._handle, fieldKind, handleOf(progress, Progress, 'progress'), 0, null,
+              written(size));
+      const block = new Uint8Array(Number(size[0]));
+      call('hf_surface_save', this._handle, fieldKind, handleOf(progress, Progress, 'progress'), block.length,
+              written(block), written(size));
+      return block;
+    }
+
+    castRay(origin, direction, options = {}) {
+      const c = new Call(this);
+      const origin_ = c.array('origin', origin, 'f8', [3]);
+      const direction_ = c.array('direction', direction, 'f8', [3]);
+      const desc = pickDesc(c, '', options);
+      const hit = c.struct('hf_hit', {});
+      call('hf_surface_cast_ray', this._handle, origin_, direction_, desc, hit);
+      return hit.get('found') ? hit.toObject() : null;
+    }
+
+    findVertex(point, options = {}) {
+      const c = new Call(this);
+      const point_ = c.array('point', point, 'f8', [3]);
+      const desc = pickDesc(c, '', options);
+      const vertex = new Uint32Array(1);
+      const distance = new Float64Array(1);
+      call('hf_surface_find_vertex', this._handle, point_, desc, written(vertex), written(distance));
+      return { vertex: vertex[0], distance: distance[0] };
+    }
+
+    spaceLevels(field, levelCount, spacing = 0) {
+      const c = new Call(this);
+      const field_ = c.struct('hf_scalars', {});
+      c.rows(field_, 'values', 'field', field, 'f4 f8', ['vertex_count']);
+      c.known('level_count', levelCount);
+      const levels = c.out(null, 'f8', ['level_count']);
+      call('hf_surface_space_levels', this._handle, field === null || field === undefined ? null : field_, spacing,
+              levelCount, written(levels));
+      return levels;
+    }
+
+    traceIsolines(field, levels) {
+      const c = new Call(this);
+      const field_ = c.struct('hf_scalars', {});
+      c.rows(field_, 'values', 'field', field, 'f4 f8', ['vertex_count']);
+      const levels_ = c.array('levels', levels, 'f8', ['level_count']);
+      const lines = c.struct('hf_isolines', {});
+      const found = c.grow(this, 'hf_surface_trace_isolines', (room, made) => (c.into(lines, room, made),
+              call('hf_surface_trace_isolines', this._handle, field === null || field === undefined ? null : field_,
+              (c.n.level_count ??= 1), levels_, lines)), () => ({ point_capacity: lines.get('point_count'),
+              line_capacity: lines.get('line_count') }), { point_capacity: null, line_capacity: null },
+              { pointEdges: ['u4', ['point_capacity', 2]], parameters: ['f8', ['point_capacity']], positions: ['f8',
+              ['point_capacity', 3]], lineStarts: ['u4', ['line_capacity + 1']], lineLevels: ['u4', ['line_capacity']],
+              lineClosed: ['i4', ['line_capacity']] });
+      return { ...found, pointCount: lines.get('point_count'), lineCount: lines.get('line_count') };
+    }
+
+    findCriticalPoints(field) {
+      const c = new Call(this);
+      const info = c.told(this, 'hf_critical_info');
+      const field_ = c.struct('hf_scalars', {});
+      c.rows(field_, 'values', 'field', field, 'f4 f8', ['vertex_count']);
+      const found = c.grow(this, 'hf_surface_find_critical_points', (room,
+              made) => call('hf_surface_find_critical_points', this._handle,
+              field === null || field === undefined ? null : field_, room.capacity, written(made.points), info),
+              () => ({ capacity: info.get('point_count') }), { capacity: null }, { points: ['hf_critical_point',
+              ['capacity']] });
+      return found.points;
+    }
+
+    findExtremities(options = {}) {
+      const { field = null, ...more } = options;
+      const c = new Call(this);
+      const desc = extremitiesDesc(c, '', more);
+      const field_ = field && c.out(field, 'f8', ['vertex_count'], null, 'field');
+      desc.set('out_field', field_ && written(field_));
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_surface_find_extremities', (room, made) => call('hf_surface_find_extremities',
+              this._handle, desc, room.capacity, written(made.extremities), written(count)),
+              () => ({ capacity: count[0] }), { capacity: null }, { extremities: ['hf_extremity', ['capacity']] });
+      return found.extremities;
+    }
+
+    proposeHandles(options = {}) {
+      const c = new Call(this);
+      const desc = handleProposalsDesc(c, '', options);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_surface_propose_handles', (room, made) => call('hf_surface_propose_handles',
+              this._handle, desc, room.capacity, written(made.proposals), written(count)),
+              () => ({ capacity: count[0] }), { capacity: null }, { proposals: ['hf_handle_proposal', ['capacity']] });
+      return found.proposals;
+    }
+
+    get gapsInfo() {
+      return Call.told(this, 'hf_gaps_info');
+    }
+
+    get criticalInfo() {
+      return Call.told(this, 'hf_critical_info');
+    }
+  }
+
+  class Solver extends Recorded {
+    static destroy = 'hf_solver_destroy';
+    static counts = ['channel_count', 'vertex_count'];
+    get channelCount() {
+      return this._n.channel_count;
+    }
+    get vertexCount() {
+      return this._n.vertex_count;
+    }
+
+    constructor(surface, options = {}) {
+      super();
+      if (surface === bare) return;
+      const c = new Call(null, { surface });
+      const desc = solverDesc(c, '', options);
+      this._own('hf_create', c, handleOf(surface, Surface, 'surface'), desc);
+    }
+
+    clone() {
+      const c = new Call(this);
+      const made = new this.constructor(bare);
+      Object.assign(c.n, this._n);
+      made._own('hf_solver_clone', c, this._handle);
+      return made;
+    }
+
+    get info() {
+      const c = new Call(this);
+      const info = c.struct('hf_solver_info', {});
+      call('hf_solver_get_info', this._handle, info);
+      return info.toObject();
+    }
+
+    addSites(vertices = null, values = null, options = {}) {
+      const c = new Call(this);
+      const desc = sitesDesc(c, '', { vertices, values, ...options });
+      const sites = c.out(null, 'u4', ['site_count']);
+      call('hf_add_sites', this._handle, desc, written(sites));
+      return sites;
+    }
+
+    addSite(vertex, values = null) {
+      const c = new Call(this);
+      const values_ = c.array('values', values, 'f8', ['channel_count']);
+      const site = new Uint32Array(1);
+      call('hf_solver_add_site', this._handle, vertex, values_, written(site));
+      return site[0];
+    }
+
+    removeSites(sites) {
+      const c = new Call(this);
+      const sites_ = c.array('sites', sites, 'u4', ['site_count']);
+      call('hf_remove_sites', this._handle, (c.n.site_count ??= 1), sites_);
+    }
+
+    moveSites(sites, vertices = null, values = null, options = {}) {
+      const c = new Call(this);
+      const sites_ = c.array('sites', sites, 'u4', ['site_count']);
+      const desc = sitesDesc(c, '', { vertices, values, ...options });
+      call('hf_solver_move_sites', this._handle, (c.n.site_count ??= 1), sites_, desc);
+    }
+
+    setValues(sites, values) {
+      const c = new Call(this);
+      const sites_ = c.array('sites', sites, 'u4', ['site_count']);
+      const values_ = c.array('values', values, 'f8', ['site_count', 'channel_count']);
+      call('hf_solver_set_values', this._handle, (c.n.site_count ??= 1), sites_, values_);
+    }
+
+    editSites(options = {}) {
+      const c = new Call(this);
+      const desc = editDesc(c, '', options);
+      const sites = c.out(null, 'u4', ['add.site_count']);
+      call('hf_solver_edit_sites', this._handle, desc, written(sites));
+      return sites;
+    }
+
+    get siteCount() {
+      return direct('hf_solver_get_site_count', this._handle);
+    }
+
+    sites() {
+      const c = new Call(this);
+      const info = c.struct('hf_sites_info', {});
+      const found = c.grow(this, 'hf_solver_get_sites', (room, made) => (c.into(info, room, made),
+              call('hf_solver_get_sites', this._handle, info)), () => ({ capacity: info.get('count') }),
+              { capacity: null }, { sites: ['u4', ['capacity']], vertices: ['u4', ['capacity']], components: ['u4',
+              ['capacity']], values: ['f8', ['capacity', 'channel_count']], stiffness: ['f8', ['capacity']],
+              flux: ['f8', ['capacity', 'channel_count']], radii: ['f8', ['capacity']] });
+      return { ...found, count: info.get('count') };
+    }
+
+    setScreening(screening = null, targets = null) {
+      const c = new Call(this);
+      const screening_ = c.array('screening', screening, 'f8', ['vertex_count']);
+      const targets_ = c.array('targets', targets, 'f8', ['vertex_count', 'channel_count']);
+      call('hf_solver_set_screening', this._handle, screening_, targets_);
+    }
+
+    solve(out = null, options = {}) {
+      const { Type = Float32Array, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const info = c.told(this, 'hf_solve_info');
+      out = c.out(out, 'f4 f8', ['vertex_count', 'channel_count'], Type);
+      call(out instanceof Float64Array ? 'hf_solver_solve_f64' : 'hf_solve', this._handle, written(out), 0, info);
+      return out;
+    }
+
+    solveAt(vertices) {
+      const c = new Call(this);
+      delete c.n.vertex_count; // of the list given here
+      const vertices_ = c.array('vertices', vertices, 'u4', ['vertex_count']);
+      const values = c.out(null, 'f8', ['vertex_count', 'channel_count']);
+      call('hf_solver_solve_at', this._handle, (c.n.vertex_count ??= 1), vertices_, written(values));
+      return values;
+    }
+
+    solveVectors(out = null, options = {}) {
+      const { Type = Float32Array, normals = null, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const info = c.told(this, 'hf_solve_info');
+      out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
+      const normals_ = normals && c.out(normals, 'f8', ['vertex_count', 3], null, 'normals');
+      call(out instanceof Float64Array ? 'hf_solver_solve_vectors_f64' : 'hf_solver_solve_vectors', this._handle,
+              written(out), 0, written(normals), info);
+      return out;
+    }
+
+    solvePreview(out = null, options = {}) {
+      const { correctionCount = 0, Type = Float32Array, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const info = c.told(this, 'hf_preview_info');
+      out = c.out(out, 'f4 f8', ['vertex_count', 'channel_count'], Type);
+      call(out instanceof Float64Array ? 'hf_solver_solve_preview_f64' : 'hf_solver_solve_preview', this._handle,
+              written(out), 0, correctionCount, info);
+      return out;
+    }
+
+    releasePreview() {
+      const c = new Call(this);
+      call('hf_solver_release_preview', this._handle);
+    }
+
+    moveVectors(sites, vertices) {
+      const c = new Call(this);
+      const sites_ = c.array('sites', sites, 'u4', ['site_count']);
+      const vertices_ = c.array('vertices', vertices, 'u4', ['site_count']);
+      call('hf_solver_move_vectors', this._handle, (c.n.site_count ??= 1), sites_, vertices_);
+    }
+
+    rotateVectors(sites, angles) {
+      const c = new Call(this);
+      const sites_ = c.array('sites', sites, 'u4', ['site_count']);
+      const angles_ = c.array('angles', angles, 'f8', ['site_count']);
+      call('hf_solver_rotate_vectors', this._handle, (c.n.site_count ??= 1), sites_, angles_);
+    }
+
+    certify(options = {}) {
+      const { tolerance = 0, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const certificate = c.struct('hf_certificate', { tolerance });
+      call('hf_solver_certify', this._handle, certificate);
+      return certificate.toObject();
+    }
+
+    prepareRebase() {
+      const c = new Call(this);
+      call('hf_solver_prepare_rebase', this._handle);
+    }
+
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_solver_statistics', {});
+      call('hf_solver_get_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
+    get solveInfo() {
+      return Call.told(this, 'hf_solve_info');
+    }
+
+    get previewInfo() {
+      return Call.told(this, 'hf_preview_info');
+    }
+  }
+
+  class Geodesics extends Handle {
+    static destroy = 'hf_geodesics_destroy';
+    static counts = ['vertex_count'];
+    get vertexCount() {
+      return this._n.vertex_count;
+    }
+
+    constructor(surface, options = {}) {
+      super();
+      if (surface === bare) return;
+      const c = new Call(null, { surface });
+      const desc = geodesicsDesc(c, '', options);
+      this._own('hf_geodesics_create', c, handleOf(surface, Surface, 'surface'), desc);
+    }
+
+    solve(sources, out = null, options = {}) {
+      const { Type = Float32Array, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const sources_ = c.array('sources', sources, 'u4', ['source_count']);
+      out = c.out(out, 'f4 f8', ['vertex_count'], Type);
+      call(out instanceof Float64Array ? 'hf_geodesics_solve_f64' : 'hf_geodesics_solve', this._handle,
+              (c.n.source_count ??= 1), sources_, written(out), 0);
+      return out;
+    }
+
+    findPath(from, to) {
+      const c = new Call(this);
+      const path = c.struct('hf_path', {});
+      const found = c.grow(this, 'hf_geodesics_find_path', (room, made) => (c.into(path, room, made),
+              call('hf_geodesics_find_path', this._handle, c.place('hf_surface_point', from, 'from'),
+              c.place('hf_surface_point', to, 'to'), path)), () => ({ point_capacity: path.get('point_count') }),
+              { point_capacity: null }, { pointEdges: ['u4', ['point_capacity', 2]], parameters: ['f8',
+              ['point_capacity']], positions: ['f8', ['point_capacity', 3]] });
+      return { ...found, pointCount: path.get('point_count'), length: path.get('length') };
+    }
+
+    map(centre, radius = 0) {
+      const c = new Call(this);
+      const map = c.out(null, 'f8', ['vertex_count', 2]);
+      const frame = c.out(null, 'f8', [6]);
+      call('hf_geodesics_get_map', this._handle, c.place('hf_surface_point', centre, 'centre'), radius, written(map),
+              written(frame));
+      return { map, frame };
+    }
+  }
+
+  class Direction extends Recorded {
+    static destroy = 'hf_direction_destroy';
+    static counts = ['vertex_count'];
+    get vertexCount() {
+      return this._n.vertex_count;
+    }
+
+    constructor(surface, options = {}) {
+      super();
+      if (surface === bare) return;
+      const c = new Call(null, { surface });
+      const desc = directionDesc(c, '', options);
+      this._own('hf_direction_create', c, handleOf(surface, Surface, 'surface'), desc);
+    }
+
+    clone() {
+      const c = new Call(this);
+      const made = new this.constructor(bare);
+      Object.assign(c.n, this._n);
+      made._own('hf_direction_clone', c, this._handle);
+      return made;
+    }
+
+    addSites(vertices, vectors) {
+      const c = new Call(this);
+      const vertices_ = c.array('vertices', vertices, 'u4', ['site_count']);
+      const vectors_ = c.array('vectors', vectors, 'f8', ['site_count', 3]);
+      const sites = c.out(null, 'u4', ['site_count']);
+      call('hf_direction_add_sites', this._handle, (c.n.site_count ??= 1), vertices_, vectors_, written(sites));
+      return sites;
+    }
+
+    removeSites(sites) {
+      const c = new Call(this);
+      const sites_ = c.array('sites', sites, 'u4', ['site_count']);
+      call('hf_direction_remove_sites', this._handle, (c.n.site_count ??= 1), sites_);
+    }
+
+    moveSites(sites, vertices) {
+      const c = new Call(this);
+      const sites_ = c.array('sites', sites, 'u4', ['site_count']);
+      const vertices_ = c.array('vertices', vertices, 'u4', ['site_count']);
+      call('hf_direction_move_sites', this._handle, (c.n.site_count ??= 1), sites_, vertices_);
+    }
+
+    setVectors(sites, vectors) {
+      const c = new Call(this);
+      const sites_ = c.array('sites', sites, 'u4', ['site_count']);
+      const vectors_ = c.array('vectors', vectors, 'f8', ['site_count', 3]);
+      call('hf_direction_set_vectors', this._handle, (c.n.site_count ??= 1), sites_, vectors_);
+    }
+
+    rotateSites(sites, angles) {
+      const c = new Call(this);
+      const sites_ = c.array('sites', sites, 'u4', ['site_count']);
+      const angles_ = c.array('angles', angles, 'f8', ['site_count']);
+      call('hf_direction_rotate_sites', this._handle, (c.n.site_count ??= 1), sites_, angles_);
+    }
+
+    get siteCount() {
+      return direct('hf_direction_get_site_count', this._handle);
+    }
+
+    sites() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_direction_get_sites', (room, made) => call('hf_direction_get_sites', this._handle,
+              room.capacity, written(made.sites), written(made.vertices), written(made.vectors), written(count)),
+              () => ({ capacity: count[0] }), { capacity: null }, { sites: ['u4', ['capacity']], vertices: ['u4',
+              ['capacity']], vectors: ['f8', ['capacity', 3]] });
+      return { sites: found.sites, vertices: found.vertices, vectors: found.vectors };
+    }
+
+    solve(out = null, options = {}) {
+      const { Type = Float32Array, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const info = c.told(this, 'hf_solve_info');
+      out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
+      call(out instanceof Float64Array ? 'hf_direction_solve_f64' : 'hf_direction_solve', this._handle, written(out), 0,
+              info);
+      return out;
+    }
+
+    singularities() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_direction_get_singularities', (room,
+              made) => call('hf_direction_get_singularities', this._handle, room.capacity, written(made.singularities),
+              written(count)), () => ({ capacity: count[0] }), { capacity: null }, { singularities: ['hf_singularity',
+              ['capacity']] });
+      return found.singularities;
+    }
+
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_direction_statistics', {});
+      call('hf_direction_get_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
+    get solveInfo() {
+      return Call.told(this, 'hf_solve_info');
+    }
+  }
+
+  class Pose extends Recorded {
+    static destroy = 'hf_pose_destroy';
+    static counts = ['vertex_count'];
+    get vertexCount() {
+      return this._n.vertex_count;
+    }
+
+    constructor(surface, options = {}) {
+      super();
+      if (surface === bare) return;
+      const c = new Call(null, { surface });
+      const desc = poseDesc(c, '', options);
+      this._own('hf_pose_create', c, handleOf(surface, Surface, 'surface'), desc);
+    }
+
+    clone() {
+      const c = new Call(this);
+      const made = new this.constructor(bare);
+      Object.assign(c.n, this._n);
+      made._own('hf_pose_clone', c, this._handle);
+      return made;
+    }
+
+    get info() {
+      const c = new Call(this);
+      const info = c.struct('hf_pose_info', {});
+      call('hf_pose_get_info', this._handle, info);
+      return info.toObject();
+    }
+
+    addHandles(regionVertices = null, options = {}) {
+      const c = new Call(this);
+      const desc = handlesDesc(c, '', { regionVertices, ...options });
+      const handles = c.out(null, 'u4', ['handle_count']);
+      call('hf_pose_add_handles', this._handle, desc, written(handles));
+      return handles;
+    }
+
+    addHandleAt(point, radius) {
+      const c = new Call(this);
+      const point_ = c.array('point', point, 'f8', [3]);
+      const handle = new Uint32Array(1);
+      call('hf_pose_add_handle_at', this._handle, point_, radius, written(handle));
+      return handle[0];
+    }
+
+    removeHandles(handles) {
+      const c = new Call(this);
+      const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
+      call('hf_pose_remove_handles', this._handle, (c.n.handle_count ??= 1), handles_);
+    }
+
+    setTransforms(handles, options = {}) {
+      const { rotations = null, translations = null, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
+      const transforms = c.records('hf_transform', ['handle_count'], { rotation: ['rotations', rotations],
+              translation: ['translations', translations] });
+      call('hf_pose_set_transforms', this._handle, (c.n.handle_count ??= 1), handles_, transforms);
+    }
+
+    setTransform(handle, options = {}) {
+      const { rotation = null, translation = null, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const transform = c.struct('hf_transform', {});
+      c.fixed(transform, 'rotation', 'rotation', rotation);
+      c.fixed(transform, 'translation', 'translation', translation);
+      call('hf_pose_set_transform', this._handle, handle, transform);
+    }
+
+    setMatrices(handles, matrices) {
+      const c = new Call(this);
+      const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
+      const matrices_ = c.array('matrices', matrices, 'f8', ['handle_count', 16]);
+      call('hf_pose_set_matrices', this._handle, (c.n.handle_count ??= 1), handles_, matrices_);
+    }
+
+    handle(handle) {
+      const c = new Call(this);
+      const info = c.struct('hf_handle_info', {});
+      call('hf_pose_get_handle', this._handle, handle, info);
+      return info.toObject();
+    }
+
+    get handleCount() {
+      return direct('hf_pose_get_handle_count', this._handle);
+    }
+
+    field(handle, out = null) {
+      const c = new Call(this);
+      out = c.out(out, 'f4', ['vertex_count']);
+      call('hf_pose_get_field', this._handle, handle, written(out), 0);
+      return out;
+    }
+
+    deform(out = null, options = {}) {
+      const { Type = Float32Array, normals = null, ...more } = options;
+      const c = new Call(this);
+      const info = c.told(this, 'hf_deform_info');
+      const desc = deformDesc(c, '', more);
+      out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
+      desc.set(out instanceof Float64Array ? 'positions_f64' : 'positions', out && written(out));
+      const normals_ = normals && c.out(normals, 'f4', ['vertex_count', 3], null, 'normals');
+      desc.set('normals', normals_ && written(normals_));
+      call('hf_pose_deform', this._handle, desc, info);
+      return out;
+    }
+
+    skin(options = {}) {
+      const { influenceCount = 0, scales = false, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const skin = c.struct('hf_skin_info', { influence_count: influenceCount });
+      c.known('influence_count', influenceCount || 4);
+      const found = c.grow(this, 'hf_pose_get_skin', (room, made) => (c.into(skin, room, made), call('hf_pose_get_skin',
+              this._handle, skin)), () => ({ joint_capacity: skin.get('joint_count'),
+              vertex_capacity: skin.get('vertex_count'), joint_count: skin.get('joint_count'),
+              vertex_count: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
+              vertex_capacity: c.n.vertex_count }, { pivots: ['f8', ['joint_capacity', 3]], rotations: ['f8',
+              ['joint_capacity', 4]], translations: ['f8', ['joint_capacity', 3]], axes: ['f8', ['joint_capacity', 4]],
+              ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}), vertexJoints: ['u4', ['vertex_capacity',
+              'influence_count']], vertexWeights: ['f4', ['vertex_capacity', 'influence_count']] });
+      return { ...found, jointCount: skin.get('joint_count'), vertexCount: skin.get('vertex_count') };
+    }
+
+    get deformInfo() {
+      return Call.told(this, 'hf_deform_info');
+    }
+  }
+
+  class Quads extends Handle {
+    static destroy = 'hf_quads_destroy';
+    static counts = [];
+
+    constructor(surface, options = {}) {
+      super();
+      if (surface === bare) return;
+      const c = new Call(null, { surface });
+      const desc = quadsDesc(c, '', options);
+      this._own('hf_quads_create', c, handleOf(surface, Surface, 'surface'), desc);
+    }
+
+    update(options = {}) {
+      const c = new Call(this);
+      const desc = quadsDesc(c, '', options);
+      call('hf_quads_update', this._handle, desc);
+    }
+
+    get info() {
+      const c = new Call(this);
+      const info = c.struct('hf_quads_info', {});
+      call('hf_quads_get_info', this._handle, info);
+      return info.toObject();
+    }
+
+    mesh() {
+      const c = new Call(this);
+      const mesh = c.struct('hf_quads_mesh', {});
+      const found = c.grow(this, 'hf_quads_get_mesh', (room, made) => (c.into(mesh, room, made),
+              call('hf_quads_get_mesh', this._handle, mesh)), () => ({ vertex_capacity: mesh.get('vertex_count'),
+              face_capacity: mesh.get('face_count'), vertex_count: mesh.get('vertex_count') }),
+              { vertex_capacity: c.n.vertex_count, face_capacity: null }, { positions: ['f8', ['vertex_capacity', 3]],
+              faces: ['u4', ['face_capacity', 4]], triangles: ['u4', ['vertex_capacity']], barycentrics: ['f8',
+              ['vertex_capacity', 3]], corners: ['u4', ['vertex_capacity', 3]] });
+      return { ...found, vertexCount: mesh.get('vertex_count'), faceCount: mesh.get('face_count') };
+    }
+  }
+
+  class Flow extends Handle {
+    static destroy = 'hf_flow_destroy';
+    static counts = ['vertex_count'];
+    get vertexCount() {
+      return this._n.vertex_count;
+    }
+
+    constructor(surface) {
+      super();
+      if (surface === bare) return;
+      const c = new Call(null, { surface });
+      this._own('hf_flow_create', c, handleOf(surface, Surface, 'surface'));
+    }
+
+    trace(field, options = {}) {
+      const { seeds = null, wantedCount = 0, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const field_ = c.struct('hf_scalars', {});
+      c.rows(field_, 'values', 'field', field, 'f4 f8', ['vertex_count']);
+      const lines = c.struct('hf_streamlines', { wanted_count: wantedCount });
+      c.rows(lines, 'seeds', 'seeds', seeds, 'u4', ['seed_count']);
+      c.counts(lines, { seed_count: ['seed_count', 0] });
+      const found = c.grow(this, 'hf_flow_trace', (room, made) => (c.into(lines, room, made), call('hf_flow_trace',
+              this._handle, field === null || field === undefined ? null : field_, lines)),
+              () => ({ point_capacity: lines.get('point_count'), line_capacity: lines.get('line_count') }),
+              { point_capacity: null, line_capacity: null }, { positions: ['f8', ['point_capacity', 3]], values: ['f8',
+              ['point_capacity']], lineStarts: ['u4', ['line_capacity + 1']], lineEnds: ['u4', ['line_capacity', 2]] });
+      return { ...found, pointCount: lines.get('point_count'), lineCount: lines.get('line_count') };
+    }
+  }
+
+  class Region extends Recorded {
+    static destroy = 'hf_region_destroy';
+    static counts = ['vertex_count'];
+    get vertexCount() {
+      return this._n.vertex_count;
+    }
+
+    constructor(surface, options = {}) {
+      super();
+      if (surface === bare) return;
+      const c = new Call(null, { surface });
+      const desc = regionDesc(c, '', options);
+      this._own('hf_region_create', c, handleOf(surface, Surface, 'surface'), desc);
+    }
+
+    clone() {
+      const c = new Call(this);
+      const made = new this.constructor(bare);
+      Object.assign(c.n, this._n);
+      made._own('hf_region_clone', c, this._handle);
+      return made;
+    }
+
+    edit(options = {}) {
+      const c = new Call(this);
+      const desc = regionEditDesc(c, '', options);
+      call('hf_region_edit', this._handle, desc);
+    }
+
+    get info() {
+      const c = new Call(this);
+      const info = c.struct('hf_region_info', {});
+      call('hf_region_get_info', this._handle, info);
+      return info.toObject();
+    }
+
+    vertices(list = 0) {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_region_get_vertices', (room, made) => call('hf_region_get_vertices', this._handle,
+              list, room.capacity, written(made.vertices), written(count)), () => ({ capacity: count[0] }),
+              { capacity: null }, { vertices: ['u4', ['capacity']] });
+      return found.vertices;
+    }
+
+    curve() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_region_get_curve', (room, made) => call('hf_region_get_curve', this._handle,
+              room.capacity, written(made.points), written(count)), () => ({ capacity: count[0] }), { capacity: null },
+              { points: ['f8', ['capacity', 3]] });
+      return found.points;
+    }
+
+    morph(weight = 0, out = null, options = {}) {
+      const { Type = Float32Array, normals = null, ...more } = options;
+      const c = new Call(this);
+      const desc = morphDesc(c, '', { weight, ...more });
+      out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
+      desc.set(out instanceof Float64Array ? 'positions_f64' : 'positions', out && written(out));
+      const normals_ = normals && c.out(normals, 'f4', ['vertex_count', 3], null, 'normals');
+      desc.set('normals', normals_ && written(normals_));
+      call('hf_region_morph', this._handle, desc);
+      return out;
+    }
+  }
+
+  class Detail extends Handle {
+    static destroy = 'hf_detail_destroy';
+    static counts = ['vertex_count'];
+    get vertexCount() {
+      return this._n.vertex_count;
+    }
+
+    constructor(source, target, options = {}) {
+      super();
+      if (source === bare) return;
+      const c = new Call(null, { source, target });
+      const desc = detailDesc(c, '', options);
+      this._own('hf_detail_create', c, handleOf(source, Region, 'source'), handleOf(target, Region, 'target'), desc);
+    }
+
+    morph(weight = 0, out = null, options = {}) {
+      const { Type = Float32Array, normals = null, ...more } = options;
+      const c = new Call(this);
+      const desc = morphDesc(c, '', { weight, ...more });
+      out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
+      desc.set(out instanceof Float64Array ? 'positions_f64' : 'positions', out && written(out));
+      const normals_ = normals && c.out(normals, 'f4', ['vertex_count', 3], null, 'normals');
+      desc.set('normals', normals_ && written(normals_));
+      call('hf_detail_morph', this._handle, desc);
+      return out;
+    }
+  }
+
+  class Transfer extends Handle {
+    static destroy = 'hf_transfer_destroy';
+    static counts = ['vertex_count'];
+    get vertexCount() {
+      return this._n.vertex_count;
+    }
+
+    constructor(source, target, options = {}) {
+      super();
+      if (source === bare) return;
+      const c = new Call(null, { source, target });
+      const desc = transferDesc(c, '', options);
+      this._own('hf_transfer_create', c, handleOf(source, Surface, 'source'), handleOf(target, Surface, 'target'),
+              desc);
+    }
+
+    addPairs(sourceVertices = null, targetVertices = null, flags = null, options = {}) {
+      const c = new Call(this);
+      const desc = pairsDesc(c, '', { sourceVertices, targetVertices, flags, ...options });
+      const pairs = c.out(null, 'u4', ['pair_count']);
+      call('hf_transfer_add_pairs', this._handle, desc, written(pairs));
+      return pairs;
+    }
+
+    removePairs(pairs) {
+      const c = new Call(this);
+      const pairs_ = c.array('pairs', pairs, 'u4', ['pair_count']);
+      call('hf_transfer_remove_pairs', this._handle, (c.n.pair_count ??= 1), pairs_);
+    }
+
+    pair(pair) {
+      const c = new Call(this);
+      const info = c.struct('hf_pair_info', {});
+      call('hf_transfer_get_pair', this._handle, pair, info);
+      return info.toObject();
+    }
+
+    get info() {
+      const c = new Call(this);
+      const info = c.struct('hf_transfer_info', {});
+      call('hf_transfer_get_info', this._handle, info);
+      return info.toObject();
+    }
+
+    setDials(options = {}) {
+      const c = new Call(this);
+      const desc = transferDials(c, '', options);
+      call('hf_transfer_set_dials', this._handle, desc);
+    }
+
+    get dials() {
+      const c = new Call(this);
+      const dials = c.struct('hf_transfer_dials', {});
+      call('hf_transfer_get_dials', this._handle, dials);
+      return dials.toObject();
+    }
+
+    apply(sourcePositions = null, out = null, options = {}) {
+      const { Type = Float32Array, targetNormals = null, ...more } = options;
+      const c = new Call(this);
+      const desc = transferFrame(c, '', { sourcePositions, ...more });
+      out = c.out(out, 'f4 f8', ['target.vertex_count', 3], Type);
+      desc.set(out instanceof Float64Array ? 'target_positions_f64' : 'target_positions', out && written(out));
+      const targetNormals_ = targetNormals && c.out(targetNormals, 'f4', ['target.vertex_count', 3], null,
+              'targetNormals');
+      desc.set('target_normals', targetNormals_ && written(targetNormals_));
+      call('hf_transfer_apply', this._handle, desc);
+      return out;
+    }
+
+    sinking() {
+      const c = new Call(this);
+      const sinking = c.out(null, 'u1', ['target.vertex_count']);
+      call('hf_transfer_get_sinking', this._handle, written(sinking));
+      return sinking;
+    }
+
+    skin(options = {}) {
+      const { influenceCount = 0, scales = false, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const skin = c.struct('hf_skin_info', { influence_count: influenceCount });
+      c.known('influence_count', influenceCount || 4);
+      const found = c.grow(this, 'hf_transfer_get_skin', (room, made) => (c.into(skin, room, made),
+              call('hf_transfer_get_skin', this._handle, skin)), () => ({ joint_capacity: skin.get('joint_count'),
+              vertex_capacity: skin.get('vertex_count'), joint_count: skin.get('joint_count'),
+              vertex_count: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
+              vertex_capacity: c.n.vertex_count }, { pivots: ['f8', ['joint_capacity', 3]], rotations: ['f8',
+              ['joint_capacity', 4]], translations: ['f8', ['joint_capacity', 3]], axes: ['f8', ['joint_capacity', 4]],
+              ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}), vertexJoints: ['u4', ['vertex_capacity',
+              'influence_count']], vertexWeights: ['f4', ['vertex_capacity', 'influence_count']] });
+      return { ...found, jointCount: skin.get('joint_count'), vertexCount: skin.get('vertex_count') };
+    }
+  }
+
+  class Weights extends Recorded {
+    static destroy = 'hf_weights_destroy';
+    static counts = ['vertex_count'];
+    get vertexCount() {
+      return this._n.vertex_count;
+    }
+
+    constructor(surface, options = {}) {
+      super();
+      if (surface === bare) return;
+      const { influenceCount = 0, ...more } = options;
+      const c = new Call(null, { surface });
+      const desc = jointsDesc(c, '', more);
+      c.known('influence_count', influenceCount || 4);
+      this._own('hf_weights_create', c, handleOf(surface, Surface, 'surface'), desc, influenceCount);
+    }
+
+    clone() {
+      const c = new Call(this);
+      const made = new this.constructor(bare);
+      Object.assign(c.n, this._n);
+      made._own('hf_weights_clone', c, this._handle);
+      return made;
+    }
+
+    setJoints(options = {}) {
+      const c = new Call(this);
+      const desc = jointsDesc(c, '', options);
+      call('hf_weights_set_joints', this._handle, desc);
+    }
+
+    setPins(vertices = null, options = {}) {
+      const c = new Call(this);
+      const desc = pinsDesc(c, '', { vertices, ...options });
+      call('hf_weights_set_pins', this._handle, desc);
+    }
+
+    setLocks(joints, values = null) {
+      const c = new Call(this);
+      const joints_ = c.array('joints', joints, 'u4', ['lock_count']);
+      const values_ = c.array('values', values, 'f4', ['vertex_count', 'lock_count']);
+      call('hf_weights_set_locks', this._handle, (c.n.lock_count ??= 1), joints_, values_);
+    }
+
+    get() {
+      const c = new Call(this);
+      const weights = c.struct('hf_weights_out', {});
+      const found = c.grow(this, 'hf_weights_get', (room, made) => (c.into(weights, room, made), call('hf_weights_get',
+              this._handle, weights)), () => ({ vertex_capacity: weights.get('vertex_count'),
+              vertex_count: weights.get('vertex_count'), influence_count: weights.get('influence_count') }),
+              { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
+              weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
+      return { ...found, vertexCount: weights.get('vertex_count'), influenceCount: weights.get('influence_count') };
+    }
+
+    joints() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_weights_get_joints', (room, made) => call('hf_weights_get_joints', this._handle,
+              room.capacity, written(made.flags), written(made.vertexCounts), written(count)),
+              () => ({ capacity: count[0] }), { capacity: null }, { flags: ['u4', ['capacity']], vertexCounts: ['u4',
+              ['capacity']] });
+      return { flags: found.flags, vertexCounts: found.vertexCounts };
+    }
+
+    get info() {
+      const c = new Call(this);
+      const info = c.struct('hf_weights_info', {});
+      call('hf_weights_get_info', this._handle, info);
+      return info.toObject();
+    }
+
+    helpers(names = null) {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_weights_get_helpers', (room, made) => call('hf_weights_get_helpers', this._handle,
+              c.text(names, 'names'), room.capacity, written(made.reasons), written(count)),
+              () => ({ capacity: count[0] }), { capacity: null }, { reasons: ['u4', ['capacity']] });
+      return found.reasons;
+    }
+
+    static transfer(source, target, options = {}) {
+      const c = new Call(null, { source, target });
+      const info = c.struct('hf_weights_transfer_info', {});
+      const desc = weightsTransferDesc(c, '', options);
+      const weights_ = c.struct('hf_weights_out', {});
+      const found = c.grow(source, 'hf_weights_transfer', (room, made) => (c.into(weights_, room, made),
+              call('hf_weights_transfer', handleOf(source, Surface, 'source'), handleOf(target, Surface, 'target'),
+              desc, weights_, info)), () => ({ vertex_capacity: weights_.get('vertex_count'),
+              vertex_count: weights_.get('vertex_count'), influence_count: weights_.get('influence_count') }),
+              { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
+              weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
+      return { ...{ ...found, vertexCount: weights_.get('vertex_count'),
+              influenceCount: weights_.get('influence_count') }, info: info.toObject() };
+    }
+
+    static mirror(surface, options = {}) {
+      const c = new Call(null, { surface });
+      const info = c.struct('hf_weights_mirror_info', {});
+      const desc = weightsMirrorDesc(c, '', options);
+      const weights_ = c.struct('hf_weights_out', {});
+      const partners_ = c.out(null, 'u4', ['joint_count']);
+      const pairings = c.out(null, 'u4', ['joint_count']);
+      const found = c.grow(surface, 'hf_weights_mirror', (room, made) => (c.into(weights_, room, made),
+              call('hf_weights_mirror', handleOf(surface, Surface, 'surface'), desc, weights_, written(partners_),
+              written(pairings), info)), () => ({ vertex_capacity: weights_.get('vertex_count'),
+              vertex_count: weights_.get('vertex_count'), influence_count: weights_.get('influence_count') }),
+              { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
+              weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
+      return { ...{ ...found, vertexCount: weights_.get('vertex_count'),
+              influenceCount: weights_.get('influence_count') }, partners: partners_, pairings, info: info.toObject() };
+    }
+  }
+
+  return { Progress, Surface, Solver, Geodesics, Direction, Pose, Quads, Flow, Region, Detail, Transfer, Weights };
+}

@@ -1,0 +1,3041 @@
+"""Generated from include/hf/*.h by bindings/generate; do not edit. Classes, enums and results of the package."""
+# fmt: off
+
+from __future__ import annotations
+
+import ctypes
+from enum import IntEnum, IntFlag
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _raw
+from ._library import ArrayLike, Call, Object, Recorded, address, call, handle_of, library, number, place, ref
+from ._library import Place
+
+
+Link = _raw.hf_link
+SurfaceInfo = _raw.hf_surface_info
+SurfaceReport = _raw.hf_surface_report
+GapsInfo = _raw.hf_gaps_info
+SurfaceStatistics = _raw.hf_surface_statistics
+Hit = _raw.hf_hit
+SolverInfo = _raw.hf_solver_info
+SolveInfo = _raw.hf_solve_info
+PreviewInfo = _raw.hf_preview_info
+Certificate = _raw.hf_certificate
+SolverStatistics = _raw.hf_solver_statistics
+CriticalPoint = _raw.hf_critical_point
+CriticalInfo = _raw.hf_critical_info
+SurfacePoint = _raw.hf_surface_point
+Extremity = _raw.hf_extremity
+Singularity = _raw.hf_singularity
+DirectionStatistics = _raw.hf_direction_statistics
+PoseInfo = _raw.hf_pose_info
+Transform = _raw.hf_transform
+HandleInfo = _raw.hf_handle_info
+DeformInfo = _raw.hf_deform_info
+HandleProposal = _raw.hf_handle_proposal
+QuadsInfo = _raw.hf_quads_info
+RegionInfo = _raw.hf_region_info
+PairInfo = _raw.hf_pair_info
+TransferInfo = _raw.hf_transfer_info
+TransferDials = _raw.hf_transfer_dials
+WeightsInfo = _raw.hf_weights_info
+WeightsTransferInfo = _raw.hf_weights_transfer_info
+WeightsMirrorInfo = _raw.hf_weights_mirror_info
+
+
+class Weld(IntEnum):
+    """Selects how the surface joins vertices at one place. Modelling tools split vertices at texture seams: a horse
+    model can have 1,109 separate pieces as stored and be one piece when welded. Functions write results to every copy
+    of a vertex.
+    """
+
+    EXACT = _raw.HF_WELD_EXACT
+    """bit-equal positions (+0 and -0 are equal)"""
+    NONE = _raw.HF_WELD_NONE
+    """vertices as stored"""
+    TOLERANCE = _raw.HF_WELD_TOLERANCE
+    """positions closer than weld_tolerance, transitively"""
+
+
+class Operator(IntEnum):
+    """Selects the edge weights w_ij of the discrete Laplacian L of a field u: (L u)_i = sum_j w_ij (u_i - u_j)."""
+
+    INTRINSIC_DELAUNAY = _raw.HF_OPERATOR_INTRINSIC_DELAUNAY
+    """cotangent weights of the intrinsic Delaunay triangulation, on the tufted cover where edges are open or non-
+    manifold (Bobenko and Springborn 2007; Sharp and Crane 2020). Weights are never negative: a field keeps to the
+    range of its sites on any mesh
+    """
+    CLAMPED = _raw.HF_OPERATOR_CLAMPED
+    """cotangents, at least 1e-3 of the median weight: keeps to the range too"""
+    UNIFORM = _raw.HF_OPERATOR_UNIFORM
+    """w_ij = 1"""
+    COTANGENT = _raw.HF_OPERATOR_COTANGENT
+    """w_ij = (cot a_ij + cot b_ij) / 2, the paper's; can be negative at obtuse triangles"""
+    GRAPH = _raw.HF_OPERATOR_GRAPH
+    """your own weights; only Surface.from_graph makes it"""
+
+
+class FieldKind(IntEnum):
+    """Selects the matrix K that a field solves with. A bi-harmonic field is smooth at its sites and overshoots their
+    values. Its factor is 3 to 4 times larger than a harmonic one, and its solve adds one correction step.
+    """
+
+    HARMONIC = _raw.HF_FIELD_HARMONIC
+    """K = L"""
+    BIHARMONIC = _raw.HF_FIELD_BIHARMONIC
+    """K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the scale of the mesh"""
+    BIHARMONIC_GRAPH = _raw.HF_FIELD_BIHARMONIC_GRAPH
+    """K = L^2, the paper's: depends on how densely the surface is sampled"""
+
+
+class Ordering(IntEnum):
+    """Selects how the unknowns are ordered. A good order keeps the factor small."""
+
+    NESTED_DISSECTION = _raw.HF_ORDERING_NESTED_DISSECTION
+    """our own; gives the smallest factor"""
+    MINIMUM_DEGREE = _raw.HF_ORDERING_MINIMUM_DEGREE
+    """quicker to compute, larger factor on large meshes"""
+    METIS = _raw.HF_ORDERING_METIS
+    """builds with HF_WITH_GPL only"""
+
+
+class LinkMode(IntEnum):
+    """Selects how the pieces of a mesh are linked. A piece is an edge-connected part, such as an eye or a plate of a
+    robot. Without links every piece is a domain of its own: a field or a pose ends where the piece ends.
+    """
+
+    NONE = _raw.HF_LINK_NONE
+    """pieces stay apart. The default, because a scan or a scene may hold bodies that do not belong together; the
+    programs and bindings for characters link by default
+    """
+    PIECES = _raw.HF_LINK_PIECES
+    """automatic: a tree over the pieces by smallest distance, and all pieces that touch"""
+    LIST = _raw.HF_LINK_LIST
+    """the links you give, and no others; only light_vertices name light pieces then"""
+
+
+class Engine(IntEnum):
+    """Selects the engine: how a solver combines its sites with the factor. All engines give the same field."""
+
+    GREEN = _raw.HF_ENGINE_GREEN
+    """sites are rows of a small dense system beside the factor: the default"""
+    UPDOWN = _raw.HF_ENGINE_UPDOWN
+    """as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds with HF_WITH_GPL. The
+    field meets its sites to about 1e-8 of the value range, a bi-harmonic one to 2e-7
+    """
+    REFACTOR = _raw.HF_ENGINE_REFACTOR
+    """eliminates the sites and factorises again at every change: the baseline"""
+
+
+class Route(IntEnum):
+    """These values say how the solver carried out the last edit of site places (SolverStatistics.last_route)."""
+
+    NONE = _raw.HF_ROUTE_NONE
+    """no place was edited yet, or the engine is not green"""
+    DENSE = _raw.HF_ROUTE_DENSE
+    """rows of the dense system were added and removed"""
+    FRESH = _raw.HF_ROUTE_FRESH
+    """the dense system was recomputed, which was quicker"""
+    REBASE = _raw.HF_ROUTE_REBASE
+    """factorised again with hard vertex sites eliminated"""
+
+
+class Levels(IntEnum):
+    """Selects how levels divide a field into strips. N levels give N + 1 strips."""
+
+    VALUE = _raw.HF_LEVELS_VALUE
+    """equal steps of the value"""
+    AREA = _raw.HF_LEVELS_AREA
+    """equal areas: the strips cover the same area each"""
+    LENGTH = _raw.HF_LEVELS_LENGTH
+    """equal mean widths: the width of a strip is its area over the mean length of its lines"""
+
+
+class Critical(IntEnum):
+    MINIMUM = _raw.HF_CRITICAL_MINIMUM
+    MAXIMUM = _raw.HF_CRITICAL_MAXIMUM
+    SADDLE = _raw.HF_CRITICAL_SADDLE
+
+
+class DistanceMethod(IntEnum):
+    """Selects how distances are computed. docs/benchmarks.md has the errors of each."""
+
+    AUTO = _raw.HF_GEODESICS_AUTO
+    """EXACT up to 10,000 vertices, FRONT beyond"""
+    FRONT = _raw.HF_GEODESICS_FRONT
+    """fast: circular fronts on the intrinsic Delaunay triangulation (Novotni and Klein 2002)"""
+    EXACT = _raw.HF_GEODESICS_EXACT
+    """exact up to rounding: windows (Mitchell, Mount and Papadimitriou 1987)"""
+    HEAT = _raw.HF_GEODESICS_HEAT
+    """smooth, and least exact: the heat method (Crane, Weischedel and Wardetzky 2013)"""
+
+
+class ExtremityKind(IntEnum):
+    """Selects how Surface.find_extremities finds tips. Both kinds take the maxima of a field that rises towards
+    protruding parts.
+    """
+
+    POISSON = _raw.HF_EXTREMITIES_POISSON
+    """a field with a source at every vertex: one solve"""
+    GEODESIC = _raw.HF_EXTREMITIES_GEODESIC
+    """mean geodesic distance to the rest of the component (Hilaga et al. 2001)"""
+
+
+class DeformMode(IntEnum):
+    """Selects how vertices follow the handles."""
+
+    SMOOTH = _raw.HF_DEFORM_SMOOTH
+    """quadratic bands, reduced elastic energy: the default"""
+    PAPER = _raw.HF_DEFORM_PAPER
+    """linear bands of equal value, shape matching of overlapping clusters"""
+
+
+class HandleReason(IntEnum):
+    """Says why a place is proposed as a handle."""
+
+    FOOT = _raw.HF_HANDLE_REASON_FOOT
+    """stands on the ground: the surface rises from it along a leg"""
+    TIP = _raw.HF_HANDLE_REASON_TIP
+    """a protruding part ends there: head, tail, hand, horn (Surface.find_extremities)"""
+    END = _raw.HF_HANDLE_REASON_END
+    """one of the two ends of a component without feet or tips"""
+    JOINT = _raw.HF_HANDLE_REASON_JOINT
+    """a joint of the given skeleton: an end, or where it branches"""
+    MIDDLE = _raw.HF_HANDLE_REASON_MIDDLE
+    """the middle of the largest component; pinned if nothing else is"""
+
+
+class Base(IntEnum):
+    """The smooth base of a region."""
+
+    DEFAULT = _raw.HF_BASE_DEFAULT
+    """THIN_PLATE"""
+    MEMBRANE = _raw.HF_BASE_MEMBRANE
+    """harmonic: the least area for its rim, nearly; it meets the rim with a crease"""
+    THIN_PLATE = _raw.HF_BASE_THIN_PLATE
+    """bi-harmonic (FieldKind.BIHARMONIC): leaves the surface around it without a crease"""
+    THIN_PLATE_GRAPH = _raw.HF_BASE_THIN_PLATE_GRAPH
+    """the paper's bi-harmonic field (FieldKind.BIHARMONIC_GRAPH)"""
+
+
+class Side(IntEnum):
+    """A closed curve cuts the surface in two. The side says which part becomes the region. Where a curve along edges
+    touches itself there are more parts: SMALLER takes all but the largest, SEED the part of its vertex.
+    """
+
+    SMALLER = _raw.HF_SIDE_SMALLER
+    """the side of smaller area"""
+    LARGER = _raw.HF_SIDE_LARGER
+    """the side of larger area"""
+    SEED = _raw.HF_SIDE_SEED
+    """the side that seed_vertex lies in"""
+
+
+class CurveKind(IntEnum):
+    """How the points of a curve are joined: each to the next, and the last to the first."""
+
+    STRAIGHT = _raw.HF_CURVE_STRAIGHT
+    """by shortest paths along the surface, through triangles, exact up to rounding"""
+    EDGES = _raw.HF_CURVE_EDGES
+    """by shortest paths along edges; points in triangles stand for their nearest corner"""
+
+
+class RegionList(IntEnum):
+    """Lists of vertices of a region."""
+
+    INSIDE = _raw.HF_REGION_INSIDE
+    """the region"""
+    RIM = _raw.HF_REGION_RIM
+    """the vertices next to it"""
+    SITES = _raw.HF_REGION_SITES
+    """vertices whose positions fix the base"""
+
+
+class TransferMode(IntEnum):
+    FIELDS = _raw.HF_TRANSFER_FIELDS
+    """a cluster: vertices with similar values of all fields; the default"""
+    PAPER = _raw.HF_TRANSFER_PAPER
+    """a cluster: vertices between two levels of one field, as in the paper"""
+    STRETCH = _raw.HF_TRANSFER_STRETCH
+    """Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target vertex
+    i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x' minimises sum
+    over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2 with cotangent weights w. It is a Poisson
+    equation with the factor of the surface. Borders match borders, and narrow openings between them, such as lids,
+    close as on the source. There is no ground, no rest alignment, no dial, no hold and no skin; flags of pairs have
+    no effect but on the scale. A surface on itself gets its own pose
+    """
+
+
+class Ground(IntEnum):
+    KEEP = _raw.HF_GROUND_KEEP
+    """feet stand, and no part sinks deeper than the source's, but for thin ones. The default"""
+    OFF = _raw.HF_GROUND_OFF
+    """there is no ground: for flying and swimming, or where the host has its own"""
+
+
+class PairFlag(IntFlag):
+    """Bits that describe a pair of regions."""
+
+    NONE = 0
+    ANCHOR = _raw.HF_PAIR_ANCHOR
+    """the target's region follows the scaled path of the source's (feet, trunk)"""
+    FOOT = _raw.HF_PAIR_FOOT
+    """an anchor that also stands on the ground, and whose leg gives the scale"""
+    TRUNK = _raw.HF_PAIR_TRUNK
+    """part of the trunk: no rest alignment"""
+    NO_ALIGNMENT = _raw.HF_PAIR_NO_ALIGNMENT
+    """keep the source's rotations as they are even if the rest limbs point elsewhere"""
+    CONTACT = _raw.HF_PAIR_CONTACT
+    """comes as near to the ground as the source's region, scaled, while that is near it (a nose that grazes, a hand that
+    leans); elsewhere it is free
+    """
+    SINKS = _raw.HF_PAIR_SINKS
+    """this limb may sink into the ground, thick or thin (Transfer.sinking)"""
+    NECK = _raw.HF_PAIR_NECK
+    """head, nose or ears: neck_follow of hf_transfer_dials turns the neck that they share"""
+    TAIL = _raw.HF_PAIR_TAIL
+    """part of the tail: tail_follow turns it"""
+    ARM = _raw.HF_PAIR_ARM
+    """a hand: arm_space turns the arms of each side"""
+
+
+class WeightsOrigin(IntEnum):
+    """How the weights of a vertex were found."""
+
+    INFORMED = _raw.HF_WEIGHTS_INFORMED
+    """it sees its nearest joint"""
+    SOLVED = _raw.HF_WEIGHTS_SOLVED
+    """from the vertices around it"""
+    PINNED = _raw.HF_WEIGHTS_PINNED
+    """given by a pin"""
+    NEAREST = _raw.HF_WEIGHTS_NEAREST
+    """guessed: its piece has no information; from the nearest vertices of others"""
+    RIGID = _raw.HF_WEIGHTS_RIGID
+    """guessed, as NEAREST: one mean for all vertices of a small piece"""
+    ISOLATED = _raw.HF_WEIGHTS_ISOLATED
+    """guessed: it belongs to no triangle; from the nearest vertex"""
+    MATCHED = _raw.HF_WEIGHTS_MATCHED
+    """transferred or mirrored: from a near point whose normal agrees"""
+    KEPT = _raw.HF_WEIGHTS_KEPT
+    """mirrored: it is on the side that gives"""
+
+
+class JointFlag(IntFlag):
+    """Bits that say why a joint deserves a look."""
+
+    NONE = 0
+    NO_LENGTH = _raw.HF_JOINT_NO_LENGTH
+    """it is a point"""
+    COINCIDENT = _raw.HF_JOINT_COINCIDENT
+    """it lies exactly on a joint of a lower number"""
+    INFORMS_NONE = _raw.HF_JOINT_INFORMS_NONE
+    """no vertex has it as its nearest joint in sight"""
+    OUTSIDE = _raw.HF_JOINT_OUTSIDE
+    """no part of it is inside the skin"""
+    HELPER = _raw.HF_JOINT_HELPER
+    """a proposal that follows from the other flags: it looks like a helper that should not deform"""
+
+
+class HelperReason(IntFlag):
+    """Bits that say why a joint looks like a helper: a root, a target or a control that moves no skin."""
+
+    NONE = 0
+    PROPOSED = _raw.HF_HELPER_PROPOSED
+    """the reasons together are enough to propose it"""
+    NAME_ROOT = _raw.HF_HELPER_NAME_ROOT
+    """its name says root, armature, master, ..."""
+    NAME_CONTROL = _raw.HF_HELPER_NAME_CONTROL
+    """its name says pole, target, IK, control, ..."""
+    NAME_END = _raw.HF_HELPER_NAME_END
+    """its name says end, tip, slot, ..."""
+    ROOT = _raw.HF_HELPER_ROOT
+    """it has no parent, but children"""
+    APART = _raw.HF_HELPER_APART
+    """it has no child, and its parent is a root with other joints"""
+    NO_LENGTH = _raw.HF_HELPER_NO_LENGTH
+    """as JointFlag.NO_LENGTH, and so on"""
+    COINCIDENT = _raw.HF_HELPER_COINCIDENT
+    OUTSIDE = _raw.HF_HELPER_OUTSIDE
+    INFORMS_NONE = _raw.HF_HELPER_INFORMS_NONE
+
+
+class MirrorTo(IntEnum):
+    """Which side of the plane gives its weights."""
+
+    TO_NEGATIVE = _raw.HF_MIRROR_TO_NEGATIVE
+    """the side that the normal points to"""
+    TO_POSITIVE = _raw.HF_MIRROR_TO_POSITIVE
+    """the other side"""
+    BOTH = _raw.HF_MIRROR_BOTH
+    """each side takes the mean of both"""
+
+
+class MirrorPlane(IntEnum):
+    """Where a plane of symmetry comes from."""
+
+    GIVEN = _raw.HF_MIRROR_PLANE_GIVEN
+    JOINTS = _raw.HF_MIRROR_PLANE_JOINTS
+    """from joints with partners"""
+    SURFACE = _raw.HF_MIRROR_PLANE_SURFACE
+    """from the surface"""
+
+
+class MirrorPairing(IntEnum):
+    """How a joint found its partner."""
+
+    ALONE = _raw.HF_MIRROR_JOINT_ALONE
+    """it has none, and moves the other side too"""
+    NAMED = _raw.HF_MIRROR_JOINT_NAMED
+    """the names differ in the side: arm.L and arm.R, LeftArm and RightArm"""
+    PLACED = _raw.HF_MIRROR_JOINT_PLACED
+    """it lies where the partner's reflection lies"""
+    CENTRE = _raw.HF_MIRROR_JOINT_CENTRE
+    """it lies on the plane, and is its own partner"""
+    GIVEN = _raw.HF_MIRROR_JOINT_GIVEN
+
+
+class Isolines(NamedTuple):
+    """Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 -
+    parameter) a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours: each
+    is None or as large as its capacity.
+    """
+
+    point_edges: np.ndarray
+    """(point_capacity, 2) vertices a and b as given, of welded copies the first"""
+    parameters: np.ndarray
+    """(point_capacity,) 0 to 1"""
+    positions: np.ndarray
+    """(point_capacity, 3) in the unit and frame of the mesh as given"""
+    line_starts: np.ndarray
+    """(line_capacity + 1,) line i holds the points line_starts(i,) to line_starts(i + 1,) - 1"""
+    line_levels: np.ndarray
+    """(line_capacity,) position of its level in the list"""
+    line_closed: np.ndarray
+    """(line_capacity,) 1: closed, the first point is not repeated; 0: ends at borders"""
+
+    def lines(self) -> List[np.ndarray]:
+        """The positions of each line."""
+        return [self.positions[a:b] for a, b in zip(self.line_starts[:-1], self.line_starts[1:])]
+
+
+class SitesInfo(NamedTuple):
+    """Places, values and fluxes of the sites. The arrays are yours; each is None or has `capacity` entries. The entries
+    are ordered by site number.
+    """
+
+    sites: np.ndarray
+    """(capacity,) numbers"""
+    vertices: np.ndarray
+    """(capacity,) the vertex given, NO_INDEX for a point in a triangle"""
+    components: np.ndarray
+    """(capacity,)"""
+    values: np.ndarray
+    """(capacity, channel_count)"""
+    stiffness: np.ndarray
+    """(capacity,) 0 = hard"""
+    flux: np.ndarray
+    """(capacity, channel_count) lambda: what flows into the surface at the site, in value x weight; the sum over a disc
+    """
+    radii: np.ndarray
+    """(capacity,) 0 = a point"""
+
+
+class Path(NamedTuple):
+    """A path along the surface, from its first point to its last. Each point lies on a mesh edge with the end vertices a
+    and b, at the position (1 - parameter) a + parameter b; at a vertex a is b. An end inside a triangle has NO_INDEX
+    for both. The arrays are yours: each is None or as large as the capacity.
+    """
+
+    point_edges: np.ndarray
+    """(point_capacity, 2) vertices a and b as given, of welded copies the first"""
+    parameters: np.ndarray
+    """(point_capacity,) 0 to 1"""
+    positions: np.ndarray
+    """(point_capacity, 3) in the unit and frame of the mesh as given"""
+    length: float
+    """in the unit of the mesh; -1: no path"""
+
+
+class SkinInfo(NamedTuple):
+    """This struct receives a pose or a transfer as a skin for linear blend skinning. The clusters become joints with
+    fixed vertex weights, and the skin holds their motion in the last frame. Joint j takes a point p to R (p - pivot)
+    + translation, with R its rotation. Its inverse bind matrix is the translation by -pivot.
+
+    If you ask for scales, a joint may also stretch along its own axes. With B the rotation of `axes`, the joint takes
+    p to R B diag(scale) B^-1 (p - pivot) + translation. In a scene file that is a node with rotation R B and that
+    scale, and the inverse bind matrix takes p to B^-1 (p - pivot). The arrays are yours; each may be None.
+    """
+
+    pivots: np.ndarray
+    """(joint_capacity, 3) rest centroid of what each joint moves"""
+    rotations: np.ndarray
+    """(joint_capacity, 4) quaternion x, y, z, w of the last frame"""
+    translations: np.ndarray
+    """(joint_capacity, 3) posed place of the pivot"""
+    axes: np.ndarray
+    """(joint_capacity, 4) quaternion of B, fixed while handles stay"""
+    vertex_joints: np.ndarray
+    """(vertex_capacity, influence_count)"""
+    vertex_weights: np.ndarray
+    """(vertex_capacity, influence_count) of sum 1, descending"""
+    scales: Optional[np.ndarray] = None
+    """(joint_capacity, 3) along the axes in the last frame; None = joints are rigid"""
+
+
+class QuadsMesh(NamedTuple):
+    """Quads.mesh writes the quad mesh to these arrays. They are yours: each is None or as large as its capacity."""
+
+    positions: np.ndarray
+    """(vertex_capacity, 3) in the unit and frame of the mesh as given"""
+    faces: np.ndarray
+    """(face_capacity, 4) vertices of each quad, counter-clockwise"""
+    triangles: np.ndarray
+    """(vertex_capacity,) triangle or face as given that the vertex lies in"""
+    barycentrics: np.ndarray
+    """(vertex_capacity, 3) weights of that triangle's corners, in its own order, of sum 1; in a face of more corners the
+    weights of `corners`
+    """
+    corners: np.ndarray
+    """(vertex_capacity, 3) vertices as given, of welded copies the first, that barycentrics belong to"""
+
+
+class Streamlines(NamedTuple):
+    """Results."""
+
+    positions: np.ndarray
+    """(point_capacity, 3) in the unit and frame of the mesh as given"""
+    values: np.ndarray
+    """(point_capacity,) of the field, rising along every line"""
+    line_starts: np.ndarray
+    """(line_capacity + 1,) line i holds the points line_starts(i,) to line_starts(i + 1,) - 1"""
+    line_ends: np.ndarray
+    """(line_capacity, 2) vertices where it starts and ends, of welded copies the first"""
+
+    def lines(self) -> List[np.ndarray]:
+        """The positions of each line."""
+        return [self.positions[a:b] for a, b in zip(self.line_starts[:-1], self.line_starts[1:])]
+
+
+class WeightsOut(NamedTuple):
+    """Receives the weights. The arrays are yours; each may be None."""
+
+    joints: np.ndarray
+    """(vertex_capacity, influence_count)"""
+    weights: np.ndarray
+    """(vertex_capacity, influence_count) descending, of sum exactly 1"""
+    origins: np.ndarray
+    """(vertex_capacity,) WeightsOrigin"""
+
+
+def _factor_desc(c: Call, prefix: str = '', *, bytes: Optional[bytes] = None, borrow: bool = False) -> Any:
+    desc = c.struct(_raw.hf_factor_desc, {'borrow': borrow})
+    c.bytes(desc, 'bytes', 'byte_count', bytes)
+    return desc
+
+
+def _links_desc(c: Call, prefix: str = '', *, joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
+        tags: Optional[ArrayLike] = None, links: Optional[ArrayLike] = None, light_vertices: Optional[ArrayLike] = None,
+        heavy_vertices: Optional[ArrayLike] = None, mode: int = LinkMode.NONE, distance: float = 0.0,
+        stiffness: float = 0.0, overlay_distance: float = 0.0) -> Any:
+    desc = c.struct(_raw.hf_links_desc, {'mode': mode, 'distance': distance, 'stiffness': stiffness,
+            'overlay_distance': overlay_distance})
+    c.rows(desc, 'joints', joints, 'u2', ('vertex_count', prefix + 'influence_count'))
+    c.rows(desc, 'weights', weights, 'f4', ('vertex_count', prefix + 'influence_count'))
+    c.rows(desc, 'tags', tags, 'u4', ('vertex_count',))
+    desc.links = c.written('links', links, _raw.hf_link, (prefix + 'link_count',))
+    c.rows(desc, 'light_vertices', light_vertices, 'u4', (prefix + 'light_count',))
+    c.rows(desc, 'heavy_vertices', heavy_vertices, 'u4', (prefix + 'heavy_count',))
+    c.counts(desc, influence_count=(prefix + 'influence_count', 0), link_count=(prefix + 'link_count', 0),
+            light_count=(prefix + 'light_count', 0), heavy_count=(prefix + 'heavy_count', 0))
+    return desc
+
+
+def _surface_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None,
+        triangles: Optional[ArrayLike] = None, face_starts: Optional[ArrayLike] = None,
+        face_sizes: Optional[ArrayLike] = None, corners: Optional[ArrayLike] = None, weld: int = Weld.EXACT,
+        weld_tolerance: float = 0.0, operator_kind: int = Operator.INTRINSIC_DELAUNAY,
+        field_kind: int = FieldKind.HARMONIC, ordering: int = Ordering.NESTED_DISSECTION, thread_count: int = 0,
+        vertex_limit: int = 0, triangle_limit: int = 0, memory_limit_mb: int = 0, work_limit_gflop: int = 0,
+        progress: Optional[Progress] = None, saved_factor: Any = None, links: Any = None) -> Any:
+    desc = c.struct(_raw.hf_surface_desc, {'weld': weld, 'weld_tolerance': weld_tolerance,
+            'operator_kind': operator_kind, 'field_kind': field_kind, 'ordering': ordering,
+            'thread_count': thread_count, 'vertex_limit': vertex_limit, 'triangle_limit': triangle_limit,
+            'memory_limit_mb': memory_limit_mb, 'work_limit_gflop': work_limit_gflop})
+    c.rows(desc, 'positions', positions, 'f4 f8', (prefix + 'vertex_count', 3), 'position_stride')
+    c.rows(desc, 'triangles', triangles, 'u4 u2', (prefix + 'triangle_count', 3), 'triangle_stride')
+    c.rows(desc, 'face_starts', face_starts, 'u4',
+            (prefix + 'face_count + 1',) if face_sizes is None else (prefix + 'face_count',), 'face_stride')
+    c.rows(desc, 'face_sizes', face_sizes, 'u4', (prefix + 'face_count',), 'face_stride')
+    c.rows(desc, 'corners', corners, 'u4', (prefix + 'corner_count',), 'corner_stride')
+    desc.progress = handle_of(progress, Progress, 'progress')
+    desc.saved_factor = c.inner(saved_factor, 'bytes', _factor_desc, 'saved_factor.')
+    desc.links = c.inner(links, 'joints', _links_desc, 'links.')
+    c.counts(desc, vertex_count=(prefix + 'vertex_count', 0), triangle_count=(prefix + 'triangle_count', 0),
+            face_count=(prefix + 'face_count', 0), corner_count=(prefix + 'corner_count', 0))
+    return desc
+
+
+def _graph_desc(c: Call, prefix: str = '', *, edges: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
+        masses: Optional[ArrayLike] = None, vertex_count: int = 0, allow_negative: bool = False,
+        field_kind: int = FieldKind.HARMONIC, ordering: int = Ordering.NESTED_DISSECTION, thread_count: int = 0,
+        vertex_limit: int = 0, edge_limit: int = 0, memory_limit_mb: int = 0, work_limit_gflop: int = 0,
+        progress: Optional[Progress] = None, saved_factor: Any = None) -> Any:
+    desc = c.struct(_raw.hf_graph_desc, {'vertex_count': vertex_count, 'allow_negative': allow_negative,
+            'field_kind': field_kind, 'ordering': ordering, 'thread_count': thread_count, 'vertex_limit': vertex_limit,
+            'edge_limit': edge_limit, 'memory_limit_mb': memory_limit_mb, 'work_limit_gflop': work_limit_gflop})
+    c.known('vertex_count', vertex_count)
+    c.rows(desc, 'edges', edges, 'u4', (prefix + 'edge_count', 2))
+    c.rows(desc, 'weights', weights, 'f8', (prefix + 'edge_count',))
+    c.rows(desc, 'masses', masses, 'f8', ('vertex_count',))
+    desc.progress = handle_of(progress, Progress, 'progress')
+    desc.saved_factor = c.inner(saved_factor, 'bytes', _factor_desc, 'saved_factor.')
+    c.counts(desc, edge_count=(prefix + 'edge_count', 1))
+    return desc
+
+
+def _gaps_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None) -> Any:
+    desc = c.struct(_raw.hf_gaps_desc, {})
+    c.rows(desc, 'positions', positions, 'f4 f8', ('vertex_count', 3), 'position_stride')
+    return desc
+
+
+def _pick_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None, front_only: bool = False) -> Any:
+    desc = c.struct(_raw.hf_pick_desc, {'front_only': front_only})
+    c.rows(desc, 'positions', positions, 'f4 f8', ('vertex_count', 3), 'position_stride')
+    return desc
+
+
+def _solver_desc(c: Call, prefix: str = '', *, field_kind: int = FieldKind.HARMONIC, engine: int = Engine.GREEN,
+        channel_count: int = 0, site_limit: int = 0, penalty: float = 0.0, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_solver_desc, {'field_kind': field_kind, 'engine': engine, 'channel_count': channel_count,
+            'site_limit': site_limit, 'penalty': penalty})
+    c.known('channel_count', channel_count or 1)
+    desc.progress = handle_of(progress, Progress, 'progress')
+    return desc
+
+
+def _sites_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None,
+        triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
+        stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
+        corners: Optional[ArrayLike] = None) -> Any:
+    desc = c.struct(_raw.hf_sites_desc, {})
+    c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'site_count',))
+    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'site_count',))
+    c.rows(desc, 'barycentrics', barycentrics, 'f8', (prefix + 'site_count', 3))
+    c.rows(desc, 'values', values, 'f8', (prefix + 'site_count', 'channel_count'))
+    c.rows(desc, 'stiffness', stiffness, 'f8', (prefix + 'site_count',))
+    c.rows(desc, 'radii', radii, 'f8', (prefix + 'site_count',))
+    c.rows(desc, 'corners', corners, 'u4', (prefix + 'site_count', 3))
+    c.counts(desc, site_count=(prefix + 'site_count', 1))
+    return desc
+
+
+def _edit_desc(c: Call, prefix: str = '', *, remove_sites: Optional[ArrayLike] = None,
+        move_sites: Optional[ArrayLike] = None, set_sites: Optional[ArrayLike] = None,
+        set_values: Optional[ArrayLike] = None, move_to: Any = None, add: Any = None) -> Any:
+    desc = c.struct(_raw.hf_edit_desc, {})
+    c.rows(desc, 'remove_sites', remove_sites, 'u4', (prefix + 'remove_count',))
+    c.rows(desc, 'move_sites', move_sites, 'u4', (prefix + 'move_count',))
+    c.rows(desc, 'set_sites', set_sites, 'u4', (prefix + 'set_count',))
+    c.rows(desc, 'set_values', set_values, 'f8', (prefix + 'set_count', 'channel_count'))
+    desc.move_to = c.inner(move_to, 'vertices', _sites_desc, 'move_to.')
+    desc.add = c.inner(add, 'vertices', _sites_desc, 'add.')
+    c.counts(desc, remove_count=(prefix + 'remove_count', 0), move_count=(prefix + 'move_count', 0),
+            set_count=(prefix + 'set_count', 0))
+    return desc
+
+
+def _geodesics_desc(c: Call, prefix: str = '', *, method: int = DistanceMethod.AUTO, smoothing: float = 0.0,
+        progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_geodesics_desc, {'method': method, 'smoothing': smoothing})
+    desc.progress = handle_of(progress, Progress, 'progress')
+    return desc
+
+
+def _extremities_desc(c: Call, prefix: str = '', *, kind: int = ExtremityKind.POISSON, least_length_share: float = 0.0,
+        source_count: int = 0, geodesics: Optional[Geodesics] = None, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_extremities_desc, {'kind': kind, 'least_length_share': least_length_share,
+            'source_count': source_count})
+    c.known('source_count', source_count or 40)
+    desc.geodesics = handle_of(geodesics, Geodesics, 'geodesics')
+    desc.progress = handle_of(progress, Progress, 'progress')
+    return desc
+
+
+def _direction_desc(c: Call, prefix: str = '', *, degree: int = 0, site_limit: int = 0,
+        progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_direction_desc, {'degree': degree, 'site_limit': site_limit})
+    desc.progress = handle_of(progress, Progress, 'progress')
+    return desc
+
+
+def _pose_desc(c: Call, prefix: str = '', *, mode: int = DeformMode.SMOOTH, band_count: int = 0,
+        iteration_count: int = 0, rim_site_count: int = 0, group_count: int = 0) -> Any:
+    desc = c.struct(_raw.hf_pose_desc, {'mode': mode, 'band_count': band_count, 'iteration_count': iteration_count,
+            'rim_site_count': rim_site_count, 'group_count': group_count})
+    return desc
+
+
+def _handles_desc(c: Call, prefix: str = '', *, region_vertices: Optional[Sequence[ArrayLike]] = None,
+        points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False,
+        progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_handles_desc, {'layer': layer, 'in_place': in_place})
+    c.ragged(desc, 'region_counts', 'region_vertices', region_vertices, prefix + 'handle_count')
+    c.rows(desc, 'points', points, 'f8', (prefix + 'handle_count', 3))
+    c.rows(desc, 'radii', radii, 'f8', (prefix + 'handle_count',))
+    desc.progress = handle_of(progress, Progress, 'progress')
+    c.counts(desc, handle_count=(prefix + 'handle_count', 1))
+    return desc
+
+
+def _deform_desc(c: Call, prefix: str = '', *, iteration_count: int = 0, restart: bool = False, refine: int = 0,
+        refine_from_last: bool = False, first_vertex: int = 0, vertex_count: int = 0) -> Any:
+    desc = c.struct(_raw.hf_deform_desc, {'iteration_count': iteration_count, 'restart': restart, 'refine': refine,
+            'refine_from_last': refine_from_last, 'first_vertex': first_vertex, 'vertex_count': vertex_count})
+    c.known('vertex_count', vertex_count)
+    return desc
+
+
+def _handle_proposals_desc(c: Call, prefix: str = '', *, joints: Optional[ArrayLike] = None,
+        parents: Optional[ArrayLike] = None, up: Optional[ArrayLike] = None, least_length_share: float = 0.0,
+        limit: int = 0, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_handle_proposals_desc, {'least_length_share': least_length_share, 'limit': limit})
+    c.rows(desc, 'joints', joints, 'f8', (prefix + 'joint_count', 3))
+    c.rows(desc, 'parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
+    c.fixed(desc, 'up', up)
+    desc.progress = handle_of(progress, Progress, 'progress')
+    c.counts(desc, joint_count=(prefix + 'joint_count', 0))
+    return desc
+
+
+def _quads_desc(c: Call, prefix: str = '', *, crease_edges: Optional[ArrayLike] = None,
+        guide_vertices: Optional[ArrayLike] = None, guide_vectors: Optional[ArrayLike] = None,
+        guide_weights: Optional[ArrayLike] = None, irregular_points: Optional[ArrayLike] = None,
+        irregular_valences: Optional[ArrayLike] = None, irregular_directions: Optional[ArrayLike] = None,
+        face_count: int = 0, edge_length: float = 0.0, crease_angle: float = 0.0, relax_count: int = 0,
+        symmetry_plane: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_quads_desc, {'face_count': face_count, 'edge_length': edge_length,
+            'crease_angle': crease_angle, 'relax_count': relax_count})
+    c.rows(desc, 'crease_edges', crease_edges, 'u4', (prefix + 'crease_count', 2))
+    c.rows(desc, 'guide_vertices', guide_vertices, 'u4', (prefix + 'guide_count',))
+    c.rows(desc, 'guide_vectors', guide_vectors, 'f8', (prefix + 'guide_count', 3))
+    c.rows(desc, 'guide_weights', guide_weights, 'f4', (prefix + 'guide_count',))
+    c.rows(desc, 'irregular_points', irregular_points, 'f8', (prefix + 'irregular_count', 3))
+    c.rows(desc, 'irregular_valences', irregular_valences, 'u4', (prefix + 'irregular_count',))
+    c.rows(desc, 'irregular_directions', irregular_directions, 'f8', (prefix + 'irregular_count', 3))
+    c.fixed(desc, 'symmetry_plane', symmetry_plane)
+    desc.progress = handle_of(progress, Progress, 'progress')
+    c.counts(desc, crease_count=(prefix + 'crease_count', 0), guide_count=(prefix + 'guide_count', 0),
+            irregular_count=(prefix + 'irregular_count', 0))
+    return desc
+
+
+def _region_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None, base: int = Base.DEFAULT,
+        progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_region_desc, {'base': base})
+    c.rows(desc, 'positions', positions, 'f4 f8', ('vertex_count', 3), 'position_stride')
+    desc.progress = handle_of(progress, Progress, 'progress')
+    return desc
+
+
+def _curve_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
+        triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
+        corners: Optional[ArrayLike] = None, side: int = Side.SMALLER, seed_vertex: int = 0,
+        kind: int = CurveKind.STRAIGHT) -> Any:
+    desc = c.struct(_raw.hf_curve_desc, {'side': side, 'seed_vertex': seed_vertex, 'kind': kind})
+    c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'point_count',))
+    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'point_count',))
+    c.rows(desc, 'barycentrics', barycentrics, 'f8', (prefix + 'point_count', 3))
+    c.rows(desc, 'corners', corners, 'u4', (prefix + 'point_count', 3))
+    c.counts(desc, point_count=(prefix + 'point_count', 0))
+    return desc
+
+
+def _region_edit_desc(c: Call, prefix: str = '', *, remove_vertices: Optional[ArrayLike] = None,
+        add_vertices: Optional[ArrayLike] = None, ring_count: int = 0, curve: Any = None,
+        progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_region_edit_desc, {'ring_count': ring_count})
+    c.rows(desc, 'remove_vertices', remove_vertices, 'u4', (prefix + 'remove_count',))
+    c.rows(desc, 'add_vertices', add_vertices, 'u4', (prefix + 'add_count',))
+    desc.progress = handle_of(progress, Progress, 'progress')
+    desc.curve = c.inner(curve, 'vertices', _curve_desc, 'curve.')
+    c.counts(desc, remove_count=(prefix + 'remove_count', 0), add_count=(prefix + 'add_count', 0))
+    return desc
+
+
+def _morph_desc(c: Call, prefix: str = '', *, weight: float = 0.0) -> Any:
+    desc = c.struct(_raw.hf_morph_desc, {'weight': weight})
+    return desc
+
+
+def _detail_desc(c: Call, prefix: str = '', *, source_vertices: Optional[ArrayLike] = None,
+        target_vertices: Optional[ArrayLike] = None, scale: float = 0.0, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_detail_desc, {'scale': scale})
+    c.rows(desc, 'source_vertices', source_vertices, 'u4', (prefix + 'pair_count',))
+    c.rows(desc, 'target_vertices', target_vertices, 'u4', (prefix + 'pair_count',))
+    desc.progress = handle_of(progress, Progress, 'progress')
+    c.counts(desc, pair_count=(prefix + 'pair_count', 0))
+    return desc
+
+
+def _transfer_desc(c: Call, prefix: str = '', *, source_rest: Optional[ArrayLike] = None,
+        target_rest: Optional[ArrayLike] = None, mode: int = TransferMode.FIELDS, cluster_count: int = 0,
+        ground: int = Ground.KEEP, kernel_width: float = 0.0, scale: float = 0.0, alignment_angle: float = 0.0,
+        source_axes: Optional[ArrayLike] = None, target_axes: Optional[ArrayLike] = None) -> Any:
+    desc = c.struct(_raw.hf_transfer_desc, {'mode': mode, 'cluster_count': cluster_count, 'ground': ground,
+            'kernel_width': kernel_width, 'scale': scale, 'alignment_angle': alignment_angle})
+    c.rows(desc, 'source_rest', source_rest, 'f4', ('source.vertex_count', 3))
+    c.rows(desc, 'target_rest', target_rest, 'f4', ('target.vertex_count', 3))
+    c.fixed(desc, 'source_axes', source_axes)
+    c.fixed(desc, 'target_axes', target_axes)
+    return desc
+
+
+def _pairs_desc(c: Call, prefix: str = '', *, source_vertices: Optional[Sequence[ArrayLike]] = None,
+        target_vertices: Optional[Sequence[ArrayLike]] = None, flags: Optional[ArrayLike] = None,
+        progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_pairs_desc, {})
+    c.ragged(desc, 'source_counts', 'source_vertices', source_vertices, prefix + 'pair_count')
+    c.ragged(desc, 'target_counts', 'target_vertices', target_vertices, prefix + 'pair_count')
+    c.rows(desc, 'flags', flags, 'u4', (prefix + 'pair_count',))
+    desc.progress = handle_of(progress, Progress, 'progress')
+    c.counts(desc, pair_count=(prefix + 'pair_count', 1))
+    return desc
+
+
+def _transfer_dials(c: Call, prefix: str = '', *, stride: float = 0.0, hip_height_share: float = 0.0,
+        neck_follow: float = 0.0, tail_follow: float = 0.0, arm_space: float = 0.0, long_follow: float = 0.0) -> Any:
+    desc = c.struct(_raw.hf_transfer_dials, {'stride': stride, 'hip_height_share': hip_height_share,
+            'neck_follow': neck_follow, 'tail_follow': tail_follow, 'arm_space': arm_space, 'long_follow': long_follow})
+    return desc
+
+
+def _transfer_frame(c: Call, prefix: str = '', *, source_positions: Optional[ArrayLike] = None,
+        hold_pairs: Optional[ArrayLike] = None, hold_positions: Optional[ArrayLike] = None) -> Any:
+    desc = c.struct(_raw.hf_transfer_frame, {})
+    c.rows(desc, 'source_positions', source_positions, 'f4 f8', ('source.vertex_count', 3), 'source_stride')
+    c.rows(desc, 'hold_pairs', hold_pairs, 'u4', (prefix + 'hold_count',))
+    c.rows(desc, 'hold_positions', hold_positions, 'f8', (prefix + 'hold_count', 3))
+    c.counts(desc, hold_count=(prefix + 'hold_count', 0))
+    return desc
+
+
+def _joints_desc(c: Call, prefix: str = '', *, heads: Optional[ArrayLike] = None, tails: Optional[ArrayLike] = None,
+        axes: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None, deforms: Optional[ArrayLike] = None,
+        sources: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_joints_desc, {})
+    c.rows(desc, 'heads', heads, 'f8', (prefix + 'joint_count', 3))
+    c.rows(desc, 'tails', tails, 'f8', (prefix + 'joint_count', 3))
+    c.rows(desc, 'axes', axes, 'f8', (prefix + 'joint_count', 3))
+    c.rows(desc, 'parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
+    c.rows(desc, 'deforms', deforms, 'i4', (prefix + 'joint_count',))
+    c.rows(desc, 'sources', sources, 'u4', (prefix + 'joint_count',), sentinel=True)
+    desc.progress = handle_of(progress, Progress, 'progress')
+    c.counts(desc, joint_count=(prefix + 'joint_count', 0))
+    return desc
+
+
+def _pins_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
+        triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
+        radii: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
+        progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_pins_desc, {})
+    c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'pin_count',))
+    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'pin_count',))
+    c.rows(desc, 'barycentrics', barycentrics, 'f8', (prefix + 'pin_count', 3))
+    c.rows(desc, 'radii', radii, 'f8', (prefix + 'pin_count',))
+    c.rows(desc, 'joints', joints, 'u4', (prefix + 'pin_count', prefix + 'influence_count'))
+    c.rows(desc, 'weights', weights, 'f4', (prefix + 'pin_count', prefix + 'influence_count'))
+    desc.progress = handle_of(progress, Progress, 'progress')
+    c.counts(desc, pin_count=(prefix + 'pin_count', 0), influence_count=(prefix + 'influence_count', 0))
+    return desc
+
+
+def _weights_transfer_desc(c: Call, prefix: str = '', *, joints: Optional[ArrayLike] = None,
+        weights: Optional[ArrayLike] = None, distance: float = 0.0, angle: float = 0.0, influence_count: int = 0,
+        progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_weights_transfer_desc, {'distance': distance, 'angle': angle,
+            'influence_count': influence_count})
+    c.known('influence_count', influence_count or 4)
+    c.rows(desc, 'joints', joints, 'u4', ('source.vertex_count', prefix + 'source_influence_count'))
+    c.rows(desc, 'weights', weights, 'f4', ('source.vertex_count', prefix + 'source_influence_count'))
+    desc.progress = handle_of(progress, Progress, 'progress')
+    c.counts(desc, source_influence_count=(prefix + 'source_influence_count', 0))
+    return desc
+
+
+def _weights_mirror_desc(c: Call, prefix: str = '', *, heads: Optional[ArrayLike] = None, names: Union[None, str,
+        Sequence[str]] = None, partners: Optional[ArrayLike] = None, plane: Optional[ArrayLike] = None,
+        joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None, to: int = MirrorTo.TO_NEGATIVE,
+        distance: float = 0.0, angle: float = 0.0, influence_count: int = 0,
+        progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_weights_mirror_desc, {'to': to, 'distance': distance, 'angle': angle,
+            'influence_count': influence_count})
+    c.known('influence_count', influence_count or 4)
+    c.rows(desc, 'heads', heads, 'f8', (prefix + 'joint_count', 3))
+    c.rows(desc, 'partners', partners, 'u4', (prefix + 'joint_count',), sentinel=True)
+    c.rows(desc, 'plane', plane, 'f8', (6,))
+    c.rows(desc, 'joints', joints, 'u4', ('vertex_count', prefix + 'source_influence_count'))
+    c.rows(desc, 'weights', weights, 'f4', ('vertex_count', prefix + 'source_influence_count'))
+    desc.names = c.text(names)
+    desc.progress = handle_of(progress, Progress, 'progress')
+    c.counts(desc, joint_count=(prefix + 'joint_count', 0), source_influence_count=(prefix + 'source_influence_count',
+            0))
+    return desc
+
+
+class Progress(Object):
+    """Reports the progress of a long call. Any thread can poll the object and cancel the call through it. Use one object
+    for one call at a time.
+
+    Creates a progress object.
+    """
+
+    _destroy = 'hf_progress_destroy'
+    _counts = ()
+
+    def __init__(self) -> None:
+        c = Call()
+        self._own('hf_progress_create', c)
+
+    @property
+    def fraction(self) -> float:
+        """Writes how much of the running call is done."""
+        c = Call(self)
+        fraction = ctypes.c_double()
+        call('hf_progress_get_fraction', self._handle, ref(fraction))
+        return fraction.value
+
+    def cancel(self) -> None:
+        """Stops the call that uses this object, or the next one that does. That call returns CancelledError."""
+        c = Call(self)
+        call('hf_progress_cancel', self._handle)
+
+
+class Surface(Object):
+    """hf/surface.h - prepare a mesh once: weld it, check it and factorise its Laplacian.
+
+    Make one surface per mesh, or per graph of your own (Surface.from_graph). Solvers, poses, direction fields,
+    regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any number of
+    threads may use it. An object made on a surface keeps the data it needs, so you can destroy objects in any order.
+
+    Makes a surface: welds and checks the mesh, builds the operator, orders and factorises it. The call copies the
+    mesh. Afterwards the surface uses only the allocator and the job runner of the desc. The mesh may be dirty: the
+    surface counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
+    Surface.report gives these counts.
+
+    A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are doubled
+    if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a
+    cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
+    second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+
+    positions: (vertex_count, 3), any unit, any offset
+    triangles: (triangle_count, 3), counter-clockwise seen from outside
+    face_starts: (face_count,) first corner of each face. None: the faces follow one another. Without face_sizes
+        (face_count + 1,): the corners of face f end where those of f + 1 start
+    face_sizes: (face_count,) corners of each face, 3 to 65,535. None: face_starts is enough
+    corners: (corner_count,) vertices, counter-clockwise seen from outside
+    weld: Weld
+    weld_tolerance: for Weld.TOLERANCE, in the unit of the positions, > 0
+    operator_kind: Operator
+    field_kind: FieldKind: the factor made now. Others are made when a solver or region asks
+    ordering: Ordering
+    thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
+    vertex_limit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles or
+        edges are always refused
+    triangle_limit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the vertex
+        limit
+    memory_limit_mb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
+    work_limit_gflop: refuse a factorisation of more than this many 10^9 operations. They are counted before it
+        begins; 0 = 100,000, about an hour of one core
+    progress: an object to poll and cancel through
+    saved_factor: the saved factor of this mesh; ordering is then 0 or the factor's
+    links: None: LinkMode.NONE. A saved factor needs the links it was made with
+    """
+
+    _destroy = 'hf_surface_destroy'
+    _counts = ('vertex_count',)
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the surface, as given."""
+        return self._n.get('vertex_count', 0)
+
+    def __init__(self, positions: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None, *,
+            face_starts: Optional[ArrayLike] = None, face_sizes: Optional[ArrayLike] = None,
+            corners: Optional[ArrayLike] = None, weld: int = Weld.EXACT, weld_tolerance: float = 0.0,
+            operator_kind: int = Operator.INTRINSIC_DELAUNAY, field_kind: int = FieldKind.HARMONIC,
+            ordering: int = Ordering.NESTED_DISSECTION, thread_count: int = 0, vertex_limit: int = 0,
+            triangle_limit: int = 0, memory_limit_mb: int = 0, work_limit_gflop: int = 0,
+            progress: Optional[Progress] = None, saved_factor: Any = None, links: Any = None) -> None:
+        c = Call()
+        desc = _surface_desc(c, positions=positions, triangles=triangles, face_starts=face_starts,
+                face_sizes=face_sizes, corners=corners, weld=weld, weld_tolerance=weld_tolerance,
+                operator_kind=operator_kind, field_kind=field_kind, ordering=ordering, thread_count=thread_count,
+                vertex_limit=vertex_limit, triangle_limit=triangle_limit, memory_limit_mb=memory_limit_mb,
+                work_limit_gflop=work_limit_gflop, progress=progress, saved_factor=saved_factor, links=links)
+        self._own('hf_surface_create', c, ref(desc))
+
+    @classmethod
+    def from_graph(cls, edges: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None, *,
+            masses: Optional[ArrayLike] = None, vertex_count: int = 0, allow_negative: bool = False,
+            field_kind: int = FieldKind.HARMONIC, ordering: int = Ordering.NESTED_DISSECTION, thread_count: int = 0,
+            vertex_limit: int = 0, edge_limit: int = 0, memory_limit_mb: int = 0, work_limit_gflop: int = 0,
+            progress: Optional[Progress] = None, saved_factor: Any = None) -> "Surface":
+        """Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the
+        graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
+        reports work as on a mesh. A call that needs triangles returns UnsupportedError: poses, regions, directions,
+        geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links,
+        screening, and sites in triangles or on discs.
+
+        A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from
+        the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-harmonic fields
+        limit weights to 1e3 times the median.
+
+        edges: (edge_count, 2) vertices, in any order. The weights of parallel edges are added up. Self loops are
+            ignored
+        weights: (edge_count,) any unit, up to 1e100 in size. An edge of weight 0 is left out
+        masses: (vertex_count,) M of FieldKind.BIHARMONIC, any unit, above 0 and up to 1e100; None: all 1. A mass
+            below 1e-4 of the mean of its component counts as that
+        vertex_count: >= 1, also without masses
+        allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
+            tetrahedra do. A field can then leave the range of its sites. 0: they are refused
+        field_kind: FieldKind: the factor made now. Others are made when a solver asks
+        ordering: Ordering
+        thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
+        vertex_limit: refuse larger graphs before allocating; 0 = 20,000,000
+        edge_limit: refuse more edges; 0 = sixteen per vertex of the vertex limit
+        memory_limit_mb: refuse to hold more memory than this, in MiB; 0 = no limit
+        work_limit_gflop: refuse a factorisation of more than this many 10^9 operations; 0 = 100,000
+        progress: an object to poll and cancel through
+        saved_factor: the saved factor of this graph; ordering is then 0 or the factor's
+
+        Raises CancelledError, EmptyError, InvalidArgumentError, NonFiniteError, NotPositiveDefiniteError,
+        OutOfRangeError, TooLargeError, UnsupportedError.
+        """
+        c = Call()
+        desc = _graph_desc(c, edges=edges, weights=weights, masses=masses, vertex_count=vertex_count,
+                allow_negative=allow_negative, field_kind=field_kind, ordering=ordering, thread_count=thread_count,
+                vertex_limit=vertex_limit, edge_limit=edge_limit, memory_limit_mb=memory_limit_mb,
+                work_limit_gflop=work_limit_gflop, progress=progress, saved_factor=saved_factor)
+        made = cls.__new__(cls)
+        made._own('hf_surface_create_graph', c, ref(desc))
+        return made
+
+    @property
+    def info(self) -> SurfaceInfo:
+        """Writes the options of a surface."""
+        c = Call(self)
+        info = c.struct(_raw.hf_surface_info, {})
+        call('hf_surface_get_info', self._handle, ref(info))
+        return info
+
+    @property
+    def report(self) -> SurfaceReport:
+        """Writes the report of the mesh."""
+        c = Call(self)
+        report = c.struct(_raw.hf_surface_report, {})
+        call('hf_surface_get_report', self._handle, ref(report))
+        return report
+
+    def components(self) -> np.ndarray:
+        """Writes the component of every vertex of your mesh, and NO_INDEX for isolated vertices. Components are numbered
+        in the order of their lowest vertex numbers.
+        """
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_surface_get_components', self._handle, room['capacity'], address(made['components']), ref(count))
+
+        found = c.grow(self, 'hf_surface_get_components', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'components': (np.uint32, ('capacity',))})
+        return found['components']
+
+    def links(self) -> np.ndarray:
+        """Writes the links of a surface. You can edit them and give them back with LinkMode.LIST. A list does not say
+        which pieces are light: name them in light_vertices, as Surface.pieces marks them. Then the list alone gives
+        the same surface, bit for bit, without a search.
+        """
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_surface_get_links', self._handle, room['capacity'], address(made['links']), ref(count))
+
+        found = c.grow(self, 'hf_surface_get_links', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'links': (np.dtype(_raw.hf_link), ('capacity',))})
+        return found['links']
+
+    def pieces(self) -> Tuple[np.ndarray, np.ndarray]:
+        """Writes the piece of every vertex of your mesh, and NO_INDEX for isolated vertices. Pieces are numbered in the
+        order of their lowest vertices.
+        """
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_surface_get_pieces', self._handle, room['capacity'], address(made['pieces']),
+                    address(made['light']), ref(count))
+
+        found = c.grow(self, 'hf_surface_get_pieces', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'pieces': (np.uint32, ('capacity',)), 'light': (np.int32, ('capacity',))})
+        found['light'] = found['light'] != 0
+        return found['pieces'], found['light']
+
+    def measure_gaps(self, positions: Optional[ArrayLike] = None, *, info: Optional[GapsInfo] = None) -> np.ndarray:
+        """Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
+        ends are apart than at rest, and 0 if they are nearer.
+
+        positions: (vertex_count, 3): of a pose, a frame of a transfer, or any other deformation
+        info: filled in when given
+
+        Raises NonFiniteError, TooLargeError.
+        """
+        c = Call(self)
+        desc = _gaps_desc(c, positions=positions)
+        info = info or c.struct(_raw.hf_gaps_info, {})
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_surface_measure_gaps', self._handle, ref(desc), room['capacity'], address(made['gaps']),
+                    c.info(info, _raw.hf_gaps_info))
+
+        found = c.grow(self, 'hf_surface_measure_gaps', run, lambda: {'capacity': info.link_count}, {'capacity': None},
+                {'gaps': (np.float64, ('capacity',))})
+        return found['gaps']
+
+    def relink(self, joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
+            tags: Optional[ArrayLike] = None, links: Optional[ArrayLike] = None,
+            light_vertices: Optional[ArrayLike] = None, heavy_vertices: Optional[ArrayLike] = None, *,
+            mode: int = LinkMode.NONE, distance: float = 0.0, stiffness: float = 0.0, overlay_distance: float = 0.0,
+            progress: Optional[Progress] = None) -> "Surface":
+        """Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old
+        one where its matrix has the same pattern: other stiffness, weights or light pieces.
+
+        joints: (vertex_count, influence_count) of a skin: pieces of the same joint link sooner
+        weights: (vertex_count, influence_count) of sum 1; where all are 0, a vertex shares no joint
+        tags: (vertex_count,): pieces with different tags do not link, as a rider and a horse. The first vertex of a
+            piece counts
+        links: (link_count,)
+        light_vertices: (light_count,): their pieces are light
+        heavy_vertices: (heavy_count,): their pieces are not, as one that gets a site or handle
+        mode: LinkMode
+        distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
+        stiffness: of all links, times each one's weight; 0 = 1
+        overlay_distance: automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of
+            the diagonal, below 0: no piece is light unless light_vertices say so
+        progress: an object to poll and cancel through.
+
+        Raises CancelledError.
+        """
+        c = Call(self)
+        desc = _links_desc(c, joints=joints, weights=weights, tags=tags, links=links, light_vertices=light_vertices,
+                heavy_vertices=heavy_vertices, mode=mode, distance=distance, stiffness=stiffness,
+                overlay_distance=overlay_distance)
+        made = type(self).__new__(type(self))
+        c.n.update(self._n)
+        made._own('hf_surface_relink', c, self._handle, ref(desc), handle_of(progress, Progress, 'progress'))
+        return made
+
+    @property
+    def statistics(self) -> SurfaceStatistics:
+        """Writes the statistics of a surface and of the factor it was made with."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_surface_statistics, {})
+        call('hf_surface_get_statistics', self._handle, ref(statistics))
+        return statistics
+
+    def save(self, field_kind: int = FieldKind.HARMONIC, *, progress: Optional[Progress] = None) -> bytes:
+        """Saves the factor of one kind of field. An authoring tool saves it once. A game ships the bytes beside the mesh
+        and gives them to Surface, which then takes a fraction of the time. The bytes are the same for the same mesh,
+        options and library version, whatever the number of threads. The bytes are little-endian and hold a format
+        version, a hash of the matrix and a checksum. They hold no sites.
+
+        field_kind: FieldKind; a factor that does not exist yet is made first.
+        progress: an object to poll and cancel through.
+
+        Raises CancelledError, TooSmallError.
+        """
+        c = Call(self)
+        size = ctypes.c_size_t()
+        call('hf_surface_save', self._handle, number(field_kind, 'field_kind', ctypes.c_int32, flag=False),
+                handle_of(progress, Progress, 'progress'), 0, None, ref(size))
+        block = np.empty(size.value, np.uint8)
+        call('hf_surface_save', self._handle, number(field_kind, 'field_kind', ctypes.c_int32, flag=False),
+                handle_of(progress, Progress, 'progress'), block.size, address(block), ref(size))
+        return block.tobytes()
+
+    def cast_ray(self, origin: ArrayLike, direction: ArrayLike, positions: Optional[ArrayLike] = None, *,
+            front_only: bool = False) -> Optional[Hit]:
+        """Finds what a mouse click hits: the first triangle on a ray.
+
+        origin: (3,) in the frame of the positions; the direction can have any length above 0.
+        direction: (3,) in the frame of the positions; the direction can have any length above 0.
+        positions: (vertex_count, 3) posed positions (Pose.deform writes them), or None
+        front_only: 1: a ray passes triangles seen from behind
+
+        Raises InvalidArgumentError, NonFiniteError.
+        """
+        c = Call(self)
+        origin_ = c.array('origin', origin, 'f8', (3,))
+        direction_ = c.array('direction', direction, 'f8', (3,))
+        desc = _pick_desc(c, positions=positions, front_only=front_only)
+        hit = c.struct(_raw.hf_hit, {})
+        call('hf_surface_cast_ray', self._handle, origin_, direction_, ref(desc), ref(hit))
+        return hit if hit.found else None
+
+    def find_vertex(self, point: ArrayLike, positions: Optional[ArrayLike] = None, *,
+            front_only: bool = False) -> Tuple[int, float]:
+        """Finds the vertex nearest to a point.
+
+        point: (3,) in the frame of the positions.
+        positions: (vertex_count, 3) posed positions (Pose.deform writes them), or None
+        front_only: 1: a ray passes triangles seen from behind
+
+        Raises NonFiniteError, TooLargeError.
+        """
+        c = Call(self)
+        point_ = c.array('point', point, 'f8', (3,))
+        desc = _pick_desc(c, positions=positions, front_only=front_only)
+        vertex = ctypes.c_uint32()
+        distance = ctypes.c_double()
+        call('hf_surface_find_vertex', self._handle, point_, ref(desc), ref(vertex), ref(distance))
+        return vertex.value, distance.value
+
+    def space_levels(self, field: ArrayLike, level_count: int, spacing: int = Levels.VALUE) -> np.ndarray:
+        """Writes levels, ascending. Levels.AREA makes all strips equal in area. Levels.LENGTH makes the mean widths of
+        the strips equal. So iso-lines around point sites are evenly spaced, where equal steps of the value would
+        crowd them. Levels.LENGTH leaves out the parts where the field is flat to 1e-9 of its range.
+
+        In formulas, A(c) is the area where the field is below c, and L(c) is the length of the iso-line of level c.
+        Both are exact for the piecewise linear field. Levels.AREA takes equal steps of A. Levels.LENGTH takes equal
+        steps of the integral of A'(c) / L(c) dc. That integral is the height on a cylinder and the distance from the
+        pole on a sphere.
+
+        spacing: Levels.
+        level_count: 1 to 1,000,000.
+
+        Raises EmptyError, InvalidArgumentError, NonFiniteError.
+        """
+        c = Call(self)
+        field_ = c.struct(_raw.hf_scalars, {})
+        c.rows(field_, 'values', field, 'f4 f8', ('vertex_count',), 'value_stride', name='field')
+        c.known('level_count', level_count)
+        levels, _ = c.out(None, 'f8', ('level_count',))
+        call('hf_surface_space_levels', self._handle, None if field is None else ref(field_), number(spacing, 'spacing',
+                ctypes.c_int32, flag=False), number(level_count, 'level_count', ctypes.c_uint32), address(levels))
+        return levels
+
+    def trace_isolines(self, field: ArrayLike, levels: ArrayLike) -> Isolines:
+        """Traces the iso-lines of levels. The levels must be finite and can have any order; the lines come in the order
+        of the levels. A vertex whose value equals a level counts as just above it, so lines have no gaps. A line
+        either closes or ends. It ends at a border or at a triangle without values. At an edge of three or more
+        triangles (non-manifold), these are taken in pairs. A line continues inside a pair, and ends at a triangle
+        without a partner. The function leaves out lines of length zero. Seen from outside a consistently oriented
+        mesh, the field is higher on the left of a line.
+
+        levels: (level_count,).
+
+        Raises NonFiniteError, TooLargeError.
+        """
+        c = Call(self)
+        field_ = c.struct(_raw.hf_scalars, {})
+        c.rows(field_, 'values', field, 'f4 f8', ('vertex_count',), 'value_stride', name='field')
+        levels_ = c.array('levels', levels, 'f8', ('level_count',))
+        lines = c.struct(_raw.hf_isolines, {})
+
+        def run(room: Any, made: Any) -> None:
+            c.into(lines, room, made)
+            call('hf_surface_trace_isolines', self._handle, None if field is None else ref(field_),
+                    c.n.setdefault('level_count', 1), levels_, ref(lines))
+
+        found = c.grow(self, 'hf_surface_trace_isolines', run, lambda: {'point_capacity': lines.point_count,
+                'line_capacity': lines.line_count}, {'point_capacity': None, 'line_capacity': None},
+                {'point_edges': (np.uint32, ('point_capacity', 2)), 'parameters': (np.float64, ('point_capacity',)),
+                'positions': (np.float64, ('point_capacity', 3)), 'line_starts': (np.uint32, ('line_capacity + 1',)),
+                'line_levels': (np.uint32, ('line_capacity',)), 'line_closed': (np.int32, ('line_capacity',))})
+        return Isolines(line_closed=found.pop('line_closed') != 0, **found)
+
+    def find_critical_points(self, field: ArrayLike, *, info: Optional[CriticalInfo] = None) -> np.ndarray:
+        """Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each vertex
+        decide (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of its neighbours with lower
+        values and the edges between them. The vertex number breaks ties, so a flat area has critical points too. The
+        indices sum to the Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field
+        can show an extremum away from its sites, because the default operator uses other edges than the mesh.
+        Operator.CLAMPED uses the edges of the mesh and avoids this.
+
+        info: filled in when given
+
+        Raises NonFiniteError.
+        """
+        c = Call(self)
+        field_ = c.struct(_raw.hf_scalars, {})
+        c.rows(field_, 'values', field, 'f4 f8', ('vertex_count',), 'value_stride', name='field')
+        info = info or c.struct(_raw.hf_critical_info, {})
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_surface_find_critical_points', self._handle, None if field is None else ref(field_),
+                    room['capacity'], address(made['points']), c.info(info, _raw.hf_critical_info))
+
+        found = c.grow(self, 'hf_surface_find_critical_points', run, lambda: {'capacity': info.point_count},
+                {'capacity': None}, {'points': (np.dtype(_raw.hf_critical_point), ('capacity',))})
+        return found['points']
+
+    def find_extremities(self, *, kind: int = ExtremityKind.POISSON, least_length_share: float = 0.0,
+            source_count: int = 0, geodesics: Optional[Geodesics] = None, progress: Optional[Progress] = None,
+            field: Optional[np.ndarray] = None) -> np.ndarray:
+        """Proposes the tips of the surface as places for sites and handles, the longest tip first. The list does not
+        depend on the order of the vertices. Pose and meshing change it only within the resolution of the mesh.
+
+        kind: ExtremityKind
+        least_length_share: tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10
+        source_count: sources of the mean distance per component, 1 to 1,000; 0 = 40
+        geodesics: for ExtremityKind.GEODESIC: an object of this surface. If its method is DistanceMethod.HEAT its
+            factor serves; else, and for None, the call makes a factor
+        progress: an object to poll and cancel through
+        field: (vertex_count,), packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
+            (Poisson), length (geodesic), each up to a constant per component
+
+        Raises CancelledError, InvalidArgumentError.
+        """
+        c = Call(self)
+        desc = _extremities_desc(c, kind=kind, least_length_share=least_length_share, source_count=source_count,
+                geodesics=geodesics, progress=progress)
+        if field is not None:
+            field, _ = c.out(field, 'f8', ('vertex_count',), name='field')
+            setattr(desc, 'out_field', address(field))
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_surface_find_extremities', self._handle, ref(desc), room['capacity'], address(made['extremities']),
+                    ref(count))
+
+        found = c.grow(self, 'hf_surface_find_extremities', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'extremities': (np.dtype(_raw.hf_extremity), ('capacity',))})
+        return found['extremities']
+
+    def propose_handles(self, joints: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None, *,
+            up: Optional[ArrayLike] = None, least_length_share: float = 0.0, limit: int = 0,
+            progress: Optional[Progress] = None) -> np.ndarray:
+        """Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first, then
+        the others, each group by length, the longest first. The places do not depend on the order of the vertices.
+        They follow translation and scale.
+
+        joints: (joint_count, 3) their places at rest, in the unit and frame of the mesh
+        parents: (joint_count,) position of each joint's parent in the list; NO_INDEX for a root
+        up: direction away from the ground, of any length; 0 0 0 = 0 1 0
+        least_length_share: as in hf_extremities_desc; 0 = 0.05
+        limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
+        progress: an object to poll and cancel through
+
+        Raises CancelledError, InvalidArgumentError, NonFiniteError, OutOfRangeError.
+        """
+        c = Call(self)
+        desc = _handle_proposals_desc(c, joints=joints, parents=parents, up=up, least_length_share=least_length_share,
+                limit=limit, progress=progress)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_surface_propose_handles', self._handle, ref(desc), room['capacity'], address(made['proposals']),
+                    ref(count))
+
+        found = c.grow(self, 'hf_surface_propose_handles', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'proposals': (np.dtype(_raw.hf_handle_proposal), ('capacity',))})
+        return found['proposals']
+
+
+class Solver(Recorded):
+    """A set of sites on a surface, and their field.
+
+    Creates a solver without sites.
+
+    field_kind: FieldKind; if the surface has no factor of that kind yet, it is made now
+    engine: Engine
+    channel_count: fields solved at once, 1 to 64; 0 = 1
+    site_limit: at most this many sites; 0 = 100,000
+    penalty: Engine.UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
+    progress: an object to poll and cancel through
+    """
+
+    _destroy = 'hf_solver_destroy'
+    _counts = ('channel_count', 'vertex_count')
+
+    @property
+    def channel_count(self) -> int:
+        """As it was made with."""
+        return self._n.get('channel_count', 0)
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the surface, as given."""
+        return self._n.get('vertex_count', 0)
+
+    def __init__(self, surface: Surface, *, field_kind: int = FieldKind.HARMONIC, engine: int = Engine.GREEN,
+            channel_count: int = 0, site_limit: int = 0, penalty: float = 0.0,
+            progress: Optional[Progress] = None) -> None:
+        c = Call(surface=surface)
+        desc = _solver_desc(c, field_kind=field_kind, engine=engine, channel_count=channel_count, site_limit=site_limit,
+                penalty=penalty, progress=progress)
+        self._own('hf_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
+
+    def clone(self) -> "Solver":
+        """Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share the
+        factor and what the sites have cost, so a copy costs its list of sites only. Use one copy per thread or per
+        set of sites. For undo, keep copies: one before each edit.
+        """
+        c = Call(self)
+        made = type(self).__new__(type(self))
+        c.n.update(self._n)
+        made._own('hf_solver_clone', c, self._handle)
+        return made
+
+    @property
+    def info(self) -> SolverInfo:
+        """Writes the options of a solver."""
+        c = Call(self)
+        info = c.struct(_raw.hf_solver_info, {})
+        call('hf_solver_get_info', self._handle, ref(info))
+        return info
+
+    def add_sites(self, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
+            triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
+            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
+            corners: Optional[ArrayLike] = None) -> np.ndarray:
+        """Adds sites.
+
+        vertices: (site_count,) vertices as given, or None
+        values: (site_count, channel_count), up to 1e200 in size; None = 0
+        triangles: (site_count,) triangles (or faces of three corners) as given, or None
+        barycentrics: (site_count, 3) with triangles or corners, else None: weights of the corners, >= 0, of sum 1
+            within 1e-6
+        stiffness: (site_count,) >= 0, relative to the mean diagonal of K; 0 = hard (exact); None = all hard; clamped
+            to 1e-12 .. 1e12
+        radii: (site_count,) >= 0, geodesic, in the unit of the mesh; 0 = a point; None = all points
+        corners: (site_count, 3) three vertices as given, of one face, or None: Hit has them. In a face of more
+            corners this places a site in a triangle of them
+
+        Raises ConflictError, DuplicateError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
+        UnsupportedError.
+        """
+        c = Call(self)
+        desc = _sites_desc(c, vertices=vertices, values=values, triangles=triangles, barycentrics=barycentrics,
+                stiffness=stiffness, radii=radii, corners=corners)
+        sites, _ = c.out(None, 'u4', ('site_count',))
+        call('hf_add_sites', self._handle, ref(desc), address(sites))
+        return sites
+
+    def add_site(self, vertex: int, values: Optional[ArrayLike] = None) -> int:
+        """Adds one hard site at a vertex.
+
+        values: (channel_count,), or None for 0.
+
+        Raises ConflictError, DuplicateError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
+        UnsupportedError.
+        """
+        c = Call(self)
+        values_ = c.array('values', values, 'f8', ('channel_count',))
+        site = ctypes.c_uint32()
+        call('hf_solver_add_site', self._handle, number(vertex, 'vertex', ctypes.c_uint32), values_, ref(site))
+        return site.value
+
+    def remove_sites(self, sites: ArrayLike) -> None:
+        """Removes sites by number. The field is 0 on a component that has no site left. If you add a site there again,
+        the field is exact.
+
+        sites: (site_count,).
+
+        Raises NotFoundError.
+        """
+        c = Call(self)
+        sites_ = c.array('sites', sites, 'u4', ('site_count',))
+        call('hf_remove_sites', self._handle, c.n.setdefault('site_count', 1), sites_)
+
+    def move_sites(self, sites: ArrayLike, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
+            triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
+            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
+            corners: Optional[ArrayLike] = None) -> None:
+        """Moves sites to new places. Each site keeps its number, value, stiffness and radius.
+
+        sites: (site_count,).
+        vertices: (site_count,) vertices as given, or None
+        values: (site_count, channel_count), up to 1e200 in size; None = 0
+        triangles: (site_count,) triangles (or faces of three corners) as given, or None
+        barycentrics: (site_count, 3) with triangles or corners, else None: weights of the corners, >= 0, of sum 1
+            within 1e-6
+        stiffness: (site_count,) >= 0, relative to the mean diagonal of K; 0 = hard (exact); None = all hard; clamped
+            to 1e-12 .. 1e12
+        radii: (site_count,) >= 0, geodesic, in the unit of the mesh; 0 = a point; None = all points
+        corners: (site_count, 3) three vertices as given, of one face, or None: Hit has them. In a face of more
+            corners this places a site in a triangle of them
+
+        Raises ConflictError, DuplicateError, InvalidArgumentError, NonFiniteError, NotFoundError, OutOfRangeError,
+        TooLargeError, UnsupportedError.
+        """
+        c = Call(self)
+        sites_ = c.array('sites', sites, 'u4', ('site_count',))
+        desc = _sites_desc(c, vertices=vertices, values=values, triangles=triangles, barycentrics=barycentrics,
+                stiffness=stiffness, radii=radii, corners=corners)
+        call('hf_solver_move_sites', self._handle, c.n.setdefault('site_count', 1), sites_, ref(desc))
+
+    def set_values(self, sites: ArrayLike, values: ArrayLike) -> None:
+        """Gives sites new values. The call costs nothing until the next solve.
+
+        sites: (site_count,).
+        values: (site_count, channel_count).
+
+        Raises NonFiniteError, NotFoundError, TooLargeError.
+        """
+        c = Call(self)
+        sites_ = c.array('sites', sites, 'u4', ('site_count',))
+        values_ = c.array('values', values, 'f8', ('site_count', 'channel_count'))
+        call('hf_solver_set_values', self._handle, c.n.setdefault('site_count', 1), sites_, values_)
+
+    def edit_sites(self, remove_sites: Optional[ArrayLike] = None, move_sites: Optional[ArrayLike] = None,
+            set_sites: Optional[ArrayLike] = None, set_values: Optional[ArrayLike] = None, *, move_to: Any = None,
+            add: Any = None) -> np.ndarray:
+        """Applies a batch of edits at once.
+
+        remove_sites: (remove_count,)
+        move_sites: (move_count,)
+        set_sites: (set_count,)
+        set_values: (set_count, channel_count)
+        move_to: places of (move_count,) sites
+        add: the sites to add
+        """
+        c = Call(self)
+        desc = _edit_desc(c, remove_sites=remove_sites, move_sites=move_sites, set_sites=set_sites,
+                set_values=set_values, move_to=move_to, add=add)
+        sites, _ = c.out(None, 'u4', ('add.site_count',))
+        call('hf_solver_edit_sites', self._handle, ref(desc), address(sites))
+        return sites
+
+    @property
+    def site_count(self) -> int:
+        """Returns the number of sites, or 0 for an invalid object."""
+        return library().hf_solver_get_site_count(self._handle)
+
+    def sites(self) -> SitesInfo:
+        """Writes all sites."""
+        c = Call(self)
+        info = c.struct(_raw.hf_sites_info, {})
+
+        def run(room: Any, made: Any) -> None:
+            c.into(info, room, made)
+            call('hf_solver_get_sites', self._handle, ref(info))
+
+        found = c.grow(self, 'hf_solver_get_sites', run, lambda: {'capacity': info.count}, {'capacity': None},
+                {'sites': (np.uint32, ('capacity',)), 'vertices': (np.uint32, ('capacity',)), 'components': (np.uint32,
+                ('capacity',)), 'values': (np.float64, ('capacity', 'channel_count')), 'stiffness': (np.float64,
+                ('capacity',)), 'flux': (np.float64, ('capacity', 'channel_count')), 'radii': (np.float64,
+                ('capacity',))})
+        return SitesInfo(**found)
+
+    def set_screening(self, screening: Optional[ArrayLike] = None, targets: Optional[ArrayLike] = None) -> None:
+        """Screens the field: (K + A H) u = A H p + W lambda, with A the vertex areas. The field follows p where H is
+        large, and the influence of a site fades over a distance of about 1 / sqrt(H). A H is at most 1e12 times the
+        mean diagonal of K. Such a field needs no site on a component where some H is above 0.
+
+        screening: (vertex_count,) H >= 0, in 1 / length^2 with the unit of the mesh; None removes the screening.
+        targets: (vertex_count, channel_count) p, or None for 0. Both are copied; welded copies of a vertex take the
+            values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores the
+            screening with the sites.
+
+        Raises InvalidArgumentError, NonFiniteError, NotPositiveDefiniteError, TooLargeError, UnsupportedError.
+        """
+        c = Call(self)
+        screening_ = c.array('screening', screening, 'f8', ('vertex_count',))
+        targets_ = c.array('targets', targets, 'f8', ('vertex_count', 'channel_count'))
+        call('hf_solver_set_screening', self._handle, screening_, targets_)
+
+    def solve(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
+            info: Optional[SolveInfo] = None) -> np.ndarray:
+        """Solves for the field at every vertex of your mesh.
+
+        out: (vertex_count, channel_count). Hard sites hold their values exactly. The field is 0 on components without
+            a site.
+        info: filled in when given
+
+        Raises EmptyError, TooLargeError.
+        """
+        c = Call(self)
+        out, stride = c.out(out, 'f4 f8', ('vertex_count', 'channel_count'), dtype)
+        call('hf_solver_solve_f64' if out.dtype == np.float64 else 'hf_solve', self._handle, address(out), stride,
+                c.info(info, _raw.hf_solve_info))
+        return out
+
+    def solve_at(self, vertices: ArrayLike) -> np.ndarray:
+        """Solves for the field at chosen vertices only, with the same bits as Solver.solve. The call reads only those
+        columns of the factor on which these vertices depend (elimination paths), on the calling thread. One path is
+        up to a sixth of the factor, but the paths of many vertices share most of their columns. The call costs a
+        whole solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A
+        vertex of a component without a site gets 0.
+
+        vertices: (vertex_count,).
+
+        Raises EmptyError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        c.n.pop('vertex_count', None)  # of the list given here
+        vertices_ = c.array('vertices', vertices, 'u4', ('vertex_count',))
+        values, _ = c.out(None, 'f8', ('vertex_count', 'channel_count'))
+        call('hf_solver_solve_at', self._handle, c.n.setdefault('vertex_count', 1), vertices_, address(values))
+        return values
+
+    def solve_vectors(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
+            normals: Optional[np.ndarray] = None, info: Optional[SolveInfo] = None) -> np.ndarray:
+        """Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section
+        3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then
+        projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
+
+        out: (vertex_count, 3), not normalised.
+        normals: (vertex_count, 3), packed: the normals used.
+        info: filled in when given
+
+        Raises EmptyError, InvalidArgumentError, TooLargeError.
+        """
+        c = Call(self)
+        out, stride = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        if normals is not None:
+            normals, _ = c.out(normals, 'f8', ('vertex_count', 3), name='normals')
+        call('hf_solver_solve_vectors_f64' if out.dtype == np.float64 else 'hf_solver_solve_vectors', self._handle,
+                address(out), stride, address(normals), c.info(info, _raw.hf_solve_info))
+        return out
+
+    def solve_preview(self, correction_count: int = 0, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
+            info: Optional[PreviewInfo] = None) -> np.ndarray:
+        """Solves with a single-precision copy of the factor. This reads half the bytes of Solver.solve; use it while the
+        user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic
+        fields, long shapes and crowded sites can have an error of any size: ask for corrections there and read
+        error_estimate. Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a
+        harmonic field takes the error below 1e-9, a second one below 1e-12. Each correction costs as much as two to
+        three calls of Solver.solve.
+
+        The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind
+        on the surface share the copy. It is freed with the last of these solvers, or by Solver.release_preview.
+        Engines other than Engine.GREEN give the exact field, and so do solvers whose factor eliminates sites.
+        info.exact is then 1.
+
+        correction_count: 0 to 8.
+        out: (vertex_count, channel_count), as Solver.solve.
+        info: filled in when given
+
+        Raises EmptyError, InvalidArgumentError.
+        """
+        c = Call(self)
+        out, stride = c.out(out, 'f4 f8', ('vertex_count', 'channel_count'), dtype)
+        call('hf_solver_solve_preview_f64' if out.dtype == np.float64 else 'hf_solver_solve_preview', self._handle,
+                address(out), stride, number(correction_count, 'correction_count', ctypes.c_uint32), c.info(info,
+                _raw.hf_preview_info))
+        return out
+
+    def release_preview(self) -> None:
+        """Frees the single-precision copy for all solvers that share it, as soon as no running call uses it. The next
+        preview makes the copy again.
+        """
+        c = Call(self)
+        call('hf_solver_release_preview', self._handle)
+
+    def move_vectors(self, sites: ArrayLike, vertices: ArrayLike) -> None:
+        """Moves vector sites to other vertices of their components. Each vector is carried along the shortest path of
+        edges, from vertex normal to vertex normal (parallel transport; Xu and others 2009, Section 3.3).
+
+        sites: (site_count,).
+        vertices: (site_count,).
+
+        Raises ConflictError, DuplicateError, InvalidArgumentError, NotFoundError, OutOfRangeError.
+        """
+        c = Call(self)
+        sites_ = c.array('sites', sites, 'u4', ('site_count',))
+        vertices_ = c.array('vertices', vertices, 'u4', ('site_count',))
+        call('hf_solver_move_vectors', self._handle, c.n.setdefault('site_count', 1), sites_, vertices_)
+
+    def rotate_vectors(self, sites: ArrayLike, angles: ArrayLike) -> None:
+        """Turns the vector of site i about its vertex normal, counter-clockwise by angles(i,) radians. Does not
+        factorise.
+
+        sites: (site_count,).
+        angles: (site_count,).
+
+        Raises InvalidArgumentError, NonFiniteError, NotFoundError.
+        """
+        c = Call(self)
+        sites_ = c.array('sites', sites, 'u4', ('site_count',))
+        angles_ = c.array('angles', angles, 'f8', ('site_count',))
+        call('hf_solver_rotate_vectors', self._handle, c.n.setdefault('site_count', 1), sites_, angles_)
+
+    def certify(self, tolerance: float = 0.0) -> Certificate:
+        """Solves the field and checks it against its equations. The check uses only the operator K and the site values.
+        So it finds a damaged factor, borrowed bytes that changed, or a fault of the machine. The call returns
+        InaccurateError (index = worst vertex) if the check fails, and writes certificate then too. Do not use fields
+        of that solver; make the surface again.
+
+        tolerance: largest error to accept, > 0; 0 = 1e-8, Engine.UPDOWN 1e-5
+
+        Raises EmptyError, InaccurateError, InvalidArgumentError.
+        """
+        c = Call(self)
+        certificate = c.struct(_raw.hf_certificate, {'tolerance': tolerance})
+        call('hf_solver_certify', self._handle, ref(certificate))
+        return certificate
+
+    def prepare_rebase(self) -> None:
+        """Factorises in the background with the hard vertex sites eliminated, so that they cost no dense solve. It runs
+        on the calling thread, while other threads edit and solve with this solver. The next edit switches to the new
+        factor. Fields before and after are the same up to rounding. Call it on a thread of yours when
+        SolverStatistics.rebase_advised is 1. An edit of very many sites does this by itself when that is quicker.
+        Memory: one more factor, for as long as it eliminates sites.
+
+        Raises BusyError, EmptyError, UnsupportedError.
+        """
+        c = Call(self)
+        call('hf_solver_prepare_rebase', self._handle)
+
+    @property
+    def statistics(self) -> SolverStatistics:
+        """Writes the statistics."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_solver_statistics, {})
+        call('hf_solver_get_statistics', self._handle, ref(statistics))
+        return statistics
+
+
+class Geodesics(Object):
+    """Computes geodesic distances on one surface: the lengths of shortest paths along it.
+
+    Creates the object and the tables of its method. FRONT and EXACT take a pass over the triangles. HEAT takes one
+    numeric factorisation and holds a factor of its own beside the surface's.
+
+    method: DistanceMethod
+    smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to 10,000
+    progress: an object to poll and cancel through: creation and every later call report to it
+    """
+
+    _destroy = 'hf_geodesics_destroy'
+    _counts = ('vertex_count',)
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the surface, as given."""
+        return self._n.get('vertex_count', 0)
+
+    def __init__(self, surface: Surface, *, method: int = DistanceMethod.AUTO, smoothing: float = 0.0,
+            progress: Optional[Progress] = None) -> None:
+        c = Call(surface=surface)
+        desc = _geodesics_desc(c, method=method, smoothing=smoothing, progress=progress)
+        self._own('hf_geodesics_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
+
+    def solve(self, sources: ArrayLike, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32) -> np.ndarray:
+        """Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+
+        sources: (source_count,) vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
+            links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance
+            of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The
+            error of FRONT falls with the edge length. HEAT rounds the distance off at corners and where two shortest
+            paths meet.
+        out: (vertex_count,). The distance is 0 at the sources, and -1 at vertices that no source can reach.
+
+        Raises CancelledError, InvalidArgumentError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        sources_ = c.array('sources', sources, 'u4', ('source_count',))
+        out, stride = c.out(out, 'f4 f8', ('vertex_count',), dtype)
+        call('hf_geodesics_solve_f64' if out.dtype == np.float64 else 'hf_geodesics_solve', self._handle,
+                c.n.setdefault('source_count', 1), sources_, address(out), stride)
+        return out
+
+    def find_path(self, from_: Place, to: Place) -> Path:
+        """Finds the shortest path between two points, exact up to rounding, whatever the method of the object. If
+        several are as short, it writes one of them. The path is straight where its triangles are unfolded; it bends
+        at vertices only.
+
+        Raises CancelledError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, TooSmallError.
+        """
+        c = Call(self)
+        path = c.struct(_raw.hf_path, {})
+
+        def run(room: Any, made: Any) -> None:
+            c.into(path, room, made)
+            call('hf_geodesics_find_path', self._handle, ref(place(_raw.hf_surface_point, from_)),
+                    ref(place(_raw.hf_surface_point, to)), ref(path))
+
+        found = c.grow(self, 'hf_geodesics_find_path', run, lambda: {'point_capacity': path.point_count},
+                {'point_capacity': None}, {'point_edges': (np.uint32, ('point_capacity', 2)), 'parameters': (np.float64,
+                ('point_capacity',)), 'positions': (np.float64, ('point_capacity', 3))})
+        return Path(length=path.length, **found)
+
+    def map(self, centre: Place, radius: float = 0.0) -> Tuple[np.ndarray, np.ndarray]:
+        """Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each
+        vertex gets the length of its shortest path from the point, in the direction in which that path leaves the
+        point.
+
+        radius: vertices farther away get NaN too, and cost nothing; 0 = no bound.
+
+        Raises CancelledError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, TooSmallError.
+        """
+        c = Call(self)
+        map, _ = c.out(None, 'f8', ('vertex_count', 2))
+        frame, _ = c.out(None, 'f8', (6,))
+        call('hf_geodesics_get_map', self._handle, ref(place(_raw.hf_surface_point, centre)), number(radius, 'radius',
+                ctypes.c_double), address(map), address(frame))
+        return map, frame
+
+
+class Direction(Recorded):
+    """A direction field on a surface, with a factor and constraints of its own.
+
+    Makes a direction field without constraints. It computes the connection between tangent planes and the operator,
+    and factorises once, with two unknowns per vertex.
+
+    degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
+    site_limit: most constraints; 0 = 100,000
+    progress: an object to poll and cancel through
+    """
+
+    _destroy = 'hf_direction_destroy'
+    _counts = ('vertex_count',)
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the surface, as given."""
+        return self._n.get('vertex_count', 0)
+
+    def __init__(self, surface: Surface, *, degree: int = 0, site_limit: int = 0,
+            progress: Optional[Progress] = None) -> None:
+        c = Call(surface=surface)
+        desc = _direction_desc(c, degree=degree, site_limit=site_limit, progress=progress)
+        self._own('hf_direction_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
+
+    def clone(self) -> "Direction":
+        """Makes a direction field with the same constraints under the same numbers; it has the same bits. Both share
+        connection and factor, so the copy costs the constraints only. For undo, keep copies: one before each edit.
+        """
+        c = Call(self)
+        made = type(self).__new__(type(self))
+        c.n.update(self._n)
+        made._own('hf_direction_clone', c, self._handle)
+        return made
+
+    def add_sites(self, vertices: ArrayLike, vectors: ArrayLike) -> np.ndarray:
+        """Adds constraints: vectors at vertices. The function projects the vectors on the tangent planes. Each
+        constraint costs two sparse triangular solves (elimination paths) and two rows of a small dense system. For a
+        batch of very many constraints, the function factorises once instead, with their vertices eliminated. Later
+        edits cost paths and rows again.
+
+        vertices: (site_count,) vertices of your mesh.
+        vectors: (site_count, 3); a zero vector makes the field 0 there.
+
+        Raises DuplicateError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        vertices_ = c.array('vertices', vertices, 'u4', ('site_count',))
+        vectors_ = c.array('vectors', vectors, 'f8', ('site_count', 3))
+        sites, _ = c.out(None, 'u4', ('site_count',))
+        call('hf_direction_add_sites', self._handle, c.n.setdefault('site_count', 1), vertices_, vectors_,
+                address(sites))
+        return sites
+
+    def remove_sites(self, sites: ArrayLike) -> None:
+        """Removes constraints by number.
+
+        sites: (site_count,).
+
+        Raises NotFoundError.
+        """
+        c = Call(self)
+        sites_ = c.array('sites', sites, 'u4', ('site_count',))
+        call('hf_direction_remove_sites', self._handle, c.n.setdefault('site_count', 1), sites_)
+
+    def move_sites(self, sites: ArrayLike, vertices: ArrayLike) -> None:
+        """Moves constraints to other vertices of the same component. The connection carries each vector along the
+        shortest path of edges, from tangent plane to tangent plane.
+
+        sites: (site_count,).
+        vertices: (site_count,).
+
+        Raises ConflictError, DuplicateError, InvalidArgumentError, NotFoundError, OutOfRangeError.
+        """
+        c = Call(self)
+        sites_ = c.array('sites', sites, 'u4', ('site_count',))
+        vertices_ = c.array('vertices', vertices, 'u4', ('site_count',))
+        call('hf_direction_move_sites', self._handle, c.n.setdefault('site_count', 1), sites_, vertices_)
+
+    def set_vectors(self, sites: ArrayLike, vectors: ArrayLike) -> None:
+        """Gives constraints new vectors and projects them on the tangent planes. Does not factorise.
+
+        sites: (site_count,).
+        vectors: (site_count, 3).
+
+        Raises InvalidArgumentError, NonFiniteError, NotFoundError.
+        """
+        c = Call(self)
+        sites_ = c.array('sites', sites, 'u4', ('site_count',))
+        vectors_ = c.array('vectors', vectors, 'f8', ('site_count', 3))
+        call('hf_direction_set_vectors', self._handle, c.n.setdefault('site_count', 1), sites_, vectors_)
+
+    def rotate_sites(self, sites: ArrayLike, angles: ArrayLike) -> None:
+        """Turns constraint i by angles(i,) radians, counter-clockwise seen from outside. Does not factorise.
+
+        sites: (site_count,).
+        angles: (site_count,).
+
+        Raises NonFiniteError, NotFoundError.
+        """
+        c = Call(self)
+        sites_ = c.array('sites', sites, 'u4', ('site_count',))
+        angles_ = c.array('angles', angles, 'f8', ('site_count',))
+        call('hf_direction_rotate_sites', self._handle, c.n.setdefault('site_count', 1), sites_, angles_)
+
+    @property
+    def site_count(self) -> int:
+        """Returns the number of constraints, or 0 for an invalid object."""
+        return library().hf_direction_get_site_count(self._handle)
+
+    def sites(self) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Writes the constraints by ascending number."""
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_direction_get_sites', self._handle, room['capacity'], address(made['sites']),
+                    address(made['vertices']), address(made['vectors']), ref(count))
+
+        found = c.grow(self, 'hf_direction_get_sites', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'sites': (np.uint32, ('capacity',)), 'vertices': (np.uint32, ('capacity',)), 'vectors': (np.float64,
+                ('capacity', 3))})
+        return found['sites'], found['vertices'], found['vectors']
+
+    def solve(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
+            info: Optional[SolveInfo] = None) -> np.ndarray:
+        """Writes the field as vectors in space. The vectors are tangent to the surface up to 1e-12 of their length. For
+        degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors;
+        vertices that no constraint reaches get 0.
+
+        out: (vertex_count, 3).
+        info: filled in when given
+
+        Raises EmptyError.
+        """
+        c = Call(self)
+        out, stride = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        call('hf_direction_solve_f64' if out.dtype == np.float64 else 'hf_direction_solve', self._handle, address(out),
+                stride, c.info(info, _raw.hf_solve_info))
+        return out
+
+    def singularities(self) -> np.ndarray:
+        """Lists the singularities of the field, ordered by triangle (Crane, Desbrun and Schroeder 2010, Section 5). On a
+        closed manifold component of one orientation the indices sum to degree times the Euler characteristic.
+
+        Raises EmptyError.
+        """
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_direction_get_singularities', self._handle, room['capacity'], address(made['singularities']),
+                    ref(count))
+
+        found = c.grow(self, 'hf_direction_get_singularities', run, lambda: {'capacity': count.value},
+                {'capacity': None}, {'singularities': (np.dtype(_raw.hf_singularity), ('capacity',))})
+        return found['singularities']
+
+    @property
+    def statistics(self) -> DirectionStatistics:
+        """Writes the statistics."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_direction_statistics, {})
+        call('hf_direction_get_statistics', self._handle, ref(statistics))
+        return statistics
+
+
+class Pose(Recorded):
+    """A set of handles on a surface.
+
+    Creates a pose without handles.
+
+    mode: DeformMode
+    band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+    iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+    rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
+    group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+    """
+
+    _destroy = 'hf_pose_destroy'
+    _counts = ('vertex_count',)
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the surface, as given."""
+        return self._n.get('vertex_count', 0)
+
+    def __init__(self, surface: Surface, *, mode: int = DeformMode.SMOOTH, band_count: int = 0,
+            iteration_count: int = 0, rim_site_count: int = 0, group_count: int = 0) -> None:
+        c = Call(surface=surface)
+        desc = _pose_desc(c, mode=mode, band_count=band_count, iteration_count=iteration_count,
+                rim_site_count=rim_site_count, group_count=group_count)
+        self._own('hf_pose_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
+
+    def clone(self) -> "Pose":
+        """Copies a pose with its handles and transforms, so that several threads can pose one rig."""
+        c = Call(self)
+        made = type(self).__new__(type(self))
+        c.n.update(self._n)
+        made._own('hf_pose_clone', c, self._handle)
+        return made
+
+    @property
+    def info(self) -> PoseInfo:
+        """Writes the options of a pose."""
+        c = Call(self)
+        info = c.struct(_raw.hf_pose_info, {})
+        call('hf_pose_get_info', self._handle, ref(info))
+        return info
+
+    def add_handles(self, region_vertices: Optional[Sequence[ArrayLike]] = None, *, points: Optional[ArrayLike] = None,
+            radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False,
+            progress: Optional[Progress] = None) -> np.ndarray:
+        """Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a
+        posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
+        that its region has in the last pose (Pose.handle writes it), and the surface stays where it is (to 1e-6 of
+        the box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to
+        rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once.
+        DeformMode.PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box)
+        until you move the handle. Handles of lower layers hold the surface in place for the higher layers.
+
+        region_vertices: lists of whole numbers: all regions one after the other; vertices as given
+        points: (handle_count, 3) at rest. The region is the vertex nearest to the point and what is edge-connected to
+            it within the radius. None: regions are given
+        radii: (handle_count,) of the regions of points, in the unit of the mesh; None: regions are given. A radius
+            below 1 % of the box makes regions of 2 vertices or more
+        layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
+        in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+        progress: an object to poll and cancel through
+
+        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        desc = _handles_desc(c, region_vertices=region_vertices, points=points, radii=radii, layer=layer,
+                in_place=in_place, progress=progress)
+        handles, _ = c.out(None, 'u4', ('handle_count',))
+        call('hf_pose_add_handles', self._handle, ref(desc), address(handles))
+        return handles
+
+    def add_handle_at(self, point: ArrayLike, radius: float) -> int:
+        """Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
+        edge-connected to it within `radius` of the point.
+
+        point: (3,).
+
+        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        point_ = c.array('point', point, 'f8', (3,))
+        handle = ctypes.c_uint32()
+        call('hf_pose_add_handle_at', self._handle, point_, number(radius, 'radius', ctypes.c_double), ref(handle))
+        return handle.value
+
+    def remove_handles(self, handles: ArrayLike) -> None:
+        """Removes handles by number. A handle on a higher layer takes its edit with it: the surface is then, bit for
+        bit, as if the handle had never been added. On layer 0 this holds when you remove the handles that were added
+        last, and for frames with `restart`.
+
+        handles: (handle_count,).
+
+        Raises NotFoundError.
+        """
+        c = Call(self)
+        handles_ = c.array('handles', handles, 'u4', ('handle_count',))
+        call('hf_pose_remove_handles', self._handle, c.n.setdefault('handle_count', 1), handles_)
+
+    def set_transforms(self, handles: ArrayLike, rotations: Optional[ArrayLike] = None,
+            translations: Optional[ArrayLike] = None) -> None:
+        """Places handles. On layer 0 a transform is a motion from the rest place. On a higher layer it is an edit in the
+        rest frame of the handle. There the region moves by F (edit) F^-1, with F the rigid motion that the lower
+        layers give the handle. Rotations continue from call to call, so a handle that you dragged past 180 degrees
+        stays turned that far. The transforms take effect at the next Pose.deform.
+
+        handles: (handle_count,).
+        rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity
+        translations: up to 1e15 box diagonals
+
+        Raises NonFiniteError, NotFoundError.
+        """
+        c = Call(self)
+        handles_ = c.array('handles', handles, 'u4', ('handle_count',))
+        transforms = c.records(_raw.hf_transform, ('handle_count',), {'rotation': ('rotations', rotations),
+                'translation': ('translations', translations)})
+        call('hf_pose_set_transforms', self._handle, c.n.setdefault('handle_count', 1), handles_, transforms)
+
+    def set_transform(self, handle: int, rotation: Optional[ArrayLike] = None,
+            translation: Optional[ArrayLike] = None) -> None:
+        """Places one handle.
+
+        rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity
+        translation: up to 1e15 box diagonals
+
+        Raises NonFiniteError, NotFoundError.
+        """
+        c = Call(self)
+        transform = _raw.hf_transform()
+        c.fixed(transform, 'rotation', rotation)
+        c.fixed(transform, 'translation', translation)
+        call('hf_pose_set_transform', self._handle, number(handle, 'handle', ctypes.c_uint32), ref(transform))
+
+    def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
+        """Places handles by 4 x 4 matrices M.
+
+        handles: (handle_count,).
+        matrices: (handle_count, 16), column by column, elements 12 to 14 the translation. M takes a rest position p
+            to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
+            rotation. Its last row must be 0 0 0 1.
+
+        Raises InvalidArgumentError, NonFiniteError, NotFoundError.
+        """
+        c = Call(self)
+        handles_ = c.array('handles', handles, 'u4', ('handle_count',))
+        matrices_ = c.array('matrices', matrices, 'f8', ('handle_count', 16))
+        call('hf_pose_set_matrices', self._handle, c.n.setdefault('handle_count', 1), handles_, matrices_)
+
+    def handle(self, handle: int) -> HandleInfo:
+        """Writes the info of a handle.
+
+        Raises NotFoundError.
+        """
+        c = Call(self)
+        info = c.struct(_raw.hf_handle_info, {})
+        call('hf_pose_get_handle', self._handle, number(handle, 'handle', ctypes.c_uint32), ref(info))
+        return info
+
+    @property
+    def handle_count(self) -> int:
+        """Returns the number of handles, or 0 for an invalid object."""
+        return library().hf_pose_get_handle_count(self._handle)
+
+    def field(self, handle: int, out: Optional[np.ndarray] = None) -> np.ndarray:
+        """Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
+        reaches, the fields of all handles sum to 1.
+
+        out: (vertex_count,).
+
+        Raises NotFoundError.
+        """
+        c = Call(self)
+        out, stride = c.out(out, 'f4', ('vertex_count',))
+        call('hf_pose_get_field', self._handle, number(handle, 'handle', ctypes.c_uint32), address(out), stride)
+        return out
+
+    def deform(self, out: Optional[np.ndarray] = None, *, iteration_count: int = 0, restart: bool = False,
+            refine: int = 0, refine_from_last: bool = False, first_vertex: int = 0, vertex_count: int = 0,
+            dtype: Any = np.float32, normals: Optional[np.ndarray] = None,
+            info: Optional[DeformInfo] = None) -> np.ndarray:
+        """Does the same as Pose.deform, with the options of a desc.
+
+        iteration_count: 1 to 1000; 0 = the pose's
+        restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose with
+            the same handles, added in the same order, and the same transforms. Without restart a frame continues from
+            the last one, so it also depends on that
+        refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about
+            0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
+        refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the smooth
+            pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still,
+            more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of
+            1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+        first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
+        vertex_count: positions of a range cost only the range, without higher layers, refine and normals
+        out: (vertex_count, 3) posed positions, or None
+        normals: (vertex_count, 3) unit normals of the posed surface, shared across seams, or None
+        info: filled in when given
+
+        Raises EmptyError, InvalidArgumentError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        desc = _deform_desc(c, iteration_count=iteration_count, restart=restart, refine=refine,
+                refine_from_last=refine_from_last, first_vertex=first_vertex, vertex_count=vertex_count)
+        out, desc.position_stride = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        setattr(desc, 'positions_f64' if out.dtype == np.float64 else 'positions', address(out))
+        if normals is not None:
+            normals, desc.normal_stride = c.out(normals, 'f4', ('vertex_count', 3), name='normals')
+            setattr(desc, 'normals', address(normals))
+        call('hf_pose_deform', self._handle, ref(desc), c.info(info, _raw.hf_deform_info))
+        return out
+
+    def skin(self, influence_count: int = 0, *, scales: bool = False) -> SkinInfo:
+        """Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were
+        added. If the handles do not reach some vertices, a last joint that never moves holds those vertices. The
+        weights of a vertex are its 4 or 8 largest, scaled so that their sum is exactly 1 in single precision. Weights
+        and pivots change only when handles are added or removed.
+
+        The joint motions bring the skin as near as possible to the last Pose.deform, as it is without refine. With
+        scales, classic bends, twists and lifts replay within 0.5 per cent of the box. Without scales, bends and
+        twists replay within 1 per cent and stretched surfaces within about 2.5 per cent.
+
+        influence_count: joints per vertex, 4 or 8; 0 = 4
+        scales: (joint_capacity, 3) along the axes in the last frame; None = joints are rigid
+
+        Raises EmptyError, InvalidArgumentError, UnsupportedError.
+        """
+        c = Call(self)
+        skin = c.struct(_raw.hf_skin_info, {'influence_count': influence_count})
+        c.known('influence_count', influence_count or 4)
+
+        def run(room: Any, made: Any) -> None:
+            c.into(skin, room, made)
+            call('hf_pose_get_skin', self._handle, ref(skin))
+
+        found = c.grow(self, 'hf_pose_get_skin', run, lambda: {'joint_capacity': skin.joint_count,
+                'vertex_capacity': skin.vertex_count, 'joint_count': skin.joint_count,
+                'vertex_count': skin.vertex_count}, {'joint_capacity': c.n.get('joint_count'),
+                'vertex_capacity': c.n.get('vertex_count')}, {'pivots': (np.float64, ('joint_capacity', 3)),
+                'rotations': (np.float64, ('joint_capacity', 4)), 'translations': (np.float64, ('joint_capacity', 3)),
+                'axes': (np.float64, ('joint_capacity', 4)), **({'scales': (np.float64, ('joint_capacity',
+                3))} if scales else {}), 'vertex_joints': (np.uint32, ('vertex_capacity', 'influence_count')),
+                'vertex_weights': (np.float32, ('vertex_capacity', 'influence_count'))})
+        return SkinInfo(**found)
+
+
+class Quads(Object):
+    """Makes a quad mesh of a surface. Every face is a quad. Edges follow smooth crosses along the curvature. Creases and
+    borders are straight lines of edges. Irregular vertices are the singularities of the crosses, and places where the
+    function split quads to keep to the surface.
+
+    The function relaxes the mesh along the surface. Where mesh and surface are farther apart than 0.39 edge lengths,
+    it snaps vertices to the surface and adds quads. A relaxed quad starts at the corner whose diagonal keeps nearer
+    to the surface, so a renderer should split quads into triangles from the first corner. If the mesh stays farther
+    than an edge length from the surface, a limb is lost. Then the function makes up to three finer meshes, and
+    removes rows of quads until the number is right. The function checks every result: each directed edge occurs once,
+    no face repeats a corner, and the Euler characteristic is that of the surface.
+
+    The surface may have borders, any genus and several components; the function turns triangles that disagree in
+    orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two. A
+    triangle without a partner gets a border. Surface.report counts such edges. A Moebius band is parted across.
+
+    With symmetry_plane a vertex on the plane is its own image, and all others come in pairs, exact to rounding. Half
+    of the quads lie on each side. Where surface and mirror image differ, by up to 0.05 box diagonals, the side of the
+    normal counts.
+
+    The user can place irregular vertices and drag them. The function makes each by guides on a ring around the place,
+    an edge of the quads away. The crosses on the ring make a quarter turn along it. 96 % of 1,000 irregular vertices
+    at random places of 20 meshes come out within an edge of the place; such a vertex then moves to the place and
+    stays there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to four times
+    the Euler characteristic. On a torus or a knot a single one of 5 is often lost.
+
+    crease_edges: (crease_count, 2) the two vertices of each edge, as given
+    guide_vertices: (guide_count,) as given; guides of one vertex are averaged
+    guide_vectors: (guide_count, 3) along the surface, of any length above 0; quads run along the vector and across it
+    guide_weights: None = all 1, or (guide_count,), above 0 to 1: 1 holds the direction, less mixes it with that of
+        the curvature, which has the rest of the weight
+    irregular_points: (irregular_count, 3) at the surface, in the unit and frame of the mesh
+    irregular_valences: (irregular_count,) how many quads meet there: 3 or 5
+    irregular_directions: None = any, or (irregular_count, 3): one side of the irregular vertex runs along it; 0 0 0 =
+        any
+    face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+    edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+    crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
+        none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases nearer to
+        each other than an edge may be released
+    relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; NO_INDEX = none, and the mesh is not fitted to
+        the surface either
+    symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads are
+        made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the other
+        side are not used
+    progress: an object to poll and cancel through
+    """
+
+    _destroy = 'hf_quads_destroy'
+    _counts = ()
+
+    def __init__(self, surface: Surface, crease_edges: Optional[ArrayLike] = None,
+            guide_vertices: Optional[ArrayLike] = None, guide_vectors: Optional[ArrayLike] = None,
+            guide_weights: Optional[ArrayLike] = None, irregular_points: Optional[ArrayLike] = None,
+            irregular_valences: Optional[ArrayLike] = None, irregular_directions: Optional[ArrayLike] = None, *,
+            face_count: int = 0, edge_length: float = 0.0, crease_angle: float = 0.0, relax_count: int = 0,
+            symmetry_plane: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> None:
+        c = Call(surface=surface)
+        desc = _quads_desc(c, crease_edges=crease_edges, guide_vertices=guide_vertices, guide_vectors=guide_vectors,
+                guide_weights=guide_weights, irregular_points=irregular_points, irregular_valences=irregular_valences,
+                irregular_directions=irregular_directions, face_count=face_count, edge_length=edge_length,
+                crease_angle=crease_angle, relax_count=relax_count, symmetry_plane=symmetry_plane, progress=progress)
+        self._own('hf_quads_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
+
+    def update(self, crease_edges: Optional[ArrayLike] = None, guide_vertices: Optional[ArrayLike] = None,
+            guide_vectors: Optional[ArrayLike] = None, guide_weights: Optional[ArrayLike] = None,
+            irregular_points: Optional[ArrayLike] = None, irregular_valences: Optional[ArrayLike] = None,
+            irregular_directions: Optional[ArrayLike] = None, *, face_count: int = 0, edge_length: float = 0.0,
+            crease_angle: float = 0.0, relax_count: int = 0, symmetry_plane: Optional[ArrayLike] = None,
+            progress: Optional[Progress] = None) -> None:
+        """Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result
+        is that of Quads with the same options, bit for bit. The first update takes as long. It keeps what does not
+        depend on guides, creases and relax_count, so later updates with the same edge_length, face_count and
+        symmetry_plane take less: 0.1 s for 15,000 vertices without relaxation (relax_count = NO_INDEX). Use that
+        while the user drags, and relax_count = 0 at the end. Other sizes and planes are allowed; what belongs to them
+        is made again. After an error `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until `quads` is
+        destroyed.
+
+        crease_edges: (crease_count, 2) the two vertices of each edge, as given
+        guide_vertices: (guide_count,) as given; guides of one vertex are averaged
+        guide_vectors: (guide_count, 3) along the surface, of any length above 0; quads run along the vector and
+            across it
+        guide_weights: None = all 1, or (guide_count,), above 0 to 1: 1 holds the direction, less mixes it with that
+            of the curvature, which has the rest of the weight
+        irregular_points: (irregular_count, 3) at the surface, in the unit and frame of the mesh
+        irregular_valences: (irregular_count,) how many quads meet there: 3 or 5
+        irregular_directions: None = any, or (irregular_count, 3): one side of the irregular vertex runs along it; 0 0
+            0 = any
+        face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+        edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+        crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
+            none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases
+            nearer to each other than an edge may be released
+        relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; NO_INDEX = none, and the mesh is not fitted
+            to the surface either
+        symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads
+            are made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the
+            other side are not used
+        progress: an object to poll and cancel through
+
+        Raises CancelledError, InternalError, InvalidArgumentError, NonFiniteError, NotPositiveDefiniteError,
+        OutOfRangeError, TooLargeError, UnsupportedError.
+        """
+        c = Call(self)
+        desc = _quads_desc(c, crease_edges=crease_edges, guide_vertices=guide_vertices, guide_vectors=guide_vectors,
+                guide_weights=guide_weights, irregular_points=irregular_points, irregular_valences=irregular_valences,
+                irregular_directions=irregular_directions, face_count=face_count, edge_length=edge_length,
+                crease_angle=crease_angle, relax_count=relax_count, symmetry_plane=symmetry_plane, progress=progress)
+        call('hf_quads_update', self._handle, ref(desc))
+
+    @property
+    def info(self) -> QuadsInfo:
+        """Writes the counts."""
+        c = Call(self)
+        info = c.struct(_raw.hf_quads_info, {})
+        call('hf_quads_get_info', self._handle, ref(info))
+        return info
+
+    def mesh(self) -> QuadsMesh:
+        """Writes every array that is not None.
+
+        Raises TooSmallError.
+        """
+        c = Call(self)
+        mesh = c.struct(_raw.hf_quads_mesh, {})
+
+        def run(room: Any, made: Any) -> None:
+            c.into(mesh, room, made)
+            call('hf_quads_get_mesh', self._handle, ref(mesh))
+
+        found = c.grow(self, 'hf_quads_get_mesh', run, lambda: {'vertex_capacity': mesh.vertex_count,
+                'face_capacity': mesh.face_count, 'vertex_count': mesh.vertex_count},
+                {'vertex_capacity': c.n.get('vertex_count'), 'face_capacity': None}, {'positions': (np.float64,
+                ('vertex_capacity', 3)), 'faces': (np.uint32, ('face_capacity', 4)), 'triangles': (np.uint32,
+                ('vertex_capacity',)), 'barycentrics': (np.float64, ('vertex_capacity', 3)), 'corners': (np.uint32,
+                ('vertex_capacity', 3))})
+        return QuadsMesh(**found)
+
+
+class Flow(Object):
+    """A surface that is prepared for tracing streamlines.
+
+    Prepares a surface for tracing: computes half-edges and weights.
+    """
+
+    _destroy = 'hf_flow_destroy'
+    _counts = ('vertex_count',)
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the surface, as given."""
+        return self._n.get('vertex_count', 0)
+
+    def __init__(self, surface: Surface) -> None:
+        c = Call(surface=surface)
+        self._own('hf_flow_create', c, handle_of(surface, Surface, 'surface'))
+
+    def trace(self, field: ArrayLike, seeds: Optional[ArrayLike] = None, wanted_count: int = 0) -> Streamlines:
+        """Traces streamlines of any field that is finite at every vertex in a triangle. For a harmonic field of
+        Operator.CLAMPED the lines are denser where the field is steeper. Surface.trace_isolines gives the lines that
+        cross the streamlines.
+
+        seeds: (seed_count,) vertices as given
+        wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
+
+        Raises InvalidArgumentError, NonFiniteError, OutOfRangeError.
+        """
+        c = Call(self)
+        field_ = c.struct(_raw.hf_scalars, {})
+        c.rows(field_, 'values', field, 'f4 f8', ('vertex_count',), 'value_stride', name='field')
+        lines = c.struct(_raw.hf_streamlines, {'wanted_count': wanted_count})
+        c.rows(lines, 'seeds', seeds, 'u4', ('seed_count',))
+        c.counts(lines, seed_count=('seed_count', 0))
+
+        def run(room: Any, made: Any) -> None:
+            c.into(lines, room, made)
+            call('hf_flow_trace', self._handle, None if field is None else ref(field_), ref(lines))
+
+        found = c.grow(self, 'hf_flow_trace', run, lambda: {'point_capacity': lines.point_count,
+                'line_capacity': lines.line_count}, {'point_capacity': None, 'line_capacity': None},
+                {'positions': (np.float64, ('point_capacity', 3)), 'values': (np.float64, ('point_capacity',)),
+                'line_starts': (np.uint32, ('line_capacity + 1',)), 'line_ends': (np.uint32, ('line_capacity', 2))})
+        return Streamlines(**found)
+
+
+class Region(Recorded):
+    """A region of a surface and its smooth base.
+
+    Creates a region without vertices.
+
+    positions: (vertex_count, 3) the surface of weight 0, bit for bit: the positions of the mesh or any pose of them.
+        None: the mesh's own to 1e-15 of the box. Copied
+    base: Base. If the surface has no factor for it yet, it is made now
+    progress: an object to poll and cancel through
+    """
+
+    _destroy = 'hf_region_destroy'
+    _counts = ('vertex_count',)
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the surface, as given."""
+        return self._n.get('vertex_count', 0)
+
+    def __init__(self, surface: Surface, positions: Optional[ArrayLike] = None, *, base: int = Base.DEFAULT,
+            progress: Optional[Progress] = None) -> None:
+        c = Call(surface=surface)
+        desc = _region_desc(c, positions=positions, base=base, progress=progress)
+        self._own('hf_region_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
+
+    def clone(self) -> "Region":
+        """Copies a region. The copy shares the factor and all memory, until one of the two is edited. For undo, keep
+        copies: one before each edit.
+        """
+        c = Call(self)
+        made = type(self).__new__(type(self))
+        c.n.update(self._n)
+        made._own('hf_region_clone', c, self._handle)
+        return made
+
+    def edit(self, remove_vertices: Optional[ArrayLike] = None, add_vertices: Optional[ArrayLike] = None, *,
+            ring_count: int = 0, curve: Any = None, progress: Optional[Progress] = None) -> None:
+        """Changes the region and computes its new base. The vertices next to the region (its rim) are sites with their
+        positions as values. Sites that stay cost nothing; the others are one batch as in Solver.edit_sites. One
+        backward sweep over the factor then gives the base; for a small region the sweep covers only the part of the
+        factor that its vertices need. A region may have several pieces, in several components. Progress covers curve,
+        sites and base; the call can be cancelled between them.
+
+        remove_vertices: (remove_count,) vertices that leave the region; others are passed over
+        add_vertices: (add_count,) vertices that join it; those in it already are passed over
+        ring_count: rings of vertices by which the region grows; below 0 it shrinks
+        curve: the region becomes what this curve encloses
+        progress: an object to poll and cancel through
+
+        Raises CancelledError, EmptyError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        desc = _region_edit_desc(c, remove_vertices=remove_vertices, add_vertices=add_vertices, ring_count=ring_count,
+                curve=curve, progress=progress)
+        call('hf_region_edit', self._handle, ref(desc))
+
+    @property
+    def info(self) -> RegionInfo:
+        """Writes the info of a region."""
+        c = Call(self)
+        info = c.struct(_raw.hf_region_info, {})
+        call('hf_region_get_info', self._handle, ref(info))
+        return info
+
+    def vertices(self, list: int = RegionList.INSIDE) -> np.ndarray:
+        """Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
+
+        list: RegionList.
+
+        Raises InvalidArgumentError.
+        """
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_region_get_vertices', self._handle, number(list, 'list', ctypes.c_int32, flag=False),
+                    room['capacity'], address(made['vertices']), ref(count))
+
+        found = c.grow(self, 'hf_region_get_vertices', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'vertices': (np.uint32, ('capacity',))})
+        return found['vertices']
+
+    def curve(self) -> np.ndarray:
+        """Writes the corners of the region's last curve, to draw it, in order, in the unit and frame of the positions in
+        hf_region_desc. The last corner is joined to the first. Rings, added and removed vertices leave it as it is.
+        """
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_region_get_curve', self._handle, room['capacity'], address(made['points']), ref(count))
+
+        found = c.grow(self, 'hf_region_get_curve', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'points': (np.float64, ('capacity', 3))})
+        return found['points']
+
+    def morph(self, weight: float = 0.0, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
+            normals: Optional[np.ndarray] = None) -> np.ndarray:
+        """Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
+        hf_region_desc. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A
+        weight below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p. The call
+        solves nothing.
+
+        weight: any finite number
+        out: (vertex_count, 3) in the unit and frame of the mesh as given, or None
+        normals: (vertex_count, 3) unit normals of the morphed surface, shared across seams, or None
+
+        Raises InvalidArgumentError, NonFiniteError, TooLargeError.
+        """
+        c = Call(self)
+        desc = _morph_desc(c, weight=weight)
+        out, desc.position_stride = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        setattr(desc, 'positions_f64' if out.dtype == np.float64 else 'positions', address(out))
+        if normals is not None:
+            normals, desc.normal_stride = c.out(normals, 'f4', ('vertex_count', 3), name='normals')
+            setattr(desc, 'normals', address(normals))
+        call('hf_region_morph', self._handle, ref(desc))
+        return out
+
+
+class Detail(Object):
+    """The detail of a source region, transferred to a target region. Both may be on one surface or on two.
+
+    Carries the detail of the source region to the target region. A harmonic map with positive weights takes each
+    region to the unit disc (an embedding: Tutte 1963, Floater 1997). Vertices around a region (its rim) lie on the
+    circle, by arc length between the pairs of desc. Points at the same place in the disc correspond. The function
+    stores the offset from base to surface in a local frame of the Both regions must be discs: in one piece, one rim
+    loop, no hole, manifold, of one orientation.
+
+    source: the normal of the base, and the direction in which the first disc coordinate grows. It interpolates the
+        offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades to
+        nothing at the rim. If source and target are the same region, the result is the surface itself. Later edits of
+        the regions do not change the object.
+    source_vertices: (pair_count,) rim vertices of the source, as given
+    target_vertices: (pair_count,) rim vertices of the target, as given
+    scale: of the detail, > 0; 0 = square root of target base area over source base area
+    progress: an object to poll and cancel through
+    """
+
+    _destroy = 'hf_detail_destroy'
+    _counts = ('vertex_count',)
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the surface, as given."""
+        return self._n.get('vertex_count', 0)
+
+    def __init__(self, source: Region, target: Region, source_vertices: Optional[ArrayLike] = None,
+            target_vertices: Optional[ArrayLike] = None, *, scale: float = 0.0,
+            progress: Optional[Progress] = None) -> None:
+        c = Call(source=source, target=target)
+        desc = _detail_desc(c, source_vertices=source_vertices, target_vertices=target_vertices, scale=scale,
+                progress=progress)
+        self._own('hf_detail_create', c, handle_of(source, Region, 'source'), handle_of(target, Region, 'target'),
+                ref(desc))
+
+    def morph(self, weight: float = 0.0, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
+            normals: Optional[np.ndarray] = None) -> np.ndarray:
+        """Writes the target's surface with its detail replaced. A vertex of the target region gets base + weight
+        (transferred detail); all others keep their positions. Weight 0 gives the smooth base, and weight 1 the detail
+        as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
+
+        weight: any finite number
+        out: (vertex_count, 3) in the unit and frame of the mesh as given, or None
+        normals: (vertex_count, 3) unit normals of the morphed surface, shared across seams, or None
+
+        Raises InvalidArgumentError, NonFiniteError, TooLargeError.
+        """
+        c = Call(self)
+        desc = _morph_desc(c, weight=weight)
+        out, desc.position_stride = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        setattr(desc, 'positions_f64' if out.dtype == np.float64 else 'positions', address(out))
+        if normals is not None:
+            normals, desc.normal_stride = c.out(normals, 'f4', ('vertex_count', 3), name='normals')
+            setattr(desc, 'normals', address(normals))
+        call('hf_detail_morph', self._handle, ref(desc))
+        return out
+
+
+class Transfer(Object):
+    """hf/transfer.h - play the motion of one surface on another.
+
+    You pair regions of the source surface with regions of the target surface. From the pairs both surfaces get the
+    same harmonic coordinates, and places of equal coordinates correspond. The vertices around such a place form a
+    cluster. The target takes over the rotations of the source's clusters. Its translations follow from its own shape
+    (Xu, Zhang, Cohen-Or and Xiong 2009, Section 6), and from where the source's clusters turn about one another. A
+    limb whose parts reach farther than the source's turns less, so that it moves as far: a held sword, a long tail, a
+    large head. The dial long_follow gives it the whole turn.
+
+    Creates a transfer between two surfaces; both may be the same.
+
+    source_rest: (source.vertex_count, 3), or None Poses in which the two bodies correspond, in each surface's unit,
+        read by the call, or None for the positions of the surface. A character bound in a crouch gets a standing pose
+        here. Motion counts from these poses; the fields stay those of the surfaces.
+    target_rest: (target.vertex_count, 3), or None
+    mode: TransferMode
+    cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
+    ground: Ground
+    kernel_width: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is more,
+        up to 0.12
+    scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no
+        pair is a foot
+    alignment_angle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times
+        the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
+    source_axes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward
+        +z). Lengths, and right x up = forward, must hold within 1e-3. The library takes the nearest rotation.
+    """
+
+    _destroy = 'hf_transfer_destroy'
+    _counts = ('vertex_count',)
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the surface, as given."""
+        return self._n.get('vertex_count', 0)
+
+    def __init__(self, source: Surface, target: Surface, source_rest: Optional[ArrayLike] = None,
+            target_rest: Optional[ArrayLike] = None, *, mode: int = TransferMode.FIELDS, cluster_count: int = 0,
+            ground: int = Ground.KEEP, kernel_width: float = 0.0, scale: float = 0.0, alignment_angle: float = 0.0,
+            source_axes: Optional[ArrayLike] = None, target_axes: Optional[ArrayLike] = None) -> None:
+        c = Call(source=source, target=target)
+        desc = _transfer_desc(c, source_rest=source_rest, target_rest=target_rest, mode=mode,
+                cluster_count=cluster_count, ground=ground, kernel_width=kernel_width, scale=scale,
+                alignment_angle=alignment_angle, source_axes=source_axes, target_axes=target_axes)
+        self._own('hf_transfer_create', c, handle_of(source, Surface, 'source'), handle_of(target, Surface, 'target'),
+                ref(desc))
+
+    def add_pairs(self, source_vertices: Optional[Sequence[ArrayLike]] = None,
+            target_vertices: Optional[Sequence[ArrayLike]] = None, flags: Optional[ArrayLike] = None, *,
+            progress: Optional[Progress] = None) -> np.ndarray:
+        """Adds pairs.
+
+        source_vertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries
+            per vertex
+        target_vertices: lists of whole numbers:
+        flags: (pair_count,) PairFlag, or None for none
+        progress: an object to poll and cancel through
+
+        Raises CancelledError, ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        desc = _pairs_desc(c, source_vertices=source_vertices, target_vertices=target_vertices, flags=flags,
+                progress=progress)
+        pairs, _ = c.out(None, 'u4', ('pair_count',))
+        call('hf_transfer_add_pairs', self._handle, ref(desc), address(pairs))
+        return pairs
+
+    def remove_pairs(self, pairs: ArrayLike) -> None:
+        """Removes pairs by number.
+
+        pairs: (pair_count,).
+
+        Raises NotFoundError.
+        """
+        c = Call(self)
+        pairs_ = c.array('pairs', pairs, 'u4', ('pair_count',))
+        call('hf_transfer_remove_pairs', self._handle, c.n.setdefault('pair_count', 1), pairs_)
+
+    def pair(self, pair: int) -> PairInfo:
+        """Writes the info of a pair. The first call after a change of pairs solves the fields of all pairs, unless
+        Transfer.apply has done so. This changes no result.
+
+        Raises NotFoundError.
+        """
+        c = Call(self)
+        info = c.struct(_raw.hf_pair_info, {})
+        call('hf_transfer_get_pair', self._handle, number(pair, 'pair', ctypes.c_uint32), ref(info))
+        return info
+
+    @property
+    def info(self) -> TransferInfo:
+        """Writes the info of the whole transfer. The first call after a change of pairs solves fields, as Transfer.pair
+        does.
+
+        Raises EmptyError.
+        """
+        c = Call(self)
+        info = c.struct(_raw.hf_transfer_info, {})
+        call('hf_transfer_get_info', self._handle, ref(info))
+        return info
+
+    def set_dials(self, *, stride: float = 0.0, hip_height_share: float = 0.0, neck_follow: float = 0.0,
+            tail_follow: float = 0.0, arm_space: float = 0.0, long_follow: float = 0.0) -> None:
+        """Sets the dials of a transfer for the next frames.
+
+        stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A
+            planted foot does not slide. The body travels as much farther
+        hip_height_share: raises the pairs flagged PairFlag.TRUNK and PairFlag.ANCHOR by this share of their mean
+            height at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised
+        neck_follow: pairs flagged PairFlag.NECK, together one limb How far a limb follows the source, -1 to 1. 0 =
+            neutral: it plays the source's motion from its own rest direction. 1: it also takes the rest direction of
+            the source's limb. -1: it does not move against its root.
+        tail_follow: pairs flagged PairFlag.TAIL, together one limb
+        arm_space: turns arms (PairFlag.ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2
+            radians; 0 = neutral
+        long_follow: how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less,
+            so that they move as far. 1: they make the whole turn. Between, a part may jump that turns by half a turn
+            against the part before it
+
+        Raises InvalidArgumentError, NonFiniteError.
+        """
+        c = Call(self)
+        desc = _transfer_dials(c, stride=stride, hip_height_share=hip_height_share, neck_follow=neck_follow,
+                tail_follow=tail_follow, arm_space=arm_space, long_follow=long_follow)
+        call('hf_transfer_set_dials', self._handle, ref(desc))
+
+    @property
+    def dials(self) -> TransferDials:
+        """Writes the dials; stride is never 0."""
+        c = Call(self)
+        dials = c.struct(_raw.hf_transfer_dials, {})
+        call('hf_transfer_get_dials', self._handle, ref(dials))
+        return dials
+
+    def apply(self, source_positions: Optional[ArrayLike] = None, out: Optional[np.ndarray] = None, *,
+            hold_pairs: Optional[ArrayLike] = None, hold_positions: Optional[ArrayLike] = None, dtype: Any = np.float32,
+            target_normals: Optional[np.ndarray] = None) -> np.ndarray:
+        """Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions
+        differ much on the two surfaces (PairInfo), it takes the direction of the source's limb instead, by a share.
+
+        The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
+        Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The
+        result changes as little as the source does: a source that stands still, but for noise, gives a target that
+        stands still.
+
+        The ground counts too if the mode is TransferMode.FIELDS and some pairs are anchors (their target region
+        follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
+        follows its scaled path exactly. No part of the target sinks deeper into the ground than the source, scaled,
+        but for those of Transfer.sinking. What would sink bends up. The ground does not move regions that you hold. A
+        lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
+        unchanged. All rules of the ground come in continuously. Ground.OFF switches them off.
+
+        source_positions: (source.vertex_count, 3) the posed source, its own vertex order
+        hold_pairs: (hold_count,) each pair at most once
+        hold_positions: (hold_count, 3) in the target's unit and frame
+        out: (target.vertex_count, 3), or None
+        target_normals: (target.vertex_count, 3), or None
+
+        Raises EmptyError, InvalidArgumentError, NonFiniteError, NotFoundError, TooLargeError, UnsupportedError.
+        """
+        c = Call(self)
+        desc = _transfer_frame(c, source_positions=source_positions, hold_pairs=hold_pairs,
+                hold_positions=hold_positions)
+        out, desc.target_stride = c.out(out, 'f4 f8', ('target.vertex_count', 3), dtype)
+        setattr(desc, 'target_positions_f64' if out.dtype == np.float64 else 'target_positions', address(out))
+        if target_normals is not None:
+            target_normals, desc.normal_stride = c.out(target_normals, 'f4', ('target.vertex_count', 3),
+                    name='target_normals')
+            setattr(desc, 'target_normals', address(target_normals))
+        call('hf_transfer_apply', self._handle, ref(desc))
+        return out
+
+    def sinking(self) -> np.ndarray:
+        """Writes which target vertices may sink into the ground.
+
+        Raises EmptyError.
+        """
+        c = Call(self)
+        sinking, _ = c.out(None, 'u1', ('target.vertex_count',))
+        call('hf_transfer_get_sinking', self._handle, address(sinking))
+        return sinking != 0
+
+    def skin(self, influence_count: int = 0, *, scales: bool = False) -> SkinInfo:
+        """Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
+        replays Transfer.apply exactly, because that function also uses the four largest weights.
+
+        influence_count: joints per vertex, 4 or 8; 0 = 4
+        scales: (joint_capacity, 3) along the axes in the last frame; None = joints are rigid
+
+        Raises EmptyError, InvalidArgumentError, UnsupportedError.
+        """
+        c = Call(self)
+        skin = c.struct(_raw.hf_skin_info, {'influence_count': influence_count})
+        c.known('influence_count', influence_count or 4)
+
+        def run(room: Any, made: Any) -> None:
+            c.into(skin, room, made)
+            call('hf_transfer_get_skin', self._handle, ref(skin))
+
+        found = c.grow(self, 'hf_transfer_get_skin', run, lambda: {'joint_capacity': skin.joint_count,
+                'vertex_capacity': skin.vertex_count, 'joint_count': skin.joint_count,
+                'vertex_count': skin.vertex_count}, {'joint_capacity': c.n.get('joint_count'),
+                'vertex_capacity': c.n.get('vertex_count')}, {'pivots': (np.float64, ('joint_capacity', 3)),
+                'rotations': (np.float64, ('joint_capacity', 4)), 'translations': (np.float64, ('joint_capacity', 3)),
+                'axes': (np.float64, ('joint_capacity', 4)), **({'scales': (np.float64, ('joint_capacity',
+                3))} if scales else {}), 'vertex_joints': (np.uint32, ('vertex_capacity', 'influence_count')),
+                'vertex_weights': (np.float32, ('vertex_capacity', 'influence_count'))})
+        return SkinInfo(**found)
+
+
+class Weights(Recorded):
+    """The weights of one surface for one skeleton.
+
+    Computes weights.
+
+    heads: (joint_count, 3)
+    tails: (joint_count, 3), or None: heads are joints, and the library finds the tails
+    axes: (joint_count, 3) with tails None: where each joint points, any length, 0 for unknown; or None. A joint
+        reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a
+        last joint ends
+    parents: (joint_count,) number of the parent, NO_INDEX for a root; None: all are roots
+    deforms: (joint_count,) 1: the joint gets weights; None: all do
+    sources: (joint_count,) for Weights.set_joints: the number that the joint had before, NO_INDEX for a new one;
+        None: the same number. Weights: None
+    progress: an object to poll and cancel through
+    influence_count: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has none,
+        it is made now. Sets *weights to None first.
+    """
+
+    _destroy = 'hf_weights_destroy'
+    _counts = ('vertex_count',)
+
+    @property
+    def vertex_count(self) -> int:
+        """Vertices of the surface, as given."""
+        return self._n.get('vertex_count', 0)
+
+    def __init__(self, surface: Surface, heads: Optional[ArrayLike] = None, tails: Optional[ArrayLike] = None,
+            axes: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None, deforms: Optional[ArrayLike] = None,
+            sources: Optional[ArrayLike] = None, influence_count: int = 0, *,
+            progress: Optional[Progress] = None) -> None:
+        c = Call(surface=surface)
+        desc = _joints_desc(c, heads=heads, tails=tails, axes=axes, parents=parents, deforms=deforms, sources=sources,
+                progress=progress)
+        c.known('influence_count', influence_count or 4)
+        self._own('hf_weights_create', c, handle_of(surface, Surface, 'surface'), ref(desc), number(influence_count,
+                'influence_count', ctypes.c_uint32))
+
+    def clone(self) -> "Weights":
+        """Copies the weights with joints, pins and locks. The copy shares the factors and all memory, until one of the
+        two is changed. For undo, keep copies: one before each change.
+        """
+        c = Call(self)
+        made = type(self).__new__(type(self))
+        c.n.update(self._n)
+        made._own('hf_weights_clone', c, self._handle)
+        return made
+
+    def set_joints(self, heads: Optional[ArrayLike] = None, tails: Optional[ArrayLike] = None,
+            axes: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None, deforms: Optional[ArrayLike] = None,
+            sources: Optional[ArrayLike] = None, *, progress: Optional[Progress] = None) -> None:
+        """Replaces all
+
+        heads: (joint_count, 3)
+        tails: (joint_count, 3), or None: heads are joints, and the library finds the tails
+        axes: (joint_count, 3) with tails None: where each joint points, any length, 0 for unknown; or None. A joint
+            reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a
+            last joint ends
+        parents: (joint_count,) number of the parent, NO_INDEX for a root; None: all are roots
+        deforms: (joint_count,) 1: the joint gets weights; None: all do
+        sources: (joint_count,) for Weights.set_joints: the number that the joint had before, NO_INDEX for a new one;
+            None: the same number. Weights: None
+        progress: an object to poll and cancel through
+
+        Raises CancelledError, ConflictError, DuplicateError, EmptyError, InvalidArgumentError, NonFiniteError,
+        OutOfRangeError, UnsupportedError.
+        """
+        c = Call(self)
+        desc = _joints_desc(c, heads=heads, tails=tails, axes=axes, parents=parents, deforms=deforms, sources=sources,
+                progress=progress)
+        call('hf_weights_set_joints', self._handle, ref(desc))
+
+    def set_pins(self, vertices: Optional[ArrayLike] = None, *, triangles: Optional[ArrayLike] = None,
+            barycentrics: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
+            joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
+            progress: Optional[Progress] = None) -> None:
+        """Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
+        disc. Pins at the same places with other weights cost no path.
+
+        vertices: (pin_count,) vertices as given, or None
+        triangles: (pin_count,) triangles as given, or None
+        barycentrics: (pin_count, 3) with triangles, else None: weights of the corners, >= 0, of sum 1 within 1e-6
+        radii: (pin_count,) of the geodesic disc around the place, in the unit of the mesh; None or 0: the place alone
+        joints: (pin_count, influence_count) joints
+        weights: (pin_count, influence_count) >= 0, scaled to the sum 1
+        progress: an object to poll and cancel through
+
+        Raises CancelledError, ConflictError, DuplicateError, InvalidArgumentError, NonFiniteError, OutOfRangeError,
+        TooLargeError.
+        """
+        c = Call(self)
+        desc = _pins_desc(c, vertices=vertices, triangles=triangles, barycentrics=barycentrics, radii=radii,
+                joints=joints, weights=weights, progress=progress)
+        call('hf_weights_set_pins', self._handle, ref(desc))
+
+    def set_locks(self, joints: ArrayLike, values: Optional[ArrayLike] = None) -> None:
+        """Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0
+        unlocks.
+
+        joints: (lock_count,).
+        values: (vertex_count, lock_count) weights to keep, 0 to 1, or None for the present ones. Welded copies take
+            the values of the first. Pinned vertices keep the weights of their pins.
+
+        Raises DuplicateError, InvalidArgumentError, NonFiniteError, OutOfRangeError.
+        """
+        c = Call(self)
+        joints_ = c.array('joints', joints, 'u4', ('lock_count',))
+        values_ = c.array('values', values, 'f4', ('vertex_count', 'lock_count'))
+        call('hf_weights_set_locks', self._handle, c.n.setdefault('lock_count', 1), joints_, values_)
+
+    def get(self) -> WeightsOut:
+        """Writes the weights. Welded copies of a vertex get the same. Unused places have weight 0 and the first joint of
+        the vertex.
+
+        Raises TooLargeError.
+        """
+        c = Call(self)
+        weights = c.struct(_raw.hf_weights_out, {})
+
+        def run(room: Any, made: Any) -> None:
+            c.into(weights, room, made)
+            call('hf_weights_get', self._handle, ref(weights))
+
+        found = c.grow(self, 'hf_weights_get', run, lambda: {'vertex_capacity': weights.vertex_count,
+                'vertex_count': weights.vertex_count, 'influence_count': weights.influence_count},
+                {'vertex_capacity': c.n.get('vertex_count')}, {'joints': (np.uint32, ('vertex_capacity',
+                'influence_count')), 'weights': (np.float32, ('vertex_capacity', 'influence_count')),
+                'origins': (np.uint8, ('vertex_capacity',))})
+        return WeightsOut(**found)
+
+    def joints(self) -> Tuple[np.ndarray, np.ndarray]:
+        """Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not deform
+        have no flags.
+        """
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_weights_get_joints', self._handle, room['capacity'], address(made['flags']),
+                    address(made['vertex_counts']), ref(count))
+
+        found = c.grow(self, 'hf_weights_get_joints', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'flags': (np.uint32, ('capacity',)), 'vertex_counts': (np.uint32, ('capacity',))})
+        return found['flags'], found['vertex_counts']
+
+    @property
+    def info(self) -> WeightsInfo:
+        """Writes the info."""
+        c = Call(self)
+        info = c.struct(_raw.hf_weights_info, {})
+        call('hf_weights_get_info', self._handle, ref(info))
+        return info
+
+    def helpers(self, names: Union[None, str, Sequence[str]] = None) -> np.ndarray:
+        """Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and
+        sets deforms to 0.
+
+        names: one line for each joint in UTF-8, or None.
+
+        Raises InvalidArgumentError.
+        """
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_weights_get_helpers', self._handle, c.text(names), room['capacity'], address(made['reasons']),
+                    ref(count))
+
+        found = c.grow(self, 'hf_weights_get_helpers', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'reasons': (np.uint32, ('capacity',))})
+        return found['reasons']
+
+    @staticmethod
+    def transfer(source: Surface, target: Surface, joints: Optional[ArrayLike] = None,
+            weights: Optional[ArrayLike] = None, *, distance: float = 0.0, angle: float = 0.0, influence_count: int = 0,
+            progress: Optional[Progress] = None, info: Optional[WeightsTransferInfo] = None) -> WeightsOut:
+        """Transfers weights from one surface to another: clothes, hair, levels of detail, new topology. Both stand in
+        the same frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-
+        harmonic field fills in the vertices without such a point. A piece without any takes the weights of the
+        nearest points.
+
+        joints: (source.vertex_count, source_influence_count)
+        weights: (source.vertex_count, source_influence_count) >= 0; a vertex whose weights are all 0 gives none
+        distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
+        angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
+        influence_count: joints of each vertex in the result: 4 or 8; 0: 4
+        progress: an object to poll and cancel through
+        info: filled in when given
+
+        Raises CancelledError, EmptyError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
+        TooSmallError, UnsupportedError.
+        """
+        c = Call(source=source, target=target)
+        desc = _weights_transfer_desc(c, joints=joints, weights=weights, distance=distance, angle=angle,
+                influence_count=influence_count, progress=progress)
+        weights_ = c.struct(_raw.hf_weights_out, {})
+
+        def run(room: Any, made: Any) -> None:
+            c.into(weights_, room, made)
+            call('hf_weights_transfer', handle_of(source, Surface, 'source'), handle_of(target, Surface, 'target'),
+                    ref(desc), ref(weights_), c.info(info, _raw.hf_weights_transfer_info))
+
+        found = c.grow(source, 'hf_weights_transfer', run, lambda: {'vertex_capacity': weights_.vertex_count,
+                'vertex_count': weights_.vertex_count, 'influence_count': weights_.influence_count},
+                {'vertex_capacity': c.n.get('vertex_count')}, {'joints': (np.uint32, ('vertex_capacity',
+                'influence_count')), 'weights': (np.float32, ('vertex_capacity', 'influence_count')),
+                'origins': (np.uint8, ('vertex_capacity',))})
+        return WeightsOut(**found)
+
+    @staticmethod
+    def mirror(surface: Surface, heads: Optional[ArrayLike] = None, names: Union[None, str, Sequence[str]] = None,
+            partners: Optional[ArrayLike] = None, plane: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None,
+            weights: Optional[ArrayLike] = None, *, to: int = MirrorTo.TO_NEGATIVE, distance: float = 0.0,
+            angle: float = 0.0, influence_count: int = 0, progress: Optional[Progress] = None,
+            info: Optional[WeightsMirrorInfo] = None) -> Tuple[WeightsOut, np.ndarray, np.ndarray]:
+        """Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the
+        nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
+        fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a
+        positive largest component, so along x, MirrorTo.TO_NEGATIVE copies from +x to -x.
+
+        heads: (joint_count, 3) the joints at rest, in the frame of the mesh
+        names: one line for each joint in UTF-8, or None: joints are paired by their places
+        partners: (joint_count,) the joint of the other side, NO_INDEX: find it; or None
+        plane: (6,) a point and a normal, or None: find the plane
+        joints: (vertex_count, source_influence_count)
+        weights: (vertex_count, source_influence_count) >= 0; a vertex whose weights are all 0 gives none
+        to: MirrorTo
+        distance: as in hf_weights_transfer_desc
+        angle: as in hf_weights_transfer_desc
+        influence_count: joints of each vertex in the result: 4 or 8; 0: 4
+        progress: an object to poll and cancel through
+        info: filled in when given
+
+        Raises CancelledError, EmptyError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
+        TooSmallError, UnsupportedError.
+        """
+        c = Call(surface=surface)
+        desc = _weights_mirror_desc(c, heads=heads, names=names, partners=partners, plane=plane, joints=joints,
+                weights=weights, to=to, distance=distance, angle=angle, influence_count=influence_count,
+                progress=progress)
+        weights_ = c.struct(_raw.hf_weights_out, {})
+        partners_, _ = c.out(None, 'u4', ('joint_count',))
+        pairings, _ = c.out(None, 'u4', ('joint_count',))
+
+        def run(room: Any, made: Any) -> None:
+            c.into(weights_, room, made)
+            call('hf_weights_mirror', handle_of(surface, Surface, 'surface'), ref(desc), ref(weights_),
+                    address(partners_), address(pairings), c.info(info, _raw.hf_weights_mirror_info))
+
+        found = c.grow(surface, 'hf_weights_mirror', run, lambda: {'vertex_capacity': weights_.vertex_count,
+                'vertex_count': weights_.vertex_count, 'influence_count': weights_.influence_count},
+                {'vertex_capacity': c.n.get('vertex_count')}, {'joints': (np.uint32, ('vertex_capacity',
+                'influence_count')), 'weights': (np.float32, ('vertex_capacity', 'influence_count')),
+                'origins': (np.uint8, ('vertex_capacity',))})
+        return WeightsOut(**found), partners_, pairings
+
+
+__all__ = [
+    'Base', 'Certificate', 'Critical', 'CriticalInfo', 'CriticalPoint', 'CurveKind', 'DeformInfo', 'DeformMode',
+    'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod', 'Engine', 'Extremity', 'ExtremityKind',
+    'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal', 'HandleReason',
+    'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'Levels', 'Link', 'LinkMode', 'MirrorPairing', 'MirrorPlane',
+    'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo', 'Path', 'Pose', 'PoseInfo', 'PreviewInfo',
+    'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh', 'Region', 'RegionInfo', 'RegionList', 'Route', 'Side',
+    'Singularity', 'SitesInfo', 'SkinInfo', 'SolveInfo', 'Solver', 'SolverInfo', 'SolverStatistics',
+    'Streamlines', 'Surface', 'SurfaceInfo', 'SurfacePoint', 'SurfaceReport', 'SurfaceStatistics', 'Transfer',
+    'TransferDials', 'TransferInfo', 'TransferMode', 'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo',
+    'WeightsOrigin', 'WeightsOut', 'WeightsTransferInfo', 'Weld'
+]

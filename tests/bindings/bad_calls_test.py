@@ -1,0 +1,142 @@
+"""The mistakes that need no thought, for every function of the ABI, made from its description (bindings/api.json): a handle that is
+NULL, destroyed or of another kind; NULL for a pointer that is needed, and for one that is not; a struct of the wrong size.
+
+A new function is in all of them with no hand work. Calls go through ctypes, past what the package checks.
+"""
+
+import ctypes
+import json
+import pathlib
+import unittest
+
+import numpy as np
+
+import hf
+from hf import _library, _raw
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+API = json.loads((ROOT / "bindings/api.json").read_text())
+STRUCTS = {s["name"]: s for s in API["structs"]}
+HANDLES = {h["name"] for h in API["handles"]}
+CODES = {value: name for value, name in _raw.RESULT_NAMES.items()}
+NULL_POINTER, INVALID_HANDLE, INVALID_DESC = "HF_ERROR_NULL_POINTER", "HF_ERROR_INVALID_OBJECT", "HF_ERROR_INVALID_DESC"
+ROOM = 1 << 16  # bytes behind every pointer: more than any call on the small mesh writes
+# other arguments are zeros: where the library reads those first, it refuses them first
+SOONER = ("HF_ERROR_INVALID_ARGUMENT", "HF_ERROR_EMPTY")
+
+
+def objects():
+    """One of every kind, and another that is closed."""
+    n = 6
+    points = np.array([[i // n, i % n, (i * 7 % 5) * 0.1] for i in range(n * n)], np.float64)
+    first = np.array([i * n + j for i in range(n - 1) for j in range(n - 1)])
+    faces = np.concatenate([np.stack([first, first + n, first + n + 1], 1), np.stack([first, first + n + 1, first + 1], 1)])
+    surface = hf.Surface(points, faces)
+    region = hf.Region(surface)
+    region.edit(add_vertices=[14])
+    solver, pose = hf.Solver(surface), hf.Pose(surface)
+    solver.add_sites([0, 35], [0.0, 1.0])
+    pose.add_handles([[0, 1], [34, 35]])
+    made = {"hf_surface": surface, "hf_region": region, "hf_solver": solver, "hf_pose": pose, "hf_progress": hf.Progress()}
+    makers = {"hf_detail": lambda: hf.Detail(region, region.clone()), "hf_weights": lambda: hf.Weights(surface, [[0.0, 0, 0], [5.0, 5, 0]]),
+              "hf_transfer": lambda: hf.Transfer(surface, surface)}
+    for name in HANDLES - made.keys():  # what is made on a surface alone needs no line here
+        made[name] = makers[name]() if name in makers else getattr(hf, "".join(w.title() for w in name[3:].split("_")))(surface)
+    return made
+
+
+class Calls(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.live, cls.stale = objects(), objects()
+        for thing in cls.stale.values():
+            thing.close()
+
+    def arguments(self, function):
+        """Arguments that are right in form: live handles, zeroed memory behind every pointer, structs with their size."""
+        keep, values = [], []
+        for p in function["parameters"]:
+            if p["type"] in HANDLES and not p["pointer"]:
+                optional = p.get("optional")
+                values.append(None if optional else self.live[p["type"]].raw_handle)
+            elif p["pointer"]:
+                block = (ctypes.c_uint8 * ROOM)()
+                keep.append(block)
+                if p["type"] in STRUCTS and STRUCTS[p["type"]]["fields"][0]["name"] == "struct_size":
+                    ctypes.c_uint32.from_buffer(block).value = ctypes.sizeof(getattr(_raw, p["type"]))
+                values.append(ctypes.addressof(block))
+            else:
+                values.append(0.0 if p["type"] in ("float", "double") else 0)
+        return keep, values
+
+    def code(self, function, values):
+        found = getattr(_library.library(), function["name"])(*values)
+        return CODES.get(found, found)
+
+    def each(self, kind):
+        """(function, place, parameter) of the functions that return a result."""
+        for function in API["functions"]:
+            if function["returns"]["type"] == "hf_result":
+                for place, p in enumerate(function["parameters"]):
+                    if kind(p):
+                        yield function, place, p
+
+    def test_a_handle_that_is_null_or_destroyed_or_of_another_kind_is_refused_by_every_function(self):
+        rows = 0
+        for function, place, p in self.each(lambda p: p["type"] in HANDLES and not p["pointer"]):
+            wrong = [self.stale[p["type"]].raw_handle, self.live["hf_pose" if p["type"] != "hf_pose" else "hf_solver"].raw_handle]
+            for handle in wrong + ([] if p.get("optional") else [None]):
+                keep, values = self.arguments(function)
+                values[place] = handle
+                with self.subTest(function=function["name"], parameter=p["name"], handle=handle):
+                    self.assertEqual(self.code(function, values), INVALID_HANDLE)
+                rows += 1
+        self.assertGreater(rows, 200)
+
+    def test_null_for_a_pointer_that_is_needed_is_refused_by_every_function(self):
+        rows = exact = 0
+        for function, place, p in self.each(lambda p: p["pointer"] and not p.get("optional")):
+            keep, values = self.arguments(function)
+            values[place] = None
+            if p["role"] == "array" and p["direction"] == "in":  # a list of none may be NULL: say that there is one
+                for other, q in enumerate(function["parameters"]):
+                    values[other] = 1 if q["role"] == "count" and q["name"] in p.get("dims", ()) else values[other]
+            with self.subTest(function=function["name"], parameter=p["name"]):
+                code = self.code(function, values)
+                self.assertIn(code, (NULL_POINTER, *SOONER))
+                exact += code == NULL_POINTER
+            rows += 1
+        self.assertGreater(rows, 60)
+        self.assertGreater(exact, 0.8 * rows)
+
+    def test_null_for_a_pointer_that_may_be_left_out_is_never_called_null(self):
+        rows = 0
+        for function, place, p in self.each(lambda p: p["pointer"] and p.get("optional") and p["role"] != "handle"):
+            keep, values = self.arguments(function)
+            values[place] = None
+            with self.subTest(function=function["name"], parameter=p["name"]):
+                code = self.code(function, values)
+                named = _raw.hf_error_detail()
+                _library.library().hf_error_get_detail(ctypes.byref(named))
+                self.assertFalse(code == NULL_POINTER and p["name"] in named.message.decode(), named.message)
+            rows += 1
+        self.assertGreater(rows, 60)
+
+    def test_a_struct_of_the_wrong_size_is_refused_by_every_function(self):
+        rows = exact = 0
+        for function, place, p in self.each(lambda p: p["pointer"] and p["type"] in STRUCTS and
+                                            STRUCTS[p["type"]]["fields"][0]["name"] == "struct_size"):
+            for size in (0, 3):
+                keep, values = self.arguments(function)
+                ctypes.c_uint32.from_address(values[place]).value = size
+                with self.subTest(function=function["name"], parameter=p["name"], size=size):
+                    code = self.code(function, values)
+                    self.assertIn(code, (INVALID_DESC, *SOONER))
+                    exact += code == INVALID_DESC
+                rows += 1
+        self.assertGreater(rows, 100)
+        self.assertGreater(exact, 0.8 * rows)
+
+
+if __name__ == "__main__":
+    unittest.main()

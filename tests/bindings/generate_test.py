@@ -1,0 +1,155 @@
+"""One description writes every language: a toy function in a copy of a header reaches all of them with no hand work, and a
+header that leaves a question open is refused by name."""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "bindings/generate"))
+import generate
+import model
+import parse_headers
+import plan
+
+TOY = """
+/* Writes the mean of the values of all sites. out_mean: receives the mean. Errors: HF_ERROR_EMPTY. Thread safety: reads
+ * `solver`. Since 0.1. */
+HF_API hf_result hf_solver_get_mean(hf_solver solver, double* out_mean);
+
+/* Shifts sites by a vector for each. sites: uint32_t[site_count]. vectors: double[site_count][3] in the unit of the mesh.
+ * Thread safety: changes `solver`. Since 0.1. */
+HF_API hf_result hf_solver_shift_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* vectors);
+"""
+
+
+def with_toy(folder, text=TOY):
+    """A copy of the headers with more at the end of solver.h."""
+    shutil.copytree(ROOT / "include", folder / "include")
+    header = folder / "include/hf/solver.h"
+    before, brace, after = header.read_text().rpartition("#ifdef __cplusplus")
+    header.write_text(before + text + brace + after)
+    return folder / "include"
+
+
+class OneDescription(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def test_nothing_in_the_headers_is_left_open(self):
+        api = parse_headers.read_api(ROOT / "include")
+        self.assertTrue(all(p["role"] for f in api["functions"] for p in f["parameters"]))
+        self.assertTrue(all(f["noun"] or f["name"] in plan.LOOSE for f in api["functions"]))
+
+    def test_a_toy_function_is_in_every_raw_layer(self):
+        made = generate.files(with_toy(self.folder))
+        for name in ("functions.txt", "api.json", "python/hf/_raw.py", "js/src/raw.js", "csharp/Hf/Raw.cs", "rust/src/raw.rs"):
+            self.assertIn("hf_solver_get_mean", made[name], name)
+
+    def test_a_toy_function_is_a_method_of_python_that_is_called_with_arrays(self):
+        made = generate.files(with_toy(self.folder))
+        shutil.copytree(ROOT / "bindings/python", self.folder / "python")
+        for name, text in made.items():
+            if name.startswith("python/"):
+                (self.folder / name).write_text(text)
+        script = self.folder / "call.py"
+        script.write_text(CALL)
+        subprocess.run([sys.executable, script], cwd=self.folder / "python", check=True)
+
+    def test_a_toy_function_is_a_method_of_javascript_that_is_called_with_arrays(self):
+        node = shutil.which("node")
+        if node is None:
+            self.skipTest("no node here")
+        made = generate.files(with_toy(self.folder))
+        shutil.copytree(ROOT / "bindings/js/src", self.folder / "js/src")
+        for name, text in made.items():
+            if name.startswith("js/"):
+                (self.folder / name).write_text(text)
+        types = (self.folder / "js/src/index.d.ts").read_text()
+        self.assertIn("  readonly mean: number;", types)
+        self.assertIn("  shiftSites(sites: Rows, vectors: Rows): void;", types)
+        (self.folder / "js/src/call_toy.mjs").write_text(CALL_JS)
+        subprocess.run([node, self.folder / "js/src/call_toy.mjs"], check=True)
+
+    def test_what_a_comment_leaves_open_is_refused_by_name(self):
+        cases = {"hf_solver_get_mean, out_mean: how many?": TOY.replace("out_mean: receives the mean. ", ""),
+                 "hf_solver_shift_sites, vectors: how many?": TOY.replace("vectors: double[site_count][3] ", "vectors: "),
+                 "what is corner_count?": TOY.replace("double[site_count][3]", "double[corner_count][3]"),
+                 "its name starts with out_": TOY.replace("out_mean", "mean")}
+        for number, (words, text) in enumerate(cases.items()):
+            with self.subTest(words=words):
+                with self.assertRaises(model.Problems) as caught:
+                    parse_headers.read_api(with_toy(self.folder / str(number), text))
+                self.assertIn(words, str(caught.exception))
+
+
+CALL = '''
+import sys
+sys.path.insert(0, ".")
+sys.dont_write_bytecode = True
+import ctypes
+import inspect
+import numpy as np
+import hf
+from hf import _library
+
+class Stub:
+    """A library with the two functions alone."""
+    def hf_solver_get_mean(self, handle, out):
+        out._obj.value = handle + 0.5
+        return 0
+    def hf_solver_shift_sites(self, handle, count, sites, vectors):
+        self.got = count, np.ctypeslib.as_array((ctypes.c_double * (3 * count)).from_address(vectors)).tolist()
+        return 0
+
+stub = Stub()
+_library.library = lambda: stub
+solver = hf.Solver.__new__(hf.Solver)
+solver._handle = 2
+assert solver.mean == 2.5
+assert hf.Solver.mean.__doc__.startswith("Writes the mean of the values of all sites."), hf.Solver.mean.__doc__
+assert "EmptyError" in hf.Solver.mean.__doc__
+solver.shift_sites([4, 5], [[1, 2, 3], [4, 5, 6]])
+assert stub.got == (2, [1, 2, 3, 4, 5, 6]), stub.got
+try:
+    solver.shift_sites([4, 5], [[1, 2], [3, 4]])
+except hf.InvalidArgumentError as error:
+    assert "vectors must have the shape (2, 3), not (2, 2)" in str(error), error
+else:
+    raise AssertionError("two numbers for each were taken for three")
+assert str(inspect.signature(hf.Solver.shift_sites)).startswith("(self, sites"), inspect.signature(hf.Solver.shift_sites)
+'''
+
+CALL_JS = '''
+import assert from 'node:assert/strict';
+import { makeApi } from './objects.js';
+
+// a library with the functions of the toy alone
+let handles = 1n;
+let got;
+const stub = {
+  name: 'stub',
+  width: 1,
+  newHandle: () => new BigUint64Array(1),
+  call(name, args) {
+    if (name === 'hf_version_get') return 1000;
+    if (name === 'hf_solver_get_mean') args[1].array[0] = 2.5;
+    else if (name === 'hf_solver_shift_sites') got = [args[1], [...args[2].array], [...args[3].array]];
+    else if (name.includes('create')) args.at(-1).array[0] = handles++;
+    return 0;
+  },
+};
+const hf = makeApi(stub);
+const solver = new hf.Solver(new hf.Surface([0, 0, 0], [0, 0, 0]));
+assert.equal(solver.mean, 2.5);
+solver.shiftSites([4, 5], [1, 2, 3, 4, 5, 6]);
+assert.deepEqual(got, [2, [4, 5], [1, 2, 3, 4, 5, 6]]);
+assert.throws(() => solver.shiftSites([4, 5], [1, 2, 3, 4]), /vectors must hold 6 numbers, not 4/);
+'''
+
+if __name__ == "__main__":
+    unittest.main()
