@@ -3,7 +3,7 @@ arrays to memory and counts, room for arrays that grow."""
 
 import re
 
-from model import named, symbols
+from model import OBJECT_COUNTS, named, symbols
 from plan import FIRST, camel, classes, dims_used, recorded
 from steps import Planner, desc_steps, field_steps, least
 from types_js import ARRAYS, KINDS, Types, js
@@ -259,6 +259,8 @@ class Writer(Types):
                 found.append((js(name), f"{js(name)}.get('found') ? {text} : null" if named(self.structs[item["type"]].struct["fields"], "found") else text))
             elif kind == "returned":
                 return ""
+            elif kind == "bytes" and item["type"] == "char":
+                found.append((js(name), "new TextDecoder().decode(block.subarray(0, -1))"))
             elif kind == "arrays":
                 figures = [f for f in item.struct["fields"] if f["direction"] == "out" and f["role"] in ("scalar", "flag", "enum")]
                 found.append((js(name), "{ ...found" + "".join(f", {js(f['name'])}: {js(name)}.get('{f['name']}')" for f in figures) + " }"))
@@ -298,7 +300,7 @@ class Writer(Types):
         self.methods = {}
         for handle, methods in self.groups:
             name = camel(handle["name"])
-            counts = sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & {"vertex_count", "channel_count"})
+            counts = sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & set(OBJECT_COUNTS))
             out += ["", f"  class {name} extends {'Recorded' if recorded(methods) else 'Handle'} {{", f"    static destroy = '{next((m.name for m in methods if m.kind == 'destroy'), '')}';",
                     f"    static counts = [{', '.join(repr(c) for c in counts)}];"]
             for count in counts:

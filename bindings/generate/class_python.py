@@ -6,7 +6,7 @@ import textwrap
 
 from errors_python import block, error_name, errors
 from layer_python import TYPES as CTYPES
-from model import named, symbols
+from model import OBJECT_COUNTS, named, symbols
 from plan import camel, classes, dims_used, recorded
 from steps import Planner, desc_steps, field_steps, least
 from words import Words, class_words, fold, method_words
@@ -248,7 +248,7 @@ class Writer:
             elif kind == "grown":
                 found.append((f"found['{name}']", "np.ndarray"))
             elif kind == "bytes":
-                found.append(("block.tobytes()", "bytes"))
+                found.append(("block.tobytes()[:-1].decode()", "str") if item["type"] == "char" else ("block.tobytes()", "bytes"))
             elif kind == "figure":
                 found.append((f"{safe(name)}.value", self.hint(item)))
             elif kind == "object":
@@ -333,7 +333,7 @@ class Writer:
 
     def class_of(self, handle, methods):
         self.names.append(camel(handle["name"]))
-        counts = sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & {"vertex_count", "channel_count"})
+        counts = sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & set(OBJECT_COUNTS))
         out = ["", "", f"class {camel(handle['name'])}({'Recorded' if recorded(methods) else 'Object'}):", *block(self.words.say(class_words(handle, methods, self.structs)), 4), ""]
         out += [f"    _destroy = {next((m.name for m in methods if m.kind == 'destroy'), '')!r}", f"    _counts = {tuple(counts)!r}"]
         for count in counts:

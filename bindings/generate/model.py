@@ -11,6 +11,7 @@ derive(api) adds them to the description; every layer reads the same. Roles:
 import re
 
 SUFFIXES = ("_f64", "_u16")  # the same array in another type
+OBJECT_COUNTS = ("vertex_count", "channel_count", "joint_count")  # lengths that belong to an object
 
 class Problems(Exception):
     pass
@@ -39,8 +40,8 @@ def role_of(api, item, struct=None):
         return "array" if item["pointer"] else "callback" if any(f["role"] == "callback" for f in inner["fields"]) else "struct"
     if inner:
         return "struct"
-    if item["type"] == "char" and item["pointer"]:
-        return "string"
+    if item["type"] == "char" and item["pointer"]:  # text that the library writes ends in a zero
+        return "string" if item["const"] else "bytes"
     if item["type"] == "void" and item["pointer"]:
         return "bytes"
     if item["pointer"]:
@@ -201,10 +202,10 @@ def derive(api):
         look_at_parameters(api, function, enums, problems)
         function["noun"], function["verb"] = place_of(api, function)
         function["kind"] = kind_of(api, function)
-        known = set().union(*(names_known(api, function, p) for p in function["parameters"]), {"vertex_count", "channel_count"})
+        known = set().union(*(names_known(api, function, p) for p in function["parameters"]), set(OBJECT_COUNTS))
         for p in function["parameters"]:
             for name in symbols(p["dims"]):
-                if name not in known and name.split(".")[0] not in known and not name.endswith(".vertex_count"):
+                if name not in known and name.split(".")[0] not in known and name.rpartition(".")[2] not in OBJECT_COUNTS:
                     problems.append(f"{function['name']}, {p['name']}: what is {name}?")
     for function in api["functions"]:
         also = [named(api["functions"], name) for pair in function.pop("errors_as") for name in pair if name]

@@ -25,14 +25,14 @@ extern "C" {
 typedef struct hf_retarget_object* hf_retarget;
 
 /* Which joint gets the travel over the ground. */
-enum {
+enum hf_root_motion {
   HF_ROOT_MOTION_HIPS = 0,    /* the hips */
   HF_ROOT_MOTION_ROOT = 1,    /* the topmost joint above the hips, as engines want for root motion */
   HF_ROOT_MOTION_IN_PLACE = 2 /* none: the body stays in its place */
 };
 
-/* Steps to leave out. Bits. */
-enum {
+/* Bits that name steps to leave out. */
+enum hf_retarget_step {
   HF_RETARGET_KEEP_RESTS = 1, /* limbs are not aligned: the rests stand alike already, or shall differ */
   HF_RETARGET_NO_GOALS = 2,   /* joints turn, and nothing looks at feet and ground */
   HF_RETARGET_NO_LOCK = 4, /* planted feet may slide. A frame then has no state: a scrubbed timeline gives the bits of
@@ -49,9 +49,9 @@ typedef struct hf_retarget_desc {
   double scale;              /* travel of the target over travel of the source; 0: the ratio of leg lengths */
   double ground_velocity[3]; /* of the ground under a clip on the spot, in the space of the source, per second; 0: the
                                 ground rests. hf_skeleton_get_ground_velocity finds it */
-  const float* source_rest;  /* [joints of the source][10] a pose that counts as rest, or NULL: the rest of the
+  const float* source_rest;  /* [source.joint_count][10] a pose that counts as rest, or NULL: the rest of the
                                 skeleton. Give poses in which both characters stand alike */
-  const float* target_rest;  /* [joints of the target][10] the same for the target, or NULL */
+  const float* target_rest;  /* [target.joint_count][10] the same for the target, or NULL */
   hf_progress progress;      /* NULL, or an object to poll and cancel through */
 } hf_retarget_desc;
 
@@ -70,8 +70,8 @@ HF_API hf_result hf_retarget_clone(hf_retarget retarget, hf_retarget* out_retarg
 /* Destroys a retarget. Ignores NULL and destroyed objects. Since 0.1. */
 HF_API void hf_retarget_destroy(hf_retarget retarget);
 
-/* Computes the pose of the target. source_pose: float[joints of the source][10]. seconds: time since the last frame, 0
- * for the first frame and for a frame that is shown again. out_target_pose: float[joints of the target][10]. The frame
+/* Computes the pose of the target. source_pose: float[source.joint_count][10]. seconds: time since the last frame, 0
+ * for the first frame and for a frame that is shown again. out_target_pose: float[target.joint_count][10]. The frame
  * depends on the source pose and on the state of the feet: whether each is planted, and how far it is moved to keep its
  * place. The state comes from the frames since the last reset and fades within a step. Errors: HF_ERROR_NON_FINITE and
  * HF_ERROR_INVALID_ARGUMENT (a joint transform, index = joint; seconds, HF_NO_INDEX). Thread safety: changes
@@ -84,7 +84,7 @@ HF_API hf_result hf_retarget_solve(hf_retarget retarget, const float* source_pos
 HF_API hf_result hf_retarget_reset(hf_retarget retarget);
 
 /* Where the scale comes from. */
-enum {
+enum hf_scale_from {
   HF_SCALE_GIVEN = 0,
   HF_SCALE_LEGS = 1,  /* lengths of legs, from hip to sole */
   HF_SCALE_HIPS = 2,  /* heights of hips: both stand on four legs or more */
@@ -100,8 +100,7 @@ typedef struct hf_retarget_info {
   uint32_t chain_count;         /* chains of the target that follow */
   int32_t same_skeleton;        /* 1: keys are copied */
   int32_t scale_from;           /* HF_SCALE_* */
-  uint32_t reserved;            /* 0 */
-  uint64_t frame_count;
+  uint32_t frame_count;
   double scale;        /* travel of the target over travel of the source */
   double limb_angle;   /* mean angle between the bones of arms and legs and the same bones of the source, radians */
   double stride_share; /* how far planted feet would travel without the goals, over `scale` times the travel of the
@@ -124,21 +123,22 @@ typedef struct hf_chain_match {
   double worst_angle;
 } hf_chain_match;
 
-/* Writes how chains follow. out_chains: [capacity] or NULL. out_count: NULL, or receives chain_count of the info.
- * Thread safety: reads `retarget`. Since 0.1. */
+/* Writes how chains follow. out_chains: NULL, or hf_chain_match[capacity]. out_count: NULL, or receives chain_count of
+ * the info. Thread safety: reads `retarget`. Since 0.1. */
 HF_API hf_result hf_retarget_get_chains(hf_retarget retarget, uint32_t capacity, hf_chain_match* out_chains,
                                         uint32_t* out_count);
 
-/* Writes which joint of the source each joint of the target follows. out_partners: uint32_t[capacity] or NULL; a joint
- * between two gets the nearer, a joint without a partner HF_NO_INDEX. out_count: NULL, or receives the count of joints
- * of the target. Thread safety: reads `retarget`. Since 0.1. */
+/* Writes which joint of the source each joint of the target follows. A
+ * joint between two gets the nearer, a joint without a partner HF_NO_INDEX. out_partners: NULL, or uint32_t[capacity].
+ * out_count: NULL, or receives the count of joints of the target. Thread safety: reads `retarget`. Since 0.1. */
 HF_API hf_result hf_retarget_get_partners(hf_retarget retarget, uint32_t capacity, uint32_t* out_partners,
                                           uint32_t* out_count);
 
 /* Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk. It is
- * 0 for a clip that travels. poses: float[frame_count][joints][10]. seconds: between two frames, above 0. out_velocity:
- * double[3] in the space of the skeleton, per second. Errors: HF_ERROR_EMPTY (no frame), HF_ERROR_NON_FINITE and
- * HF_ERROR_INVALID_ARGUMENT (index = frame; seconds). Thread safety: reads `skeleton`. Since 0.1. */
+ * 0 for a clip that travels. poses: float[frame_count][joint_count][10]. seconds: between two frames, above 0.
+ * out_velocity: double[3] in the space of the skeleton, per second. Errors: HF_ERROR_EMPTY (no frame),
+ * HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (index = frame; seconds). Thread safety: reads `skeleton`. Since
+ * 0.1. */
 HF_API hf_result hf_skeleton_get_ground_velocity(hf_skeleton skeleton, uint32_t frame_count, const float* poses,
                                                  double seconds, double* out_velocity);
 

@@ -20,7 +20,7 @@ extern "C" {
 typedef struct hf_skeleton_object* hf_skeleton;
 
 /* What a joint or a chain is. */
-enum {
+enum hf_role {
   HF_ROLE_OTHER = 0,
   HF_ROLE_SPINE = 1,
   HF_ROLE_NECK = 2,
@@ -42,39 +42,15 @@ enum {
 };
 
 /* The side of the character, not of the person who looks at it. */
-enum { HF_SIDE_MIDDLE = 0, HF_SIDE_LEFT = 1, HF_SIDE_RIGHT = 2 };
+enum hf_body_side { HF_SIDE_MIDDLE = 0, HF_SIDE_LEFT = 1, HF_SIDE_RIGHT = 2 };
 
 /* How a joint serves the body. */
-enum {
+enum hf_joint_kind {
   HF_JOINT_KIND_BODY = 0,   /* it moves a part of the body */
   HF_JOINT_KIND_HELPER = 1, /* a control, a pole, a target or a root: it moves no part */
   HF_JOINT_KIND_END = 2,    /* it marks the tip of a chain */
   HF_JOINT_KIND_TWIST = 3   /* it lies along a bone and takes a share of its turn */
 };
-
-/* The joints of a character at rest. A joint transform is 10 numbers relative to the parent: translation x y z,
- * rotation x y z w, scale x y z. */
-typedef struct hf_skeleton_desc {
-  uint32_t struct_size;
-  uint32_t joint_count;       /* 1 to 65,536 */
-  const char* names;          /* one line for each joint in UTF-8, or NULL: names then say nothing */
-  const uint32_t* parents;    /* [joint_count] number of the parent, HF_NO_INDEX for a root */
-  const float* rest;          /* [joint_count][10] joint transforms */
-  const float* inverse_binds; /* [joint_count][16] inverse bind matrices, columns first, all zero for a joint without
-                                 one; or NULL: the skin is given in the pose `rest` */
-  const float* up;            /* [3] declared axis, any length, or NULL: find it */
-  const float* forward;       /* [3] declared axis, any length, or NULL: find it */
-  const int32_t* roles;       /* [joint_count] declared HF_ROLE_*, -1 for a joint without; or NULL */
-  const int32_t* sides;       /* [joint_count] HF_SIDE_* of joints with a declared role; or NULL: find the sides */
-  const int32_t* bound;       /* [joint_count] 1: a skin of the file names the joint, 0: it carries children and rigid
-                                 meshes alone; or NULL: all are bound */
-  uint32_t travel_count;      /* clips of the character, or 0 */
-  uint32_t reserved;          /* 0 */
-  const float* travels;       /* [travel_count][3] where each clip leads from its first to its last frame; it tells
-                                 forward; or NULL */
-  hf_allocator allocator;     /* NULLs: malloc */
-  hf_progress progress;       /* NULL, or an object to poll and cancel through */
-} hf_skeleton_desc;
 
 /* The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex. */
 typedef struct hf_skin_desc {
@@ -88,16 +64,39 @@ typedef struct hf_skin_desc {
   const float* weights;      /* [vertex_count][influence_count] >= 0; a vertex whose weights are all 0 has no joint */
 } hf_skin_desc;
 
-/* Reads a character and finds its axes, roles and chains. skin: NULL if there is none; joints are then judged by names
- * and places alone. The skin says where soles and heads end, so give it if feet shall stand on the ground. The object
- * keeps a copy of everything. Sets *out_skeleton to NULL first. Cost: linear in joints, vertices and triangles; loose
- * pieces cost their square. Errors: HF_ERROR_NON_FINITE (index = joint or vertex), HF_ERROR_INVALID_ARGUMENT (a
- * rotation of length 0, parents in a circle, a role or a side that is none: index = joint; names with another count of
- * lines; a weight below 0: index = vertex; an axis of length 0), HF_ERROR_OUT_OF_RANGE (a parent, index = joint; a
- * joint, index = vertex; a vertex, index = triangle), HF_ERROR_EMPTY (no joint), HF_ERROR_TOO_LARGE,
- * HF_ERROR_CANCELLED. A character that is not understood is no error: its confidences are low. Thread safety: any
- * thread. Since 0.1. */
-HF_API hf_result hf_skeleton_create(const hf_skeleton_desc* desc, const hf_skin_desc* skin, hf_skeleton* out_skeleton);
+/* The joints of a character at rest. A joint transform is 10 numbers relative to the parent: translation x y z,
+ * rotation x y z w, scale x y z. */
+typedef struct hf_skeleton_desc {
+  uint32_t struct_size;
+  uint32_t joint_count;       /* 1 to 65,536 */
+  const char* names;          /* one line for each joint in UTF-8, or NULL: names then say nothing */
+  const uint32_t* parents;    /* [joint_count] number of the parent, HF_NO_INDEX for a root */
+  const float* rest;          /* [joint_count][10] joint transforms */
+  const float* inverse_binds; /* [joint_count][16] inverse bind matrices, columns first, all zero for a joint that no
+                                 skin names: it carries children and rigid meshes alone; or NULL: the skin is given in
+                                 the pose `rest`, and all joints bend it */
+  const float* up;            /* [3] declared axis, any length, or NULL: find it */
+  const float* forward;       /* [3] declared axis, any length, or NULL: find it */
+  const int32_t* roles;       /* [joint_count] declared HF_ROLE_*, -1 for a joint without; or NULL */
+  const int32_t* sides;       /* [joint_count] HF_SIDE_* of joints with a declared role; or NULL: find the sides */
+  uint32_t travel_count;      /* clips of the character, or 0 */
+  uint32_t reserved;          /* 0 */
+  const float* travels;       /* [travel_count][3] where each clip leads from its first to its last frame; it tells
+                                 forward; or NULL */
+  const hf_skin_desc* skin;   /* NULL: there is none, and joints are judged by names and places alone */
+  hf_allocator allocator;     /* NULLs: malloc */
+  hf_progress progress;       /* NULL, or an object to poll and cancel through */
+} hf_skeleton_desc;
+
+/* Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if feet
+ * shall stand on the ground. The object keeps a copy of everything. Sets *out_skeleton to NULL first. Cost: linear in
+ * joints, vertices and triangles; loose pieces cost their square. Errors: HF_ERROR_NON_FINITE (index = joint or
+ * vertex), HF_ERROR_INVALID_ARGUMENT (a rotation of length 0, parents in a circle, a role or a side that is none: index
+ * = joint; names with another count of lines; a weight below 0: index = vertex; an axis of length 0),
+ * HF_ERROR_OUT_OF_RANGE (a parent, index = joint; a joint, index = vertex; a vertex, index = triangle), HF_ERROR_EMPTY
+ * (no joint), HF_ERROR_TOO_LARGE, HF_ERROR_CANCELLED. A character that is not understood is no error: its confidences
+ * are low. Thread safety: any thread. Since 0.1. */
+HF_API hf_result hf_skeleton_create(const hf_skeleton_desc* desc, hf_skeleton* out_skeleton);
 
 /* Destroys a skeleton. Ignores NULL and destroyed objects. A retarget made from it stays valid. Since 0.1. */
 HF_API void hf_skeleton_destroy(hf_skeleton skeleton);
@@ -135,8 +134,8 @@ typedef struct hf_joint_info {
   uint32_t mate;  /* the joint that mirrors it, HF_NO_INDEX: none */
 } hf_joint_info;
 
-/* Writes one entry for each joint. out_joints: [capacity] or NULL. out_count: NULL, or receives the count of joints.
- * Thread safety: reads `skeleton`. Since 0.1. */
+/* Writes one entry for each joint. out_joints: NULL, or hf_joint_info[capacity]. out_count: NULL, or receives the count
+ * of joints. Thread safety: reads `skeleton`. Since 0.1. */
 HF_API hf_result hf_skeleton_get_joints(hf_skeleton skeleton, uint32_t capacity, hf_joint_info* out_joints,
                                         uint32_t* out_count);
 
@@ -146,22 +145,25 @@ typedef struct hf_chain {
   int32_t side;         /* HF_SIDE_* */
   uint32_t number;      /* counts the chains of one role and side: legs from the front, others as their joints come */
   uint32_t parent;      /* the chain it hangs on, HF_NO_INDEX: none */
-  uint32_t first;       /* its first entry in the list of joints */
-  uint32_t joint_count; /* entries of the list of joints */
+  uint32_t first;       /* its first entry in hf_skeleton_get_chain_joints */
+  uint32_t joint_count; /* entries there, from root to tip */
   double length;        /* along the joints, up to the first joint of the chain at its tip */
 } hf_chain;
 
-/* Writes the chains. out_chains: [chain_capacity] or NULL. out_joints: uint32_t[joint_capacity], the joints of chain
- * after chain, or NULL. out_chain_count and out_joint_count: NULL, or receive how many there are. Thread safety: reads
- * `skeleton`. Since 0.1. */
-HF_API hf_result hf_skeleton_get_chains(hf_skeleton skeleton, uint32_t chain_capacity, hf_chain* out_chains,
-                                        uint32_t joint_capacity, uint32_t* out_joints, uint32_t* out_chain_count,
-                                        uint32_t* out_joint_count);
+/* Writes the chains. out_chains: NULL, or hf_chain[capacity]. out_count: NULL, or receives the count of chains. Thread
+ * safety: reads `skeleton`. Since 0.1. */
+HF_API hf_result hf_skeleton_get_chains(hf_skeleton skeleton, uint32_t capacity, hf_chain* out_chains,
+                                        uint32_t* out_count);
+
+/* Writes the joints of chain after chain. out_joints: NULL, or uint32_t[capacity]. out_count: NULL, or receives the
+ * count of entries. Thread safety: reads `skeleton`. Since 0.1. */
+HF_API hf_result hf_skeleton_get_chain_joints(hf_skeleton skeleton, uint32_t capacity, uint32_t* out_joints,
+                                              uint32_t* out_count);
 
 /* Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful. out_text:
- * char[capacity] UTF-8, zero-terminated, or NULL. out_size: NULL, or receives the bytes with the zero. Thread safety:
- * reads `skeleton`. Since 0.1. */
-HF_API hf_result hf_skeleton_get_reasons(hf_skeleton skeleton, uint32_t capacity, char* out_text, uint32_t* out_size);
+ * NULL, or char[capacity] in UTF-8, zero-terminated. out_size: NULL, or receives the bytes with the zero. Thread
+ * safety: reads `skeleton`. Since 0.1. */
+HF_API hf_result hf_skeleton_get_reasons(hf_skeleton skeleton, size_t capacity, char* out_text, size_t* out_size);
 
 #ifdef __cplusplus
 }

@@ -48,7 +48,7 @@ hf_retarget_info info_of(const RetargetObject& object) {
   info.chain_count = static_cast<std::uint32_t>(report.chains.size());
   info.same_skeleton = report.same_skeleton;
   info.scale_from = static_cast<std::int32_t>(report.scale_source);
-  info.frame_count = report.frames;
+  info.frame_count = static_cast<std::uint32_t>(std::min<std::uint64_t>(report.frames, UINT32_MAX));
   info.scale = report.scale;
   info.limb_angle = degree * report.limb_degrees;
   info.stride_share = report.stride;

@@ -40,15 +40,15 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_skeleton_create(const hf_skeleton_desc* given, const hf_skin_desc* given_skin, hf_skeleton* out_skeleton) {
+hf_result hf_skeleton_create(const hf_skeleton_desc* given, hf_skeleton* out_skeleton) {
   return create("hf_skeleton_create", out_skeleton, "out_skeleton", [&] {
     const hf_skeleton_desc desc = read_struct(given, "desc");
-    const hf_skin_desc skin = read_optional(given_skin, "skin");
+    const hf_skin_desc skin = read_optional(desc.skin, "skin");
     check_allocator(desc.allocator);
     return with_progress(desc.progress, [&] {
       const auto memory = make_memory(desc.allocator, 0);
       return make_owner_in<SkeletonObject>(
-          memory, make_owner_in<KnownSkeleton>(memory, desc, given_skin ? &skin : nullptr, memory));
+          memory, make_owner_in<KnownSkeleton>(memory, desc, desc.skin ? &skin : nullptr, memory));
     });
   });
 }
@@ -94,20 +94,15 @@ hf_result hf_skeleton_get_joints(hf_skeleton handle, uint32_t capacity, hf_joint
   });
 }
 
-hf_result hf_skeleton_get_chains(hf_skeleton handle, uint32_t chain_capacity, hf_chain* out_chains,
-                                 uint32_t joint_capacity, uint32_t* out_joints, uint32_t* out_chain_count,
-                                 uint32_t* out_joint_count) {
+hf_result hf_skeleton_get_chains(hf_skeleton handle, uint32_t capacity, hf_chain* out_chains, uint32_t* out_count) {
   return guarded("hf_skeleton_get_chains", [&] {
     const auto object = get<SkeletonObject>(handle, "skeleton");
-    if (!out_chains && !out_joints && !out_joint_count)
-      require(out_chain_count, "out_chains, out_joints, out_chain_count and out_joint_count");
-    const Character& character = object->skeleton->character;
-    write_count(out_chain_count, character.chains.size());
-    write_count(out_joint_count, character.chain_joints.size());
-    check_capacity(out_chains, chain_capacity, character.chains.size(), "chain_capacity");
-    check_capacity(out_joints, joint_capacity, character.chain_joints.size(), "joint_capacity");
-    for (std::size_t c = 0; out_chains && c < character.chains.size(); ++c) {
-      const Chain& chain = character.chains[c];
+    if (!out_chains) require(out_count, "out_chains and out_count");
+    const auto& chains = object->skeleton->character.chains;
+    write_count(out_count, chains.size());
+    check_capacity(out_chains, capacity, chains.size(), "capacity");
+    for (std::size_t c = 0; out_chains && c < chains.size(); ++c) {
+      const Chain& chain = chains[c];
       out_chains[c] = {static_cast<std::int32_t>(chain.role),
                        static_cast<std::int32_t>(chain.side),
                        chain.number,
@@ -116,16 +111,27 @@ hf_result hf_skeleton_get_chains(hf_skeleton handle, uint32_t chain_capacity, hf
                        chain.count,
                        chain.length};
     }
-    if (out_joints) std::copy(character.chain_joints.begin(), character.chain_joints.end(), out_joints);
   });
 }
 
-hf_result hf_skeleton_get_reasons(hf_skeleton handle, uint32_t capacity, char* out_text, uint32_t* out_size) {
+hf_result hf_skeleton_get_chain_joints(hf_skeleton handle, uint32_t capacity, uint32_t* out_joints,
+                                       uint32_t* out_count) {
+  return guarded("hf_skeleton_get_chain_joints", [&] {
+    const auto object = get<SkeletonObject>(handle, "skeleton");
+    if (!out_joints) require(out_count, "out_joints and out_count");
+    const auto& joints = object->skeleton->character.chain_joints;
+    write_count(out_count, joints.size());
+    check_capacity(out_joints, capacity, joints.size(), "capacity");
+    if (out_joints) std::copy(joints.begin(), joints.end(), out_joints);
+  });
+}
+
+hf_result hf_skeleton_get_reasons(hf_skeleton handle, size_t capacity, char* out_text, size_t* out_size) {
   return guarded("hf_skeleton_get_reasons", [&] {
     const auto object = get<SkeletonObject>(handle, "skeleton");
     if (!out_text) require(out_size, "out_text and out_size");
     const Vector<char> text = reasons_of(object->skeleton->character, *object->skeleton->memory);
-    write_count(out_size, text.size());
+    if (out_size) *out_size = text.size();
     check_capacity(out_text, capacity, text.size(), "capacity");
     if (out_text) std::copy(text.begin(), text.end(), out_text);
   });

@@ -1,6 +1,7 @@
 // Reads hf_skeleton_desc and hf_skin_desc.
 #include "skeleton/known_skeleton.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -43,13 +44,13 @@ void read_parents(const std::uint32_t* given, std::uint32_t count, Vector<std::i
   }
 }
 
-void read_bound(const std::int32_t* given, std::uint32_t count, Vector<std::uint8_t>& out) {
-  out.reserve(count);
-  for (std::uint32_t j = 0; j < count; ++j) {
-    if (given[j] != 0 && given[j] != 1)
-      fail(HF_ERROR_INVALID_ARGUMENT, j, "bound[%u] is %d; it must be 0 or 1", j, given[j]);
-    out.push_back(static_cast<std::uint8_t>(given[j]));
+// A joint with an inverse bind matrix is named by a skin. Where none is, all may be.
+const std::uint8_t* read_bound(const Vector<double>& inverse_binds, Vector<std::uint8_t>& out) {
+  for (std::size_t k = 0; k < inverse_binds.size(); k += 16) {
+    const double* const m = inverse_binds.data() + k;
+    out.push_back(std::any_of(m, m + 16, [](double v) { return v != 0; }));
   }
+  return std::find(out.begin(), out.end(), 1) == out.end() ? nullptr : out.data();
 }
 
 void read_skin(const hf_skin_desc& skin, std::uint32_t joint_count, KnownSkeleton& out) {
@@ -131,6 +132,7 @@ KnownSkeleton::KnownSkeleton(const hf_skeleton_desc& desc, const hf_skin_desc* s
   if (desc.inverse_binds) {
     copy_array(desc.inverse_binds, 16 * std::size_t{count}, inverse_binds);
     input.inverse_binds = inverse_binds.data();
+    input.bound = read_bound(inverse_binds, bound);
   }
   if (desc.roles) {
     copy_array(desc.roles, count, roles);
@@ -139,10 +141,6 @@ KnownSkeleton::KnownSkeleton(const hf_skeleton_desc& desc, const hf_skin_desc* s
   if (desc.sides) {
     copy_array(desc.sides, count, sides);
     input.sides = sides.data();
-  }
-  if (desc.bound) {
-    read_bound(desc.bound, count, bound);
-    input.bound = bound.data();
   }
   if (desc.travel_count > 0) {
     require(desc.travels, "travels");

@@ -9,18 +9,18 @@ static StickMan man, other;
 static hf_skeleton_desc desc;
 static hf_skin_desc skin;
 static hf_retarget_desc options;
-static int32_t roles[MAN_JOINTS], sides[MAN_JOINTS], bound[MAN_JOINTS];
+static int32_t roles[MAN_JOINTS], sides[MAN_JOINTS];
 static float axis[3], travels[6];
 static hf_skeleton source, target, made_skeleton;
 static hf_retarget retarget, made;
 static Pose pose, posed;
 
 static hf_skeleton skeleton_of(const StickMan* of, hf_progress progress) {
-  hf_skeleton_desc d = man_desc(of);
   const hf_skin_desc s = man_skin(of);
+  hf_skeleton_desc d = man_desc(of, &s);
   hf_skeleton out = NULL;
   d.progress = progress;
-  assert_ok(hf_skeleton_create(&d, &s, &out));
+  assert_ok(hf_skeleton_create(&d, &out));
   return out;
 }
 
@@ -89,18 +89,20 @@ static void a_man_is_known(void** state) {
   assert_int_equal(joints[MAN_RIGHT_KNEE].side, HF_SIDE_RIGHT);
   assert_int_equal(joints[MAN_RIGHT_FOOT].mate, MAN_LEFT_FOOT);
   assert_int_equal(joints[MAN_HIPS].mate, HF_NO_INDEX);
-  assert_ok(hf_skeleton_get_chains(source, 0, NULL, 0, NULL, &chain_count, &joint_count));
+  assert_ok(hf_skeleton_get_chains(source, 0, NULL, &chain_count));
   assert_int_equal(chain_count, info.chain_count);
+  assert_ok(hf_skeleton_get_chain_joints(source, 0, NULL, &joint_count));
   hf_chain* const chains = calloc(chain_count, sizeof *chains);
   uint32_t* const list = calloc(joint_count, sizeof *list);
-  assert_ok(hf_skeleton_get_chains(source, chain_count, chains, joint_count, list, NULL, NULL));
+  assert_ok(hf_skeleton_get_chains(source, chain_count, chains, NULL));
+  assert_ok(hf_skeleton_get_chain_joints(source, joint_count, list, NULL));
   for (uint32_t c = 0; c < chain_count; ++c) {
     assert_true(chains[c].first + chains[c].joint_count <= joint_count);
     for (uint32_t k = 0; k < chains[c].joint_count; ++k) assert_int_equal(joints[list[chains[c].first + k]].chain, c);
   }
   free(chains);
   free(list);
-  uint32_t size = 0;
+  size_t size = 0;
   assert_ok(hf_skeleton_get_reasons(source, 0, NULL, &size));
   char* const text = calloc(size, 1);
   assert_ok(hf_skeleton_get_reasons(source, size, text, NULL));
@@ -250,10 +252,10 @@ static void a_frame_allocates_nothing_and_all_memory_is_the_hosts(void** state) 
   man = stick_man(1, 0);
   other = stick_man(1.4f, 40);
   source = skeleton_of(&man, NULL);
-  hf_skeleton_desc d = man_desc(&other);
   const hf_skin_desc s = man_skin(&other);
+  hf_skeleton_desc d = man_desc(&other, &s);
   d.allocator = counting_hooks(&allocator);
-  assert_ok(hf_skeleton_create(&d, &s, &target));
+  assert_ok(hf_skeleton_create(&d, &target));
   assert_ok(hf_retarget_create(source, target, NULL, &retarget));
   const size_t calls = allocator.calls;
   for (int f = 0; f < 8; ++f) {
@@ -268,7 +270,7 @@ static void a_frame_allocates_nothing_and_all_memory_is_the_hosts(void** state) 
     poor.refuse_at = k;
     poor.refuse_on = 1;
     d.allocator = counting_hooks(&poor);
-    hf_result result = hf_skeleton_create(&d, &s, &some);
+    hf_result result = hf_skeleton_create(&d, &some);
     if (some) result = hf_retarget_create(source, some, NULL, &whole);
     assert_code(whole ? HF_OK : HF_ERROR_OUT_OF_MEMORY, result);
     hf_skeleton_destroy(some);
@@ -285,9 +287,9 @@ static void creation_can_be_cancelled(void** state) {
   hf_progress progress = NULL;
   assert_ok(hf_progress_create(&progress));
   assert_ok(hf_progress_cancel(progress));
-  hf_skeleton_desc d = man_desc(&man);
+  hf_skeleton_desc d = man_desc(&man, NULL);
   d.progress = progress;
-  assert_code(HF_ERROR_CANCELLED, hf_skeleton_create(&d, NULL, &made_skeleton));
+  assert_code(HF_ERROR_CANCELLED, hf_skeleton_create(&d, &made_skeleton));
   assert_null(made_skeleton);
   options = HF_INIT(hf_retarget_desc);
   options.progress = progress;
@@ -303,13 +305,12 @@ static Pose expected, rest;
 static void good(void) {
   man = stick_man(1, 0);
   other = stick_man(1.2f, 20);
-  desc = man_desc(&man);
   skin = man_skin(&man);
+  desc = man_desc(&man, &skin);
   options = HF_INIT(hf_retarget_desc);
   memcpy(rest, man.rest, sizeof rest);
   memset(roles, -1, sizeof roles);
   memset(sides, 0, sizeof sides);
-  for (int j = 0; j < MAN_JOINTS; ++j) bound[j] = 1;
   axis[0] = axis[2] = 0;
   axis[1] = 1;
   memset(travels, 0, sizeof travels);
@@ -345,89 +346,79 @@ static void bad_skeletons_are_named(void** state) {
   set_expected();
   const hf_skeleton stale = skeleton_of(&man, NULL);
   hf_skeleton_destroy(stale);
-  ROW("desc NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_skeleton_create(NULL, &skin, &made_skeleton));
-  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_skeleton_create(&desc, &skin, NULL));
-  ROW("no size", HF_ERROR_INVALID_DESC, NO_INDEX, desc.struct_size = 0,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+  ROW("desc NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_skeleton_create(NULL, &made_skeleton));
+  ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_skeleton_create(&desc, NULL));
+  ROW("no size", HF_ERROR_INVALID_DESC, NO_INDEX, desc.struct_size = 0, hf_skeleton_create(&desc, &made_skeleton));
   ROW("no size of the skin", HF_ERROR_INVALID_DESC, NO_INDEX, skin.struct_size = 0,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("reserved", HF_ERROR_INVALID_DESC, NO_INDEX, desc.reserved = 1, hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("no joint", HF_ERROR_EMPTY, NO_INDEX, desc.joint_count = 0, hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
+  ROW("reserved", HF_ERROR_INVALID_DESC, NO_INDEX, desc.reserved = 1, hf_skeleton_create(&desc, &made_skeleton));
+  ROW("no joint", HF_ERROR_EMPTY, NO_INDEX, desc.joint_count = 0, hf_skeleton_create(&desc, &made_skeleton));
   ROW("too many joints", HF_ERROR_TOO_LARGE, NO_INDEX, desc.joint_count = UINT32_MAX,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("no parents", HF_ERROR_NULL_POINTER, NO_INDEX, desc.parents = NULL,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("no rest", HF_ERROR_NULL_POINTER, NO_INDEX, desc.rest = NULL, hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
+  ROW("no parents", HF_ERROR_NULL_POINTER, NO_INDEX, desc.parents = NULL, hf_skeleton_create(&desc, &made_skeleton));
+  ROW("no rest", HF_ERROR_NULL_POINTER, NO_INDEX, desc.rest = NULL, hf_skeleton_create(&desc, &made_skeleton));
   ROW("names of another count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.names = "a\nb",
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("a parent beyond", HF_ERROR_OUT_OF_RANGE, 3, man.parents[3] = MAN_JOINTS,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("parents in a circle", HF_ERROR_INVALID_ARGUMENT, 0, man.parents[0] = 4,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("a translation NaN", HF_ERROR_NON_FINITE, 5, man.rest[5][1] = NAN,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
+  ROW("a translation NaN", HF_ERROR_NON_FINITE, 5, man.rest[5][1] = NAN, hf_skeleton_create(&desc, &made_skeleton));
   ROW("a rotation of length 0", HF_ERROR_INVALID_ARGUMENT, 6, man.rest[6][6] = 0,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("a role beyond", HF_ERROR_INVALID_ARGUMENT, 2, (desc.roles = roles, roles[2] = 18),
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("a side beyond", HF_ERROR_INVALID_ARGUMENT, 2,
-      (desc.roles = roles, desc.sides = sides, roles[2] = 1, sides[2] = 3),
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("bound is 2", HF_ERROR_INVALID_ARGUMENT, 7, (desc.bound = bound, bound[7] = 2),
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("none is bound", HF_ERROR_EMPTY, NO_INDEX, (desc.bound = bound, memset(bound, 0, sizeof bound)),
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      (desc.roles = roles, desc.sides = sides, roles[2] = 1, sides[2] = 3), hf_skeleton_create(&desc, &made_skeleton));
   ROW("up of length 0", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (desc.up = axis, axis[1] = 0),
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("forward NaN", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (desc.forward = axis, axis[1] = NAN),
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("no travels", HF_ERROR_NULL_POINTER, NO_INDEX, desc.travel_count = 2,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
+  ROW("no travels", HF_ERROR_NULL_POINTER, NO_INDEX, desc.travel_count = 2, hf_skeleton_create(&desc, &made_skeleton));
   ROW("a travel NaN", HF_ERROR_NON_FINITE, 1, (desc.travel_count = 2, desc.travels = travels, travels[4] = NAN),
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("half an allocator", HF_ERROR_NULL_POINTER, NO_INDEX,
       desc.allocator.release = counting_hooks(&(CountingAllocator){0}).release,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("a stale progress", HF_ERROR_INVALID_OBJECT, NO_INDEX, desc.progress = (hf_progress)stale,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("no vertex", HF_ERROR_EMPTY, NO_INDEX, skin.vertex_count = 0, hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
+  ROW("no vertex", HF_ERROR_EMPTY, NO_INDEX, skin.vertex_count = 0, hf_skeleton_create(&desc, &made_skeleton));
   ROW("no positions", HF_ERROR_NULL_POINTER, NO_INDEX, skin.positions = NULL,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("no triangles", HF_ERROR_NULL_POINTER, NO_INDEX, skin.triangles = NULL,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("no joints of vertices", HF_ERROR_NULL_POINTER, NO_INDEX, skin.joints = NULL,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("no weights", HF_ERROR_NULL_POINTER, NO_INDEX, skin.weights = NULL,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
+  ROW("no weights", HF_ERROR_NULL_POINTER, NO_INDEX, skin.weights = NULL, hf_skeleton_create(&desc, &made_skeleton));
   ROW("no influence", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, skin.influence_count = 0,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("65 influences", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, skin.influence_count = 65,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("too many vertices", HF_ERROR_TOO_LARGE, NO_INDEX, skin.vertex_count = UINT32_MAX,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("a position NaN", HF_ERROR_NON_FINITE, 8, man.positions[8][2] = NAN,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
+  ROW("a position NaN", HF_ERROR_NON_FINITE, 8, man.positions[8][2] = NAN, hf_skeleton_create(&desc, &made_skeleton));
   ROW("a vertex beyond", HF_ERROR_OUT_OF_RANGE, 4, man.triangles[4][1] = MAN_VERTICES,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   ROW("a joint beyond", HF_ERROR_OUT_OF_RANGE, 9, man.joints[9] = MAN_JOINTS,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
-  ROW("a weight NaN", HF_ERROR_NON_FINITE, 10, man.weights[10] = NAN, hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
+  ROW("a weight NaN", HF_ERROR_NON_FINITE, 10, man.weights[10] = NAN, hf_skeleton_create(&desc, &made_skeleton));
   ROW("a weight below 0", HF_ERROR_INVALID_ARGUMENT, 11, man.weights[11] = -1,
-      hf_skeleton_create(&desc, &skin, &made_skeleton));
+      hf_skeleton_create(&desc, &made_skeleton));
   hf_skeleton_info info = HF_INIT(hf_skeleton_info);
   uint32_t count = 0;
   hf_joint_info joints[MAN_JOINTS];
   hf_chain chain;
   char text[4];
+  size_t size = 0;
   double velocity[3];
   const hf_skeleton wrong[] = {NULL, stale, (hf_skeleton)retarget};
   for (size_t k = 0; k < COUNT_OF(wrong); ++k) {
     const hf_skeleton s = wrong[k];
     ROW("stale", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_skeleton_get_info(s, &info));
     ROW("stale", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_skeleton_get_joints(s, MAN_JOINTS, joints, &count));
-    ROW("stale", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0,
-        hf_skeleton_get_chains(s, 0, NULL, 0, NULL, &count, &count));
-    ROW("stale", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_skeleton_get_reasons(s, 0, NULL, &count));
+    ROW("stale", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_skeleton_get_chains(s, 0, NULL, &count));
+    ROW("stale", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_skeleton_get_chain_joints(s, 0, NULL, &count));
+    ROW("stale", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_skeleton_get_reasons(s, 0, NULL, &size));
     ROW("stale", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0,
         hf_skeleton_get_ground_velocity(s, 1, pose[0], 1, velocity));
     ROW("stale source", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_retarget_create(s, target, NULL, &made));
@@ -437,12 +428,11 @@ static void bad_skeletons_are_named(void** state) {
   ROW("nothing to write", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_skeleton_get_joints(source, 0, NULL, NULL));
   ROW("too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
       hf_skeleton_get_joints(source, MAN_JOINTS - 1, joints, &count));
+  ROW("nothing to write", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_skeleton_get_chains(source, 0, NULL, NULL));
   ROW("nothing to write", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
-      hf_skeleton_get_chains(source, 0, NULL, 0, NULL, NULL, NULL));
-  ROW("too few chains", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_skeleton_get_chains(source, 1, &chain, 0, NULL, NULL, NULL));
-  ROW("too few joints", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_skeleton_get_chains(source, 0, NULL, 1, &count, NULL, NULL));
+      hf_skeleton_get_chain_joints(source, 0, NULL, NULL));
+  ROW("too few chains", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_skeleton_get_chains(source, 1, &chain, NULL));
+  ROW("too few joints", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_skeleton_get_chain_joints(source, 1, &count, NULL));
   ROW("nothing to write", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_skeleton_get_reasons(source, 0, NULL, NULL));
   ROW("too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_skeleton_get_reasons(source, 4, text, NULL));
   ROW("no frame", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_skeleton_get_ground_velocity(source, 0, pose[0], 1, velocity));
@@ -490,8 +480,9 @@ static void bad_retargets_are_named(void** state) {
   hf_skeleton stone = NULL;
   good();
   desc.joint_count = 1;
+  desc.skin = NULL;
   desc.names = "stone";
-  assert_ok(hf_skeleton_create(&desc, NULL, &stone));
+  assert_ok(hf_skeleton_create(&desc, &stone));
   ROW("nothing in common", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_retarget_create(source, stone, NULL, &made));
   hf_skeleton_destroy(stone);
   hf_retarget_info info = HF_INIT(hf_retarget_info);

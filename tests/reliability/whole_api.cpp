@@ -403,11 +403,11 @@ void Run::graph() {
 void Run::skeletons() {
   const StickMan man = stick_man(1, 0), other = stick_man(1.3f, 35);
   const auto make_man = [&](const StickMan& of) {
-    hf_skeleton_desc d = man_desc(&of);
     const hf_skin_desc skin = man_skin(&of);
+    hf_skeleton_desc d = man_desc(&of, &skin);
     if (options_.allocator) d.allocator = *options_.allocator;
     hf_skeleton skeleton = nullptr;
-    call(hf_skeleton_create(&d, &skin, &skeleton), "hf_skeleton_create");
+    call(hf_skeleton_create(&d, &skeleton), "hf_skeleton_create");
     return skeleton;
   };
   const hf_skeleton source = make_man(man), target = make_man(other);
@@ -418,10 +418,13 @@ void Run::skeletons() {
   call(hf_skeleton_get_joints(target, MAN_JOINTS, joints, nullptr), "hf_skeleton_get_joints");
   take(joints, MAN_JOINTS);
   std::uint32_t chain_count = 0, count = 0;
-  call(hf_skeleton_get_chains(target, 0, nullptr, 0, nullptr, &chain_count, &count), "hf_skeleton_get_chains");
+  call(hf_skeleton_get_chains(target, 0, nullptr, &chain_count), "hf_skeleton_get_chains");
   take(&chain_count, 1);
-  call(hf_skeleton_get_reasons(target, 0, nullptr, &count), "hf_skeleton_get_reasons");
+  call(hf_skeleton_get_chain_joints(target, 0, nullptr, &count), "hf_skeleton_get_chain_joints");
   take(&count, 1);
+  std::size_t size = 0;
+  call(hf_skeleton_get_reasons(target, 0, nullptr, &size), "hf_skeleton_get_reasons");
+  take(&size, 1);
   float poses[4][MAN_JOINTS][10], posed[MAN_JOINTS][10];
   for (int f = 0; f < 4; ++f) man_walk(&man, 0.2f * static_cast<float>(f), poses[f]);
   double velocity[3];

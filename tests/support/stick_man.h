@@ -92,15 +92,6 @@ static inline StickMan stick_man(float size, float arms_down) {
   return man;
 }
 
-static inline hf_skeleton_desc man_desc(const StickMan* man) {
-  hf_skeleton_desc desc = HF_INIT(hf_skeleton_desc);
-  desc.joint_count = MAN_JOINTS;
-  desc.names = man->names;
-  desc.parents = man->parents;
-  desc.rest = man->rest[0];
-  return desc;
-}
-
 static inline hf_skin_desc man_skin(const StickMan* man) {
   hf_skin_desc skin = HF_INIT(hf_skin_desc);
   skin.vertex_count = MAN_VERTICES;
@@ -111,6 +102,16 @@ static inline hf_skin_desc man_skin(const StickMan* man) {
   skin.joints = man->joints;
   skin.weights = man->weights;
   return skin;
+}
+
+static inline hf_skeleton_desc man_desc(const StickMan* man, const hf_skin_desc* skin) {
+  hf_skeleton_desc desc = HF_INIT(hf_skeleton_desc);
+  desc.joint_count = MAN_JOINTS;
+  desc.names = man->names;
+  desc.parents = man->parents;
+  desc.rest = man->rest[0];
+  desc.skin = skin;
+  return desc;
 }
 
 /* Turns a joint of a pose further about an axis of its own frame (0, 1, 2), in degrees. */

@@ -91,6 +91,42 @@ namespace Hf.Native
         public const int HF_REGION_INSIDE = 0;
         public const int HF_REGION_RIM = 1;
         public const int HF_REGION_SITES = 2;
+        public const int HF_ROOT_MOTION_HIPS = 0;
+        public const int HF_ROOT_MOTION_ROOT = 1;
+        public const int HF_ROOT_MOTION_IN_PLACE = 2;
+        public const int HF_RETARGET_KEEP_RESTS = 1;
+        public const int HF_RETARGET_NO_GOALS = 2;
+        public const int HF_RETARGET_NO_LOCK = 4;
+        public const int HF_RETARGET_NO_COPY = 8;
+        public const int HF_SCALE_GIVEN = 0;
+        public const int HF_SCALE_LEGS = 1;
+        public const int HF_SCALE_HIPS = 2;
+        public const int HF_SCALE_HEIGHT = 3;
+        public const int HF_ROLE_OTHER = 0;
+        public const int HF_ROLE_SPINE = 1;
+        public const int HF_ROLE_NECK = 2;
+        public const int HF_ROLE_HEAD = 3;
+        public const int HF_ROLE_JAW = 4;
+        public const int HF_ROLE_SHOULDER = 5;
+        public const int HF_ROLE_ARM = 6;
+        public const int HF_ROLE_HAND = 7;
+        public const int HF_ROLE_FINGER = 8;
+        public const int HF_ROLE_LEG = 9;
+        public const int HF_ROLE_FOOT = 10;
+        public const int HF_ROLE_TOE = 11;
+        public const int HF_ROLE_TAIL = 12;
+        public const int HF_ROLE_WING = 13;
+        public const int HF_ROLE_EAR = 14;
+        public const int HF_ROLE_EYE = 15;
+        public const int HF_ROLE_ANTENNA = 16;
+        public const int HF_ROLE_FIN = 17;
+        public const int HF_SIDE_MIDDLE = 0;
+        public const int HF_SIDE_LEFT = 1;
+        public const int HF_SIDE_RIGHT = 2;
+        public const int HF_JOINT_KIND_BODY = 0;
+        public const int HF_JOINT_KIND_HELPER = 1;
+        public const int HF_JOINT_KIND_END = 2;
+        public const int HF_JOINT_KIND_TWIST = 3;
         public const int HF_TRANSFER_FIELDS = 0;
         public const int HF_TRANSFER_PAPER = 1;
         public const int HF_TRANSFER_STRETCH = 2;
@@ -945,6 +981,125 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_retarget_desc
+    {
+        public uint struct_size;
+        public int root_motion;
+        public uint leave_out;
+        public uint reserved;
+        public double scale;
+        public fixed double ground_velocity[3];
+        public IntPtr source_rest;
+        public IntPtr target_rest;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_retarget_info
+    {
+        public uint struct_size;
+        public uint source_joint_count;
+        public uint target_joint_count;
+        public uint matched_joint_count;
+        public uint chain_count;
+        public int same_skeleton;
+        public int scale_from;
+        public uint frame_count;
+        public double scale;
+        public double limb_angle;
+        public double stride_share;
+        public double deepest_drop;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_chain_match
+    {
+        public int role;
+        public int side;
+        public uint source_joint_count;
+        public uint target_joint_count;
+        public double mean_angle;
+        public double worst_angle;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_skin_desc
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public uint triangle_count;
+        public uint influence_count;
+        public IntPtr positions;
+        public IntPtr triangles;
+        public IntPtr joints;
+        public IntPtr weights;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_skeleton_desc
+    {
+        public uint struct_size;
+        public uint joint_count;
+        public IntPtr names;
+        public IntPtr parents;
+        public IntPtr rest;
+        public IntPtr inverse_binds;
+        public IntPtr up;
+        public IntPtr forward;
+        public IntPtr roles;
+        public IntPtr sides;
+        public uint travel_count;
+        public uint reserved;
+        public IntPtr travels;
+        public IntPtr skin;
+        public hf_allocator allocator;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_skeleton_info
+    {
+        public uint struct_size;
+        public uint joint_count;
+        public uint chain_count;
+        public uint reserved;
+        public fixed double up[3];
+        public fixed double forward[3];
+        public fixed double left[3];
+        public fixed double middle[3];
+        public double up_confidence;
+        public double forward_confidence;
+        public double left_confidence;
+        public double role_confidence;
+        public double height;
+        public double leg_length;
+        public double hip_height;
+        public double arm_length;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_joint_info
+    {
+        public int kind;
+        public int role;
+        public int side;
+        public uint chain;
+        public uint mate;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_chain
+    {
+        public int role;
+        public int side;
+        public uint number;
+        public uint parent;
+        public uint first;
+        public uint joint_count;
+        public double length;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_transfer_desc
     {
         public uint struct_size;
@@ -1293,6 +1448,22 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_detail_create(IntPtr source, IntPtr target, void* desc, void* out_detail);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_detail_destroy(IntPtr detail);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_detail_morph(IntPtr detail, void* desc);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_retarget_create(IntPtr source, IntPtr target, void* desc, void* out_retarget);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_retarget_clone(IntPtr retarget, void* out_retarget);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_retarget_destroy(IntPtr retarget);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_retarget_solve(IntPtr retarget, void* source_pose, double seconds, void* out_target_pose);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_retarget_reset(IntPtr retarget);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_retarget_get_info(IntPtr retarget, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_retarget_get_chains(IntPtr retarget, uint capacity, void* out_chains, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_retarget_get_partners(IntPtr retarget, uint capacity, void* out_partners, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_ground_velocity(IntPtr skeleton, uint frame_count, void* poses, double seconds, void* out_velocity);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_create(void* desc, void* out_skeleton);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_skeleton_destroy(IntPtr skeleton);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_info(IntPtr skeleton, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_joints(IntPtr skeleton, uint capacity, void* out_joints, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_chains(IntPtr skeleton, uint capacity, void* out_chains, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_chain_joints(IntPtr skeleton, uint capacity, void* out_joints, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_reasons(IntPtr skeleton, UIntPtr capacity, void* out_text, void* out_size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_create(IntPtr source, IntPtr target, void* desc, void* out_transfer);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_transfer_destroy(IntPtr transfer);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_add_pairs(IntPtr transfer, void* pairs, void* out_pairs);

@@ -670,6 +670,107 @@ export interface RegionInfo {
   baseArea: number;
 }
 
+/** Figures of a retarget. Those of frames count all frames since the last reset. */
+export interface RetargetInfo {
+  sourceJointCount: number;
+  targetJointCount: number;
+  /** joints of the target that follow the source */
+  matchedJointCount: number;
+  /** chains of the target that follow */
+  chainCount: number;
+  /** 1: keys are copied */
+  sameSkeleton: number;
+  /** HF_SCALE_* */
+  scaleFrom: number;
+  frameCount: number;
+  /** travel of the target over travel of the source */
+  scale: number;
+  /** mean angle between the bones of arms and legs and the same bones of the source, radians */
+  limbAngle: number;
+  /**
+   * how far planted feet would travel without the goals, over `scale` times the travel of the source. A clip on
+   * the spot needs the least correction if the body moves at scale x stride_share times the speed of the clip
+   */
+  strideShare: number;
+  /** how far the hips sank so that feet reach, unit of the target */
+  deepestDrop: number;
+}
+
+/**
+ * How a chain of the target follows the source. Angles lie between a bone of the target and the same bone of the
+ * source, in radians. They are 0 for a chain of one joint, and for a chain whose rest is not aligned.
+ */
+export interface ChainMatch {
+  /** HF_ROLE_* */
+  role: number;
+  /** HF_SIDE_* */
+  side: number;
+  sourceJointCount: number;
+  targetJointCount: number;
+  meanAngle: number;
+  worstAngle: number;
+}
+
+/**
+ * The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints, 0 where there is
+ * no such part; those of legs are of the hindmost pair that stands.
+ */
+export interface SkeletonInfo {
+  jointCount: number;
+  chainCount: number;
+  /** unit axes in the space of the joints */
+  up: number[];
+  forward: number[];
+  /** up x forward */
+  left: number[];
+  /** a point on the ground in the plane of symmetry */
+  middle: number[];
+  upConfidence: number;
+  forwardConfidence: number;
+  leftConfidence: number;
+  roleConfidence: number;
+  /** along up, over the ground */
+  height: number;
+  /** hip to knee to foot, and the height of the foot */
+  legLength: number;
+  /** of the joint of the thigh, over the ground */
+  hipHeight: number;
+  /** upper arm to hand */
+  armLength: number;
+}
+
+/** What a joint was found to be. */
+export interface JointInfo {
+  /** HF_JOINT_KIND_* */
+  kind: number;
+  /** HF_ROLE_*; of a twist joint, the role of its bone */
+  role: number;
+  /** HF_SIDE_* */
+  side: number;
+  /** number of its chain, constants.HF_NO_INDEX: none */
+  chain: number;
+  /** the joint that mirrors it, constants.HF_NO_INDEX: none */
+  mate: number;
+}
+
+/** Joints of one role and side, from root to tip. */
+export interface Chain {
+  /** HF_ROLE_* */
+  role: number;
+  /** HF_SIDE_* */
+  side: number;
+  /** counts the chains of one role and side: legs from the front, others as their joints come */
+  number: number;
+  /** the chain it hangs on, constants.HF_NO_INDEX: none */
+  parent: number;
+  /** its first entry in Skeleton.chainJoints */
+  first: number;
+  /** entries there, from root to tip */
+  jointCount: number;
+  /** along the joints, up to the first joint of the chain at its tip */
+  length: number;
+}
+
 export interface PairInfo {
   flags: number;
   /** of the pair's fields, see HandleInfo */
@@ -933,6 +1034,18 @@ export interface SitesDescGiven {
    * this places a site in a triangle of them
    */
   corners?: Rows | null;
+}
+
+/** The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex. */
+export interface SkinDescGiven {
+  /** vertexCount x 3 numbers */
+  positions?: Rows | null;
+  /** triangleCount x 3 numbers, or null with triangle_count 0 */
+  triangles?: Rows | null;
+  /** vertexCount x influenceCount numbers */
+  joints?: Rows | null;
+  /** vertexCount x influenceCount numbers >= 0; a vertex whose weights are all 0 has no joint */
+  weights?: Rows | null;
 }
 
 /**
@@ -1966,6 +2079,102 @@ export interface DetailClass {
 }
 
 /**
+ * The motion of one skeleton on another.
+ *
+ * Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through the
+ * allocator of the target.
+ *
+ * source_rest: source.jointCount x 10 numbers a pose that counts as rest, or null: the rest of the skeleton. Give
+ *     poses in which both characters stand alike
+ * target_rest: target.jointCount x 10 numbers the same for the target, or null
+ * root_motion: HF_ROOT_MOTION_*
+ * leave_out: bits of HF_RETARGET_*
+ * scale: travel of the target over travel of the source; 0: the ratio of leg lengths
+ * ground_velocity: of the ground under a clip on the spot, in the space of the source, per second; 0: the ground
+ *     rests. Skeleton.groundVelocity finds it
+ * progress: an object to poll and cancel through
+ */
+export interface Retarget extends Recorded {
+  readonly jointCount: number;
+  /** Copies a retarget with the state of its feet: for another character with the same skeletons, and for undo. */
+  clone(): Retarget;
+  /**
+   * Computes the pose of the target. The frame depends on the source pose and on the state of the feet: whether
+   * each is planted, and how far it is moved to keep its place. The state comes from the frames since the last
+   * reset and fades within a step.
+   *
+   * source_pose: source.jointCount x 10 numbers.
+   * seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
+   */
+  solve(sourcePose: Rows, seconds?: number): Float32Array;
+  /** Forgets the state of the feet and the figures of the info. Call it where the clip jumps. */
+  reset(): void;
+  /** Writes the figures. */
+  readonly info: RetargetInfo;
+  /** Writes how chains follow. */
+  chains(): ChainMatch[];
+  /**
+   * Writes which joint of the source each joint of the target follows. A joint between two gets the nearer, a
+   * joint without a partner constants.HF_NO_INDEX.
+   */
+  partners(): Uint32Array;
+}
+export interface RetargetClass {
+  new (source: Skeleton, target: Skeleton,
+          options?: { sourceRest?: Rows | null; targetRest?: Rows | null; rootMotion?: number; leaveOut?: number; scale?: number; groundVelocity?: Rows | null; progress?: Progress | null }): Retarget;
+}
+
+/**
+ * A skeleton at rest and the findings about it. Calls read the object, none changes it.
+ *
+ * Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
+ * feet shall stand on the ground. The object keeps a copy of everything.
+ *
+ * names: one line for each joint in UTF-8, or null: names then say nothing
+ * parents: jointCount numbers number of the parent, constants.HF_NO_INDEX for a root
+ * rest: jointCount x 10 numbers joint transforms
+ * inverse_binds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
+ *     names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`, and all
+ *     joints bend it
+ * up: 3 numbers declared axis, any length, or null: find it
+ * forward: 3 numbers declared axis, any length, or null: find it
+ * roles: jointCount numbers declared HF_ROLE_*, -1 for a joint without; or null
+ * sides: jointCount numbers HF_SIDE_* of joints with a declared role; or null: find the sides
+ * travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells forward; or
+ *     null
+ * skin: null: there is none, and joints are judged by names and places alone
+ * progress: an object to poll and cancel through
+ */
+export interface Skeleton extends Handle {
+  readonly jointCount: number;
+  /**
+   * Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
+   * It is 0 for a clip that travels.
+   *
+   * poses: frameCount x jointCount x 10 numbers.
+   * seconds: between two frames, above 0.
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
+   */
+  groundVelocity(poses: Rows, seconds: number): Float64Array;
+  /** Writes the findings. */
+  readonly info: SkeletonInfo;
+  /** Writes one entry for each joint. */
+  joints(): JointInfo[];
+  /** Writes the chains. */
+  chains(): Chain[];
+  /** Writes the joints of chain after chain. */
+  chainJoints(): Uint32Array;
+  /** Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful. */
+  reasons(): string;
+}
+export interface SkeletonClass {
+  new (options?: { names?: string | readonly string[] | null; parents?: Rows | null; rest?: Rows | null; inverseBinds?: Rows | null; up?: Rows | null; forward?: Rows | null; roles?: Rows | null; sides?: Rows | null; travels?: Rows | null; skin?: SkinDescGiven | Rows | null; progress?: Progress | null }): Skeleton;
+}
+
+/**
  * hf/transfer.h - play the motion of one surface on another.
  *
  * You pair regions of the source surface with regions of the target surface. From the pairs both surfaces get the
@@ -2121,6 +2330,7 @@ export interface TransferClass {
  *     it is made now. Sets *weights to null first.
  */
 export interface Weights extends Recorded {
+  readonly jointCount: number;
   readonly vertexCount: number;
   /**
    * Copies the weights with joints, pins and locks. The copy shares the factors and all memory, until one of the
@@ -2258,6 +2468,8 @@ export interface Api {
   Flow: FlowClass;
   Region: RegionClass;
   Detail: DetailClass;
+  Retarget: RetargetClass;
+  Skeleton: SkeletonClass;
   Transfer: TransferClass;
   Weights: WeightsClass;
   HfError: typeof HfError;

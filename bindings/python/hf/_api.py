@@ -38,6 +38,11 @@ DeformInfo = _raw.hf_deform_info
 HandleProposal = _raw.hf_handle_proposal
 QuadsInfo = _raw.hf_quads_info
 RegionInfo = _raw.hf_region_info
+RetargetInfo = _raw.hf_retarget_info
+ChainMatch = _raw.hf_chain_match
+SkeletonInfo = _raw.hf_skeleton_info
+JointInfo = _raw.hf_joint_info
+Chain = _raw.hf_chain
 PairInfo = _raw.hf_pair_info
 TransferInfo = _raw.hf_transfer_info
 TransferDials = _raw.hf_transfer_dials
@@ -252,6 +257,87 @@ class RegionList(IntEnum):
     """the vertices next to it"""
     SITES = _raw.HF_REGION_SITES
     """vertices whose positions fix the base"""
+
+
+class RootMotion(IntEnum):
+    """Which joint gets the travel over the ground."""
+
+    HIPS = _raw.HF_ROOT_MOTION_HIPS
+    """the hips"""
+    ROOT = _raw.HF_ROOT_MOTION_ROOT
+    """the topmost joint above the hips, as engines want for root motion"""
+    IN_PLACE = _raw.HF_ROOT_MOTION_IN_PLACE
+    """none: the body stays in its place"""
+
+
+class RetargetStep(IntFlag):
+    """Bits that name steps to leave out."""
+
+    NONE = 0
+    KEEP_RESTS = _raw.HF_RETARGET_KEEP_RESTS
+    """limbs are not aligned: the rests stand alike already, or shall differ"""
+    NO_GOALS = _raw.HF_RETARGET_NO_GOALS
+    """joints turn, and nothing looks at feet and ground"""
+    NO_LOCK = _raw.HF_RETARGET_NO_LOCK
+    """planted feet may slide. A frame then has no state: a scrubbed timeline gives the bits of a played one"""
+    NO_COPY = _raw.HF_RETARGET_NO_COPY
+    """equal skeletons are retargeted like others"""
+
+
+class ScaleFrom(IntEnum):
+    """Where the scale comes from."""
+
+    GIVEN = _raw.HF_SCALE_GIVEN
+    LEGS = _raw.HF_SCALE_LEGS
+    """lengths of legs, from hip to sole"""
+    HIPS = _raw.HF_SCALE_HIPS
+    """heights of hips: both stand on four legs or more"""
+    HEIGHT = _raw.HF_SCALE_HEIGHT
+    """heights of bodies: one has no legs"""
+
+
+class Role(IntEnum):
+    """What a joint or a chain is."""
+
+    OTHER = _raw.HF_ROLE_OTHER
+    SPINE = _raw.HF_ROLE_SPINE
+    NECK = _raw.HF_ROLE_NECK
+    HEAD = _raw.HF_ROLE_HEAD
+    JAW = _raw.HF_ROLE_JAW
+    SHOULDER = _raw.HF_ROLE_SHOULDER
+    ARM = _raw.HF_ROLE_ARM
+    HAND = _raw.HF_ROLE_HAND
+    FINGER = _raw.HF_ROLE_FINGER
+    LEG = _raw.HF_ROLE_LEG
+    FOOT = _raw.HF_ROLE_FOOT
+    TOE = _raw.HF_ROLE_TOE
+    TAIL = _raw.HF_ROLE_TAIL
+    WING = _raw.HF_ROLE_WING
+    EAR = _raw.HF_ROLE_EAR
+    EYE = _raw.HF_ROLE_EYE
+    ANTENNA = _raw.HF_ROLE_ANTENNA
+    FIN = _raw.HF_ROLE_FIN
+
+
+class BodySide(IntEnum):
+    """The side of the character, not of the person who looks at it."""
+
+    MIDDLE = _raw.HF_SIDE_MIDDLE
+    LEFT = _raw.HF_SIDE_LEFT
+    RIGHT = _raw.HF_SIDE_RIGHT
+
+
+class JointKind(IntEnum):
+    """How a joint serves the body."""
+
+    BODY = _raw.HF_JOINT_KIND_BODY
+    """it moves a part of the body"""
+    HELPER = _raw.HF_JOINT_KIND_HELPER
+    """a control, a pole, a target or a root: it moves no part"""
+    END = _raw.HF_JOINT_KIND_END
+    """it marks the tip of a chain"""
+    TWIST = _raw.HF_JOINT_KIND_TWIST
+    """it lies along a bone and takes a share of its turn"""
 
 
 class TransferMode(IntEnum):
@@ -778,6 +864,51 @@ def _detail_desc(c: Call, prefix: str = '', *, source_vertices: Optional[ArrayLi
     c.rows(desc, 'target_vertices', target_vertices, 'u4', (prefix + 'pair_count',))
     desc.progress = handle_of(progress, Progress, 'progress')
     c.counts(desc, pair_count=(prefix + 'pair_count', 0))
+    return desc
+
+
+def _retarget_desc(c: Call, prefix: str = '', *, source_rest: Optional[ArrayLike] = None,
+        target_rest: Optional[ArrayLike] = None, root_motion: int = RootMotion.HIPS, leave_out: int = 0,
+        scale: float = 0.0, ground_velocity: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_retarget_desc, {'root_motion': root_motion, 'leave_out': leave_out, 'scale': scale})
+    c.rows(desc, 'source_rest', source_rest, 'f4', ('source.joint_count', 10))
+    c.rows(desc, 'target_rest', target_rest, 'f4', ('target.joint_count', 10))
+    c.fixed(desc, 'ground_velocity', ground_velocity)
+    desc.progress = handle_of(progress, Progress, 'progress')
+    return desc
+
+
+def _skin_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None,
+        triangles: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None,
+        weights: Optional[ArrayLike] = None) -> Any:
+    desc = c.struct(_raw.hf_skin_desc, {})
+    c.rows(desc, 'positions', positions, 'f4', (prefix + 'vertex_count', 3))
+    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'triangle_count', 3))
+    c.rows(desc, 'joints', joints, 'u4', (prefix + 'vertex_count', prefix + 'influence_count'))
+    c.rows(desc, 'weights', weights, 'f4', (prefix + 'vertex_count', prefix + 'influence_count'))
+    c.counts(desc, vertex_count=(prefix + 'vertex_count', 0), triangle_count=(prefix + 'triangle_count', 0),
+            influence_count=(prefix + 'influence_count', 0))
+    return desc
+
+
+def _skeleton_desc(c: Call, prefix: str = '', *, names: Union[None, str, Sequence[str]] = None,
+        parents: Optional[ArrayLike] = None, rest: Optional[ArrayLike] = None,
+        inverse_binds: Optional[ArrayLike] = None, up: Optional[ArrayLike] = None, forward: Optional[ArrayLike] = None,
+        roles: Optional[ArrayLike] = None, sides: Optional[ArrayLike] = None, travels: Optional[ArrayLike] = None,
+        skin: Any = None, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_skeleton_desc, {})
+    c.rows(desc, 'parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
+    c.rows(desc, 'rest', rest, 'f4', (prefix + 'joint_count', 10))
+    c.rows(desc, 'inverse_binds', inverse_binds, 'f4', (prefix + 'joint_count', 16))
+    c.rows(desc, 'up', up, 'f4', (3,))
+    c.rows(desc, 'forward', forward, 'f4', (3,))
+    c.rows(desc, 'roles', roles, 'i4', (prefix + 'joint_count',))
+    c.rows(desc, 'sides', sides, 'i4', (prefix + 'joint_count',))
+    c.rows(desc, 'travels', travels, 'f4', (prefix + 'travel_count', 3))
+    desc.names = c.text(names)
+    desc.progress = handle_of(progress, Progress, 'progress')
+    desc.skin = c.inner(skin, 'positions', _skin_desc, 'skin.')
+    c.counts(desc, joint_count=(prefix + 'joint_count', 0), travel_count=(prefix + 'travel_count', 0))
     return desc
 
 
@@ -2559,6 +2690,214 @@ class Detail(Object):
         return out
 
 
+class Retarget(Recorded):
+    """The motion of one skeleton on another.
+
+    Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through the
+    allocator of the target.
+
+    source_rest: (source.joint_count, 10) a pose that counts as rest, or None: the rest of the skeleton. Give poses in
+        which both characters stand alike
+    target_rest: (target.joint_count, 10) the same for the target, or None
+    root_motion: RootMotion
+    leave_out: bits of RetargetStep
+    scale: travel of the target over travel of the source; 0: the ratio of leg lengths
+    ground_velocity: of the ground under a clip on the spot, in the space of the source, per second; 0: the ground
+        rests. Skeleton.ground_velocity finds it
+    progress: an object to poll and cancel through
+    """
+
+    _destroy = 'hf_retarget_destroy'
+    _counts = ('joint_count',)
+
+    @property
+    def joint_count(self) -> int:
+        """As it was made with."""
+        return self._n.get('joint_count', 0)
+
+    def __init__(self, source: Skeleton, target: Skeleton, source_rest: Optional[ArrayLike] = None,
+            target_rest: Optional[ArrayLike] = None, *, root_motion: int = RootMotion.HIPS, leave_out: int = 0,
+            scale: float = 0.0, ground_velocity: Optional[ArrayLike] = None,
+            progress: Optional[Progress] = None) -> None:
+        c = Call(source=source, target=target)
+        desc = _retarget_desc(c, source_rest=source_rest, target_rest=target_rest, root_motion=root_motion,
+                leave_out=leave_out, scale=scale, ground_velocity=ground_velocity, progress=progress)
+        self._own('hf_retarget_create', c, handle_of(source, Skeleton, 'source'), handle_of(target, Skeleton, 'target'),
+                ref(desc))
+
+    def clone(self) -> "Retarget":
+        """Copies a retarget with the state of its feet: for another character with the same skeletons, and for undo.
+        """
+        c = Call(self)
+        made = type(self).__new__(type(self))
+        c.n.update(self._n)
+        made._own('hf_retarget_clone', c, self._handle)
+        return made
+
+    def solve(self, source_pose: ArrayLike, seconds: float = 0.0) -> np.ndarray:
+        """Computes the pose of the target. The frame depends on the source pose and on the state of the feet: whether
+        each is planted, and how far it is moved to keep its place. The state comes from the frames since the last
+        reset and fades within a step.
+
+        source_pose: (source.joint_count, 10).
+        seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
+
+        Raises InvalidArgumentError, NonFiniteError.
+        """
+        c = Call(self)
+        source_pose_ = c.array('source_pose', source_pose, 'f4', ('source.joint_count', 10))
+        target_pose, _ = c.out(None, 'f4', ('target.joint_count', 10))
+        call('hf_retarget_solve', self._handle, source_pose_, number(seconds, 'seconds', ctypes.c_double),
+                address(target_pose))
+        return target_pose
+
+    def reset(self) -> None:
+        """Forgets the state of the feet and the figures of the info. Call it where the clip jumps."""
+        c = Call(self)
+        call('hf_retarget_reset', self._handle)
+
+    @property
+    def info(self) -> RetargetInfo:
+        """Writes the figures."""
+        c = Call(self)
+        info = c.struct(_raw.hf_retarget_info, {})
+        call('hf_retarget_get_info', self._handle, ref(info))
+        return info
+
+    def chains(self) -> np.ndarray:
+        """Writes how chains follow."""
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_retarget_get_chains', self._handle, room['capacity'], address(made['chains']), ref(count))
+
+        found = c.grow(self, 'hf_retarget_get_chains', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'chains': (np.dtype(_raw.hf_chain_match), ('capacity',))})
+        return found['chains']
+
+    def partners(self) -> np.ndarray:
+        """Writes which joint of the source each joint of the target follows. A joint between two gets the nearer, a
+        joint without a partner NO_INDEX.
+        """
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_retarget_get_partners', self._handle, room['capacity'], address(made['partners']), ref(count))
+
+        found = c.grow(self, 'hf_retarget_get_partners', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'partners': (np.uint32, ('capacity',))})
+        return found['partners']
+
+
+class Skeleton(Object):
+    """A skeleton at rest and the findings about it. Calls read the object, none changes it.
+
+    Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
+    feet shall stand on the ground. The object keeps a copy of everything.
+
+    names: one line for each joint in UTF-8, or None: names then say nothing
+    parents: (joint_count,) number of the parent, NO_INDEX for a root
+    rest: (joint_count, 10) joint transforms
+    inverse_binds: (joint_count, 16) inverse bind matrices, columns first, all zero for a joint that no skin names: it
+        carries children and rigid meshes alone; or None: the skin is given in the pose `rest`, and all joints bend it
+    up: (3,) declared axis, any length, or None: find it
+    forward: (3,) declared axis, any length, or None: find it
+    roles: (joint_count,) declared Role, -1 for a joint without; or None
+    sides: (joint_count,) BodySide of joints with a declared role; or None: find the sides
+    travels: (travel_count, 3) where each clip leads from its first to its last frame; it tells forward; or None
+    skin: None: there is none, and joints are judged by names and places alone
+    progress: an object to poll and cancel through
+    """
+
+    _destroy = 'hf_skeleton_destroy'
+    _counts = ('joint_count',)
+
+    @property
+    def joint_count(self) -> int:
+        """As it was made with."""
+        return self._n.get('joint_count', 0)
+
+    def ground_velocity(self, poses: ArrayLike, seconds: float) -> np.ndarray:
+        """Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
+        It is 0 for a clip that travels.
+
+        poses: (frame_count, joint_count, 10).
+        seconds: between two frames, above 0.
+
+        Raises EmptyError, InvalidArgumentError, NonFiniteError.
+        """
+        c = Call(self)
+        poses_ = c.array('poses', poses, 'f4', ('frame_count', 'joint_count', 10))
+        velocity, _ = c.out(None, 'f8', (3,))
+        call('hf_skeleton_get_ground_velocity', self._handle, c.n.setdefault('frame_count', 1), poses_, number(seconds,
+                'seconds', ctypes.c_double), address(velocity))
+        return velocity
+
+    def __init__(self, names: Union[None, str, Sequence[str]] = None, parents: Optional[ArrayLike] = None,
+            rest: Optional[ArrayLike] = None, inverse_binds: Optional[ArrayLike] = None, up: Optional[ArrayLike] = None,
+            forward: Optional[ArrayLike] = None, roles: Optional[ArrayLike] = None, sides: Optional[ArrayLike] = None,
+            travels: Optional[ArrayLike] = None, *, skin: Any = None, progress: Optional[Progress] = None) -> None:
+        c = Call()
+        desc = _skeleton_desc(c, names=names, parents=parents, rest=rest, inverse_binds=inverse_binds, up=up,
+                forward=forward, roles=roles, sides=sides, travels=travels, skin=skin, progress=progress)
+        self._own('hf_skeleton_create', c, ref(desc))
+
+    @property
+    def info(self) -> SkeletonInfo:
+        """Writes the findings."""
+        c = Call(self)
+        info = c.struct(_raw.hf_skeleton_info, {})
+        call('hf_skeleton_get_info', self._handle, ref(info))
+        return info
+
+    def joints(self) -> np.ndarray:
+        """Writes one entry for each joint."""
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_skeleton_get_joints', self._handle, room['capacity'], address(made['joints']), ref(count))
+
+        found = c.grow(self, 'hf_skeleton_get_joints', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'joints': (np.dtype(_raw.hf_joint_info), ('capacity',))})
+        return found['joints']
+
+    def chains(self) -> np.ndarray:
+        """Writes the chains."""
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_skeleton_get_chains', self._handle, room['capacity'], address(made['chains']), ref(count))
+
+        found = c.grow(self, 'hf_skeleton_get_chains', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'chains': (np.dtype(_raw.hf_chain), ('capacity',))})
+        return found['chains']
+
+    def chain_joints(self) -> np.ndarray:
+        """Writes the joints of chain after chain."""
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_skeleton_get_chain_joints', self._handle, room['capacity'], address(made['joints']), ref(count))
+
+        found = c.grow(self, 'hf_skeleton_get_chain_joints', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'joints': (np.uint32, ('capacity',))})
+        return found['joints']
+
+    def reasons(self) -> str:
+        """Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful."""
+        c = Call(self)
+        size = ctypes.c_size_t()
+        call('hf_skeleton_get_reasons', self._handle, 0, None, ref(size))
+        block = np.empty(size.value, np.uint8)
+        call('hf_skeleton_get_reasons', self._handle, block.size, address(block), ref(size))
+        return block.tobytes()[:-1].decode()
+
+
 class Transfer(Object):
     """hf/transfer.h - play the motion of one surface on another.
 
@@ -2790,7 +3129,12 @@ class Weights(Recorded):
     """
 
     _destroy = 'hf_weights_destroy'
-    _counts = ('vertex_count',)
+    _counts = ('joint_count', 'vertex_count')
+
+    @property
+    def joint_count(self) -> int:
+        """As it was made with."""
+        return self._n.get('joint_count', 0)
 
     @property
     def vertex_count(self) -> int:
@@ -3028,14 +3372,16 @@ class Weights(Recorded):
 
 
 __all__ = [
-    'Base', 'Certificate', 'Critical', 'CriticalInfo', 'CriticalPoint', 'CurveKind', 'DeformInfo', 'DeformMode',
-    'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod', 'Engine', 'Extremity', 'ExtremityKind',
-    'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal', 'HandleReason',
-    'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'Levels', 'Link', 'LinkMode', 'MirrorPairing', 'MirrorPlane',
-    'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo', 'Path', 'Pose', 'PoseInfo', 'PreviewInfo',
-    'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh', 'Region', 'RegionInfo', 'RegionList', 'Route', 'Side',
-    'Singularity', 'SitesInfo', 'SkinInfo', 'SolveInfo', 'Solver', 'SolverInfo', 'SolverStatistics',
-    'Streamlines', 'Surface', 'SurfaceInfo', 'SurfacePoint', 'SurfaceReport', 'SurfaceStatistics', 'Transfer',
-    'TransferDials', 'TransferInfo', 'TransferMode', 'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo',
-    'WeightsOrigin', 'WeightsOut', 'WeightsTransferInfo', 'Weld'
+    'Base', 'BodySide', 'Certificate', 'Chain', 'ChainMatch', 'Critical', 'CriticalInfo', 'CriticalPoint',
+    'CurveKind', 'DeformInfo', 'DeformMode', 'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod',
+    'Engine', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo',
+    'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo', 'JointKind',
+    'Levels', 'Link', 'LinkMode', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag',
+    'PairInfo', 'Path', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh',
+    'Region', 'RegionInfo', 'RegionList', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion',
+    'Route', 'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo',
+    'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo', 'SurfacePoint',
+    'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode',
+    'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo', 'WeightsOrigin', 'WeightsOut',
+    'WeightsTransferInfo', 'Weld'
 ]

@@ -88,6 +88,42 @@ pub const HF_CURVE_EDGES: i32 = 1;
 pub const HF_REGION_INSIDE: i32 = 0;
 pub const HF_REGION_RIM: i32 = 1;
 pub const HF_REGION_SITES: i32 = 2;
+pub const HF_ROOT_MOTION_HIPS: i32 = 0;
+pub const HF_ROOT_MOTION_ROOT: i32 = 1;
+pub const HF_ROOT_MOTION_IN_PLACE: i32 = 2;
+pub const HF_RETARGET_KEEP_RESTS: i32 = 1;
+pub const HF_RETARGET_NO_GOALS: i32 = 2;
+pub const HF_RETARGET_NO_LOCK: i32 = 4;
+pub const HF_RETARGET_NO_COPY: i32 = 8;
+pub const HF_SCALE_GIVEN: i32 = 0;
+pub const HF_SCALE_LEGS: i32 = 1;
+pub const HF_SCALE_HIPS: i32 = 2;
+pub const HF_SCALE_HEIGHT: i32 = 3;
+pub const HF_ROLE_OTHER: i32 = 0;
+pub const HF_ROLE_SPINE: i32 = 1;
+pub const HF_ROLE_NECK: i32 = 2;
+pub const HF_ROLE_HEAD: i32 = 3;
+pub const HF_ROLE_JAW: i32 = 4;
+pub const HF_ROLE_SHOULDER: i32 = 5;
+pub const HF_ROLE_ARM: i32 = 6;
+pub const HF_ROLE_HAND: i32 = 7;
+pub const HF_ROLE_FINGER: i32 = 8;
+pub const HF_ROLE_LEG: i32 = 9;
+pub const HF_ROLE_FOOT: i32 = 10;
+pub const HF_ROLE_TOE: i32 = 11;
+pub const HF_ROLE_TAIL: i32 = 12;
+pub const HF_ROLE_WING: i32 = 13;
+pub const HF_ROLE_EAR: i32 = 14;
+pub const HF_ROLE_EYE: i32 = 15;
+pub const HF_ROLE_ANTENNA: i32 = 16;
+pub const HF_ROLE_FIN: i32 = 17;
+pub const HF_SIDE_MIDDLE: i32 = 0;
+pub const HF_SIDE_LEFT: i32 = 1;
+pub const HF_SIDE_RIGHT: i32 = 2;
+pub const HF_JOINT_KIND_BODY: i32 = 0;
+pub const HF_JOINT_KIND_HELPER: i32 = 1;
+pub const HF_JOINT_KIND_END: i32 = 2;
+pub const HF_JOINT_KIND_TWIST: i32 = 3;
 pub const HF_TRANSFER_FIELDS: i32 = 0;
 pub const HF_TRANSFER_PAPER: i32 = 1;
 pub const HF_TRANSFER_STRETCH: i32 = 2;
@@ -188,6 +224,16 @@ pub struct hf_detail_object {
     _opaque: [u8; 0],
 }
 pub type hf_detail = *mut hf_detail_object;
+#[repr(C)]
+pub struct hf_retarget_object {
+    _opaque: [u8; 0],
+}
+pub type hf_retarget = *mut hf_retarget_object;
+#[repr(C)]
+pub struct hf_skeleton_object {
+    _opaque: [u8; 0],
+}
+pub type hf_skeleton = *mut hf_skeleton_object;
 #[repr(C)]
 pub struct hf_transfer_object {
     _opaque: [u8; 0],
@@ -1781,6 +1827,244 @@ impl Default for hf_detail_desc {
     }
 }
 
+/// Options of a retarget.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_retarget_desc {
+    pub struct_size: u32,
+    pub root_motion: i32,
+    pub leave_out: u32,
+    pub reserved: u32,
+    pub scale: f64,
+    pub ground_velocity: [f64; 3],
+    pub source_rest: *const f32,
+    pub target_rest: *const f32,
+    pub progress: hf_progress,
+}
+impl Default for hf_retarget_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// Figures of a retarget.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_retarget_info {
+    pub struct_size: u32,
+    pub source_joint_count: u32,
+    pub target_joint_count: u32,
+    pub matched_joint_count: u32,
+    pub chain_count: u32,
+    pub same_skeleton: i32,
+    pub scale_from: i32,
+    pub frame_count: u32,
+    pub scale: f64,
+    pub limb_angle: f64,
+    pub stride_share: f64,
+    pub deepest_drop: f64,
+}
+impl Default for hf_retarget_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_retarget_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "source_joint_count" => f64::from(self.source_joint_count),
+            "target_joint_count" => f64::from(self.target_joint_count),
+            "matched_joint_count" => f64::from(self.matched_joint_count),
+            "chain_count" => f64::from(self.chain_count),
+            "same_skeleton" => f64::from(self.same_skeleton),
+            "scale_from" => f64::from(self.scale_from),
+            "frame_count" => f64::from(self.frame_count),
+            "scale" => self.scale,
+            "limb_angle" => self.limb_angle,
+            "stride_share" => self.stride_share,
+            "deepest_drop" => self.deepest_drop,
+            _ => return None,
+        })
+    }
+}
+
+/// How a chain of the target follows the source.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_chain_match {
+    pub role: i32,
+    pub side: i32,
+    pub source_joint_count: u32,
+    pub target_joint_count: u32,
+    pub mean_angle: f64,
+    pub worst_angle: f64,
+}
+impl Default for hf_chain_match {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+/// The skin of a character
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_skin_desc {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub triangle_count: u32,
+    pub influence_count: u32,
+    pub positions: *const f32,
+    pub triangles: *const u32,
+    pub joints: *const u32,
+    pub weights: *const f32,
+}
+impl Default for hf_skin_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The joints of a character at rest.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_skeleton_desc {
+    pub struct_size: u32,
+    pub joint_count: u32,
+    pub names: *const c_char,
+    pub parents: *const u32,
+    pub rest: *const f32,
+    pub inverse_binds: *const f32,
+    pub up: *const f32,
+    pub forward: *const f32,
+    pub roles: *const i32,
+    pub sides: *const i32,
+    pub travel_count: u32,
+    pub reserved: u32,
+    pub travels: *const f32,
+    pub skin: *const hf_skin_desc,
+    pub allocator: hf_allocator,
+    pub progress: hf_progress,
+}
+impl Default for hf_skeleton_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The findings about a character.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_skeleton_info {
+    pub struct_size: u32,
+    pub joint_count: u32,
+    pub chain_count: u32,
+    pub reserved: u32,
+    pub up: [f64; 3],
+    pub forward: [f64; 3],
+    pub left: [f64; 3],
+    pub middle: [f64; 3],
+    pub up_confidence: f64,
+    pub forward_confidence: f64,
+    pub left_confidence: f64,
+    pub role_confidence: f64,
+    pub height: f64,
+    pub leg_length: f64,
+    pub hip_height: f64,
+    pub arm_length: f64,
+}
+impl Default for hf_skeleton_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_skeleton_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "joint_count" => f64::from(self.joint_count),
+            "chain_count" => f64::from(self.chain_count),
+            "reserved" => f64::from(self.reserved),
+            "up_confidence" => self.up_confidence,
+            "forward_confidence" => self.forward_confidence,
+            "left_confidence" => self.left_confidence,
+            "role_confidence" => self.role_confidence,
+            "height" => self.height,
+            "leg_length" => self.leg_length,
+            "hip_height" => self.hip_height,
+            "arm_length" => self.arm_length,
+            _ => return None,
+        })
+    }
+}
+
+/// What a joint was found to be.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_joint_info {
+    pub kind: i32,
+    pub role: i32,
+    pub side: i32,
+    pub chain: u32,
+    pub mate: u32,
+}
+impl Default for hf_joint_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+impl hf_joint_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "kind" => f64::from(self.kind),
+            "role" => f64::from(self.role),
+            "side" => f64::from(self.side),
+            "chain" => f64::from(self.chain),
+            "mate" => f64::from(self.mate),
+            _ => return None,
+        })
+    }
+}
+
+/// Joints of one role and side, from root to tip.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hf_chain {
+    pub role: i32,
+    pub side: i32,
+    pub number: u32,
+    pub parent: u32,
+    pub first: u32,
+    pub joint_count: u32,
+    pub length: f64,
+}
+impl Default for hf_chain {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
 /// most pairs of a transfer
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -2370,6 +2654,22 @@ extern "C" {
     pub fn hf_detail_create(source: hf_region, target: hf_region, desc: *const hf_detail_desc, out_detail: *mut hf_detail) -> i32;
     pub fn hf_detail_destroy(detail: hf_detail);
     pub fn hf_detail_morph(detail: hf_detail, desc: *const hf_morph_desc) -> i32;
+    pub fn hf_retarget_create(source: hf_skeleton, target: hf_skeleton, desc: *const hf_retarget_desc, out_retarget: *mut hf_retarget) -> i32;
+    pub fn hf_retarget_clone(retarget: hf_retarget, out_retarget: *mut hf_retarget) -> i32;
+    pub fn hf_retarget_destroy(retarget: hf_retarget);
+    pub fn hf_retarget_solve(retarget: hf_retarget, source_pose: *const f32, seconds: f64, out_target_pose: *mut f32) -> i32;
+    pub fn hf_retarget_reset(retarget: hf_retarget) -> i32;
+    pub fn hf_retarget_get_info(retarget: hf_retarget, out_info: *mut hf_retarget_info) -> i32;
+    pub fn hf_retarget_get_chains(retarget: hf_retarget, capacity: u32, out_chains: *mut hf_chain_match, out_count: *mut u32) -> i32;
+    pub fn hf_retarget_get_partners(retarget: hf_retarget, capacity: u32, out_partners: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_skeleton_get_ground_velocity(skeleton: hf_skeleton, frame_count: u32, poses: *const f32, seconds: f64, out_velocity: *mut f64) -> i32;
+    pub fn hf_skeleton_create(desc: *const hf_skeleton_desc, out_skeleton: *mut hf_skeleton) -> i32;
+    pub fn hf_skeleton_destroy(skeleton: hf_skeleton);
+    pub fn hf_skeleton_get_info(skeleton: hf_skeleton, out_info: *mut hf_skeleton_info) -> i32;
+    pub fn hf_skeleton_get_joints(skeleton: hf_skeleton, capacity: u32, out_joints: *mut hf_joint_info, out_count: *mut u32) -> i32;
+    pub fn hf_skeleton_get_chains(skeleton: hf_skeleton, capacity: u32, out_chains: *mut hf_chain, out_count: *mut u32) -> i32;
+    pub fn hf_skeleton_get_chain_joints(skeleton: hf_skeleton, capacity: u32, out_joints: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_skeleton_get_reasons(skeleton: hf_skeleton, capacity: usize, out_text: *mut c_char, out_size: *mut usize) -> i32;
     pub fn hf_transfer_create(source: hf_surface, target: hf_surface, desc: *const hf_transfer_desc, out_transfer: *mut hf_transfer) -> i32;
     pub fn hf_transfer_destroy(transfer: hf_transfer);
     pub fn hf_transfer_add_pairs(transfer: hf_transfer, pairs: *const hf_pairs_desc, out_pairs: *mut u32) -> i32;
