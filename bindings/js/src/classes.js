@@ -1364,11 +1364,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return velocity;
     }
 
-    constructor(first, options = {}) {
+    constructor(names, parents = null, rest = null, options = {}) {
       super();
-      if (first === bare) return;
+      if (names === bare) return;
       const c = new Call(null);
-      const desc = skeletonDesc(c, '', options);
+      const desc = skeletonDesc(c, '', { names, parents, rest, ...options });
       this._own('hf_skeleton_create', c, desc);
     }
 

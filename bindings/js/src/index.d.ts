@@ -2171,7 +2171,8 @@ export interface Skeleton extends Handle {
   reasons(): string;
 }
 export interface SkeletonClass {
-  new (options?: { names?: string | readonly string[] | null; parents?: Rows | null; rest?: Rows | null; inverseBinds?: Rows | null; up?: Rows | null; forward?: Rows | null; roles?: Rows | null; sides?: Rows | null; travels?: Rows | null; skin?: SkinDescGiven | Rows | null; progress?: Progress | null }): Skeleton;
+  new (names?: string | readonly string[] | null, parents?: Rows | null, rest?: Rows | null,
+          options?: { inverseBinds?: Rows | null; up?: Rows | null; forward?: Rows | null; roles?: Rows | null; sides?: Rows | null; travels?: Rows | null; skin?: SkinDescGiven | Rows | null; progress?: Progress | null }): Skeleton;
 }
 
 /**

@@ -2836,9 +2836,10 @@ class Skeleton(Object):
         return velocity
 
     def __init__(self, names: Union[None, str, Sequence[str]] = None, parents: Optional[ArrayLike] = None,
-            rest: Optional[ArrayLike] = None, inverse_binds: Optional[ArrayLike] = None, up: Optional[ArrayLike] = None,
-            forward: Optional[ArrayLike] = None, roles: Optional[ArrayLike] = None, sides: Optional[ArrayLike] = None,
-            travels: Optional[ArrayLike] = None, *, skin: Any = None, progress: Optional[Progress] = None) -> None:
+            rest: Optional[ArrayLike] = None, *, inverse_binds: Optional[ArrayLike] = None,
+            up: Optional[ArrayLike] = None, forward: Optional[ArrayLike] = None, roles: Optional[ArrayLike] = None,
+            sides: Optional[ArrayLike] = None, travels: Optional[ArrayLike] = None, skin: Any = None,
+            progress: Optional[Progress] = None) -> None:
         c = Call()
         desc = _skeleton_desc(c, names=names, parents=parents, rest=rest, inverse_binds=inverse_binds, up=up,
                 forward=forward, roles=roles, sides=sides, travels=travels, skin=skin, progress=progress)
