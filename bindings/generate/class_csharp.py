@@ -134,7 +134,7 @@ class Steps:
             lines.append(f'if ({given} != null) {name}->{f["name"]} = {given}.Fill(c, "{f["name"]}.");')
         for f in struct.counts:
             prefix = "prefix + " if self.inner else ""
-            lines.append(f'{name}->{f["name"]} = (uint)c.Count({prefix}"{f["name"]}", {least(struct, f)});')
+            lines.append(f'{name}->{f["name"]} = (uint)c.Count({prefix}"{f["name"]}", {least(f)});')
         return lines
 
     def field_ragged(self, var, counts, field):
@@ -203,11 +203,15 @@ class Steps:
 
     def do_make(self, made, function, values, kind):
         who = "" if made == "self" else "made."
-        given = ", ".join([*map(self.value, values), "&raw"])
-        lines = ["IntPtr raw;", f"HfException.Check(Functions.{function}({given}));"]
+        given = ", ".join([*map(self.value, values), "raw"])
+        lines = ["var raw = (IntPtr*)c.New(sizeof(IntPtr));"]
+        if kind == "create":  # Mono looks for the library when it compiles a method that calls it: this one, after Call has loaded it
+            lines.append(f"HfException.Check(Call.Late(() => Functions.{function}({given})));")
+        else:
+            lines.append(f"HfException.Check(Functions.{function}({given}));")
         if who:
             lines.append(f"var made = new {cs(self.w.noun)}();")
-        return [*lines, f"{who}Own(raw, {self.w.destroy}, c{''.join(f', {chr(34)}{k}{chr(34)}' for k in self.w.counts)});"]
+        return [*lines, f"{who}Own(*raw, {self.w.destroy}, c{''.join(f', {chr(34)}{k}{chr(34)}' for k in self.w.counts)});"]
 
     def do_bytes(self, function, first, second):
         second = [("grownblock",) if v == ("address", "block") else v for v in second]
@@ -252,7 +256,8 @@ class Writer:
     def doc(self, text, indent):
         pad, said = " " * indent + "/// ", self.words.say(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
         lines = wrapped(said, 112 - indent)
-        lines[0], lines[-1] = "<summary>" + lines[0], lines[-1] + "</summary>"
+        lines[0] = "<summary>" + lines[0]
+        lines[-1] += "</summary>"
         return [(pad + line).rstrip() for line in lines]
 
     # ---- arguments ----
@@ -285,8 +290,9 @@ class Writer:
         shown = [a for a in plan.arguments if a.role not in ("info", "out", "type")]
         parts = [self.argument(a, whole) for a in shown if a.required]
         parts += [f"Span<{into}> into"] if into else []
-        parts += [self.argument(a, whole) for a in shown if not a.required and a.first]
-        parts += [self.argument(a, whole) for a in shown if not a.required and not a.first]
+        fills = [a for a in shown if a.role == "fill" and into]  # more arrays to fill stand beside the first
+        rest = [a for a in shown if not a.required and a not in fills]
+        parts += [self.argument(a, whole) for a in [*fills, *sorted(rest, key=lambda a: not a.first)]]
         return f"{head}({', '.join(parts)})"
 
     # ---- methods ----
@@ -360,7 +366,6 @@ class Writer:
         signature = head if prop else self.signature(plan, head, into)
         steps = Steps(self, into=into)
         steps.fresh, steps.arguments = fresh, plan.arguments
-        fills = [a for a in plan.arguments if a.role == "fill"]
         body = []
         if plan.steps[0][0] != "returns":
             for p in m.parents:
@@ -379,7 +384,7 @@ class Writer:
         body += ["}"] * steps.blocks
         if plan.steps[0][0] != "returns":
             body = [f"using (var c = new Call({'this' if m.own and m.kind != 'create' else 'null'}))", "{", *body, "}"]
-        lines = self.doc(method_words(plan, "Throws"), 8) + fold(signature, 8)
+        lines = self.doc(method_words(plan, "Throws", lower), 8) + fold(signature, 8)
         lines += ["        {"] + (["            get", "            {"] if prop else [])
         lines += indented(body, 16 if prop else 12)
         return lines + (["            }"] if prop else []) + ["        }"]
@@ -388,7 +393,7 @@ class Writer:
         name = cs(handle["name"])
         self.noun, self.counts = handle["name"], sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & {"vertex_count", "channel_count"})
         self.destroy = f"Functions.{next(m.name for m in methods if m.kind == 'destroy')}"
-        out = ["", *self.doc(class_words(handle, methods, self.structs), 4), f"    public sealed unsafe class {name} : {'Recorded' if recorded(methods) else 'HfObject'}", "    {"]
+        out = ["", *self.doc(class_words(handle, methods, self.structs, lower), 4), f"    public sealed unsafe class {name} : {'Recorded' if recorded(methods) else 'HfObject'}", "    {"]
         body, told = [], []
         for m in methods:
             if m.kind != "destroy":

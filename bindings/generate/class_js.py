@@ -97,7 +97,7 @@ class Steps:
             lines.append(f"{js(var)}.set('{f['name']}', c.inner({js(f['name'])}, '{js(first)}', {js(f['type'][3:])}, '{f['name']}.'));")
         if struct.counts:
             prefix = "prefix + " if self.filler else ""
-            lines.append(f"c.counts({js(var)}, {{ {', '.join(f'''{f['name']}: [{prefix}'{f['name']}', {least(struct, f)}]''' for f in struct.counts)} }});")
+            lines.append(f"c.counts({js(var)}, {{ {', '.join(f'''{f['name']}: [{prefix}'{f['name']}', {least(f)}]''' for f in struct.counts)} }});")
         return lines
 
     def field_ragged(self, var, counts, field):

@@ -113,7 +113,7 @@ class Steps:
             lines.append(f"{var}.{f['name']} = c.inner({safe(f['name'])}, '{first}', _{f['type'][3:]}, '{f['name']}.')")
         if struct.counts:
             pre = "prefix + " if prefixed else ""
-            lines.append(f"c.counts({var}, {', '.join(f'''{f['name']}=({pre}'{f['name']}', {least(struct, f)})''' for f in struct.counts)})")
+            lines.append(f"c.counts({var}, {', '.join(f'''{f['name']}=({pre}'{f['name']}', {least(f)})''' for f in struct.counts)})")
         return lines
 
     def field_ragged(self, var, counts, field):

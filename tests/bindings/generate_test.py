@@ -75,6 +75,28 @@ class OneDescription(unittest.TestCase):
         (self.folder / "js/src/call_toy.mjs").write_text(CALL_JS)
         subprocess.run([node, self.folder / "js/src/call_toy.mjs"], check=True)
 
+    def stub(self):
+        """A library of the two functions and of what a solver needs."""
+        compiler = shutil.which("cc")
+        if compiler is None:
+            self.skipTest("no C compiler here")
+        (self.folder / "stub.c").write_text(STUB)
+        subprocess.run([compiler, "-shared", "-fPIC", self.folder / "stub.c", "-o", self.folder / "libhf.so"], check=True)
+
+    def test_a_toy_function_is_a_method_of_csharp_that_is_called_with_arrays(self):
+        if shutil.which("mcs") is None or shutil.which("mono") is None:
+            self.skipTest("no Mono here")
+        self.stub()
+        made = generate.files(with_toy(self.folder))
+        shutil.copytree(ROOT / "bindings/csharp/Hf", self.folder / "csharp/Hf")
+        for name, text in made.items():
+            if name.startswith("csharp/"):
+                (self.folder / name).write_text(text)
+        (self.folder / "Toy.cs").write_text(CALL_CS)
+        subprocess.run(["mcs", "-langversion:latest", "-unsafe", f"-out:{self.folder}/toy.exe", self.folder / "Toy.cs",
+                        *sorted((self.folder / "csharp/Hf").glob("*.cs"))], check=True)
+        subprocess.run(["mono", self.folder / "toy.exe"], check=True, env={"PATH": "/usr/bin:/bin", "HF_LIBRARY": str(self.folder / "libhf.so")})
+
     def test_what_a_comment_leaves_open_is_refused_by_name(self):
         cases = {"hf_solver_get_mean, out_mean: how many?": TOY.replace("out_mean: receives the mean. ", ""),
                  "hf_solver_shift_sites, vectors: how many?": TOY.replace("vectors: double[site_count][3] ", "vectors: "),
@@ -149,6 +171,44 @@ assert.equal(solver.mean, 2.5);
 solver.shiftSites([4, 5], [1, 2, 3, 4, 5, 6]);
 assert.deepEqual(got, [2, [4, 5], [1, 2, 3, 4, 5, 6]]);
 assert.throws(() => solver.shiftSites([4, 5], [1, 2, 3, 4]), /vectors must hold 6 numbers, not 4/);
+'''
+
+STUB = '''
+#include <stdint.h>
+#include <string.h>
+uint32_t hf_version_get(void) { return 1000; }
+const char* hf_result_get_name(int32_t result) { return result ? "HF_ERROR_INVALID_ARGUMENT" : "HF_OK"; }
+int32_t hf_error_get_detail(void* detail) { return 0; }
+int32_t hf_surface_create(const void* desc, void** out) { *out = (void*)8; return 0; }
+void hf_surface_destroy(void* surface) {}
+int32_t hf_create(void* surface, const void* desc, void** out) { *out = (void*)16; return 0; }
+void hf_solver_destroy(void* solver) {}
+int32_t hf_solver_get_mean(void* solver, double* out_mean) { *out_mean = 2.5; return 0; }
+int32_t hf_solver_shift_sites(void* solver, uint32_t count, const uint32_t* sites, const double* vectors) {
+  const double wanted[] = {1, 2, 3, 4, 5, 6};
+  return count == 2 && sites[1] == 5 && !memcmp(vectors, wanted, sizeof(wanted)) ? 0 : -1;
+}
+'''
+
+CALL_CS = '''
+using System;
+using Hf;
+static class Toy
+{
+    static void Main()
+    {
+        var solver = new Solver(new Surface(new float[3], new uint[3]));
+        if (solver.Mean != 2.5) throw new Exception("the mean");
+        solver.ShiftSites(new uint[] { 4, 5 }, new double[] { 1, 2, 3, 4, 5, 6 });
+        try { solver.ShiftSites(new uint[] { 4, 5 }, new double[] { 1, 2, 3, 4 }); }
+        catch (HfException error)
+        {
+            if (error.Message.Contains("vectors must hold 6 numbers, not 4")) return;
+            throw;
+        }
+        throw new Exception("two numbers for each were taken for three");
+    }
+}
 '''
 
 if __name__ == "__main__":

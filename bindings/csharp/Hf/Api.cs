@@ -10,28 +10,28 @@ namespace Hf
     /// to every copy of a vertex.</summary>
     public enum Weld
     {
-        /// bit-equal positions (+0 and -0 are equal)</summary>
+        /// <summary>bit-equal positions (+0 and -0 are equal)</summary>
         Exact = Constants.HF_WELD_EXACT,
-        /// vertices as stored</summary>
+        /// <summary>vertices as stored</summary>
         None = Constants.HF_WELD_NONE,
-        /// positions closer than weld_tolerance, transitively</summary>
+        /// <summary>positions closer than weld_tolerance, transitively</summary>
         Tolerance = Constants.HF_WELD_TOLERANCE,
     }
 
-    /// Selects the edge weights w_ij of the discrete Laplacian L of a field u: (L u)_i = sum_j w_ij (u_i - u_j).</summary>
+    /// <summary>Selects the edge weights w_ij of the discrete Laplacian L of a field u: (L u)_i = sum_j w_ij (u_i - u_j).</summary>
     public enum Operator
     {
         /// <summary>cotangent weights of the intrinsic Delaunay triangulation, on the tufted cover where edges are open or
         /// non-manifold (Bobenko and Springborn 2007; Sharp and Crane 2020). Weights are never negative: a field
         /// keeps to the range of its sites on any mesh</summary>
         IntrinsicDelaunay = Constants.HF_OPERATOR_INTRINSIC_DELAUNAY,
-        /// cotangents, at least 1e-3 of the median weight: keeps to the range too</summary>
+        /// <summary>cotangents, at least 1e-3 of the median weight: keeps to the range too</summary>
         Clamped = Constants.HF_OPERATOR_CLAMPED,
-        /// w_ij = 1</summary>
+        /// <summary>w_ij = 1</summary>
         Uniform = Constants.HF_OPERATOR_UNIFORM,
-        /// w_ij = (cot a_ij + cot b_ij) / 2, the paper's; can be negative at obtuse triangles</summary>
+        /// <summary>w_ij = (cot a_ij + cot b_ij) / 2, the paper's; can be negative at obtuse triangles</summary>
         Cotangent = Constants.HF_OPERATOR_COTANGENT,
-        /// your own weights; only Surface.FromGraph makes it</summary>
+        /// <summary>your own weights; only Surface.FromGraph makes it</summary>
         Graph = Constants.HF_OPERATOR_GRAPH,
     }
 
@@ -39,22 +39,22 @@ namespace Hf
     /// their values. Its factor is 3 to 4 times larger than a harmonic one, and its solve adds one correction step.</summary>
     public enum FieldKind
     {
-        /// K = L</summary>
+        /// <summary>K = L</summary>
         Harmonic = Constants.HF_FIELD_HARMONIC,
-        /// K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the scale of the mesh</summary>
+        /// <summary>K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the scale of the mesh</summary>
         Biharmonic = Constants.HF_FIELD_BIHARMONIC,
-        /// K = L^2, the paper's: depends on how densely the surface is sampled</summary>
+        /// <summary>K = L^2, the paper's: depends on how densely the surface is sampled</summary>
         BiharmonicGraph = Constants.HF_FIELD_BIHARMONIC_GRAPH,
     }
 
-    /// Selects how the unknowns are ordered. A good order keeps the factor small.</summary>
+    /// <summary>Selects how the unknowns are ordered. A good order keeps the factor small.</summary>
     public enum Ordering
     {
-        /// our own; gives the smallest factor</summary>
+        /// <summary>our own; gives the smallest factor</summary>
         NestedDissection = Constants.HF_ORDERING_NESTED_DISSECTION,
-        /// quicker to compute, larger factor on large meshes</summary>
+        /// <summary>quicker to compute, larger factor on large meshes</summary>
         MinimumDegree = Constants.HF_ORDERING_MINIMUM_DEGREE,
-        /// builds with HF_WITH_GPL only</summary>
+        /// <summary>builds with HF_WITH_GPL only</summary>
         Metis = Constants.HF_ORDERING_METIS,
     }
 
@@ -65,45 +65,45 @@ namespace Hf
         /// <summary>pieces stay apart. The default, because a scan or a scene may hold bodies that do not belong together;
         /// the programs and bindings for characters link by default</summary>
         None = Constants.HF_LINK_NONE,
-        /// automatic: a tree over the pieces by smallest distance, and all pieces that touch</summary>
+        /// <summary>automatic: a tree over the pieces by smallest distance, and all pieces that touch</summary>
         Pieces = Constants.HF_LINK_PIECES,
-        /// the links you give, and no others; only light_vertices name light pieces then</summary>
+        /// <summary>the links you give, and no others; only light_vertices name light pieces then</summary>
         List = Constants.HF_LINK_LIST,
     }
 
-    /// Selects the engine: how a solver combines its sites with the factor. All engines give the same field.</summary>
+    /// <summary>Selects the engine: how a solver combines its sites with the factor. All engines give the same field.</summary>
     public enum Engine
     {
-        /// sites are rows of a small dense system beside the factor: the default</summary>
+        /// <summary>sites are rows of a small dense system beside the factor: the default</summary>
         Green = Constants.HF_ENGINE_GREEN,
         /// <summary>as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds with
         /// HF_WITH_GPL. The field meets its sites to about 1e-8 of the value range, a bi-harmonic one to 2e-7</summary>
         Updown = Constants.HF_ENGINE_UPDOWN,
-        /// eliminates the sites and factorises again at every change: the baseline</summary>
+        /// <summary>eliminates the sites and factorises again at every change: the baseline</summary>
         Refactor = Constants.HF_ENGINE_REFACTOR,
     }
 
-    /// These values say how the solver carried out the last edit of site places (SolverStatistics.last_route).</summary>
+    /// <summary>These values say how the solver carried out the last edit of site places (SolverStatistics.last_route).</summary>
     public enum Route
     {
-        /// no place was edited yet, or the engine is not green</summary>
+        /// <summary>no place was edited yet, or the engine is not green</summary>
         None = Constants.HF_ROUTE_NONE,
-        /// rows of the dense system were added and removed</summary>
+        /// <summary>rows of the dense system were added and removed</summary>
         Dense = Constants.HF_ROUTE_DENSE,
-        /// the dense system was recomputed, which was quicker</summary>
+        /// <summary>the dense system was recomputed, which was quicker</summary>
         Fresh = Constants.HF_ROUTE_FRESH,
-        /// factorised again with hard vertex sites eliminated</summary>
+        /// <summary>factorised again with hard vertex sites eliminated</summary>
         Rebase = Constants.HF_ROUTE_REBASE,
     }
 
-    /// Selects how levels divide a field into strips. N levels give N + 1 strips.</summary>
+    /// <summary>Selects how levels divide a field into strips. N levels give N + 1 strips.</summary>
     public enum Levels
     {
-        /// equal steps of the value</summary>
+        /// <summary>equal steps of the value</summary>
         Value = Constants.HF_LEVELS_VALUE,
-        /// equal areas: the strips cover the same area each</summary>
+        /// <summary>equal areas: the strips cover the same area each</summary>
         Area = Constants.HF_LEVELS_AREA,
-        /// equal mean widths: the width of a strip is its area over the mean length of its lines</summary>
+        /// <summary>equal mean widths: the width of a strip is its area over the mean length of its lines</summary>
         Length = Constants.HF_LEVELS_LENGTH,
     }
 
@@ -114,16 +114,16 @@ namespace Hf
         Saddle = Constants.HF_CRITICAL_SADDLE,
     }
 
-    /// Selects how distances are computed. docs/benchmarks.md has the errors of each.</summary>
+    /// <summary>Selects how distances are computed. docs/benchmarks.md has the errors of each.</summary>
     public enum DistanceMethod
     {
-        /// EXACT up to 10,000 vertices, FRONT beyond</summary>
+        /// <summary>EXACT up to 10,000 vertices, FRONT beyond</summary>
         Auto = Constants.HF_GEODESICS_AUTO,
-        /// fast: circular fronts on the intrinsic Delaunay triangulation (Novotni and Klein 2002)</summary>
+        /// <summary>fast: circular fronts on the intrinsic Delaunay triangulation (Novotni and Klein 2002)</summary>
         Front = Constants.HF_GEODESICS_FRONT,
-        /// exact up to rounding: windows (Mitchell, Mount and Papadimitriou 1987)</summary>
+        /// <summary>exact up to rounding: windows (Mitchell, Mount and Papadimitriou 1987)</summary>
         Exact = Constants.HF_GEODESICS_EXACT,
-        /// smooth, and least exact: the heat method (Crane, Weischedel and Wardetzky 2013)</summary>
+        /// <summary>smooth, and least exact: the heat method (Crane, Weischedel and Wardetzky 2013)</summary>
         Heat = Constants.HF_GEODESICS_HEAT,
     }
 
@@ -131,46 +131,46 @@ namespace Hf
     /// protruding parts.</summary>
     public enum ExtremityKind
     {
-        /// a field with a source at every vertex: one solve</summary>
+        /// <summary>a field with a source at every vertex: one solve</summary>
         Poisson = Constants.HF_EXTREMITIES_POISSON,
-        /// mean geodesic distance to the rest of the component (Hilaga et al. 2001)</summary>
+        /// <summary>mean geodesic distance to the rest of the component (Hilaga et al. 2001)</summary>
         Geodesic = Constants.HF_EXTREMITIES_GEODESIC,
     }
 
-    /// Selects how vertices follow the handles.</summary>
+    /// <summary>Selects how vertices follow the handles.</summary>
     public enum DeformMode
     {
-        /// quadratic bands, reduced elastic energy: the default</summary>
+        /// <summary>quadratic bands, reduced elastic energy: the default</summary>
         Smooth = Constants.HF_DEFORM_SMOOTH,
-        /// linear bands of equal value, shape matching of overlapping clusters</summary>
+        /// <summary>linear bands of equal value, shape matching of overlapping clusters</summary>
         Paper = Constants.HF_DEFORM_PAPER,
     }
 
-    /// Says why a place is proposed as a handle.</summary>
+    /// <summary>Says why a place is proposed as a handle.</summary>
     public enum HandleReason
     {
-        /// stands on the ground: the surface rises from it along a leg</summary>
+        /// <summary>stands on the ground: the surface rises from it along a leg</summary>
         Foot = Constants.HF_HANDLE_REASON_FOOT,
-        /// a protruding part ends there: head, tail, hand, horn (Surface.FindExtremities)</summary>
+        /// <summary>a protruding part ends there: head, tail, hand, horn (Surface.FindExtremities)</summary>
         Tip = Constants.HF_HANDLE_REASON_TIP,
-        /// one of the two ends of a component without feet or tips</summary>
+        /// <summary>one of the two ends of a component without feet or tips</summary>
         End = Constants.HF_HANDLE_REASON_END,
-        /// a joint of the given skeleton: an end, or where it branches</summary>
+        /// <summary>a joint of the given skeleton: an end, or where it branches</summary>
         Joint = Constants.HF_HANDLE_REASON_JOINT,
-        /// the middle of the largest component; pinned if nothing else is</summary>
+        /// <summary>the middle of the largest component; pinned if nothing else is</summary>
         Middle = Constants.HF_HANDLE_REASON_MIDDLE,
     }
 
-    /// The smooth base of a region.</summary>
+    /// <summary>The smooth base of a region.</summary>
     public enum Base
     {
-        /// THIN_PLATE</summary>
+        /// <summary>THIN_PLATE</summary>
         Default = Constants.HF_BASE_DEFAULT,
-        /// harmonic: the least area for its rim, nearly; it meets the rim with a crease</summary>
+        /// <summary>harmonic: the least area for its rim, nearly; it meets the rim with a crease</summary>
         Membrane = Constants.HF_BASE_MEMBRANE,
-        /// bi-harmonic (FieldKind.Biharmonic): leaves the surface around it without a crease</summary>
+        /// <summary>bi-harmonic (FieldKind.Biharmonic): leaves the surface around it without a crease</summary>
         ThinPlate = Constants.HF_BASE_THIN_PLATE,
-        /// the paper's bi-harmonic field (FieldKind.BiharmonicGraph)</summary>
+        /// <summary>the paper's bi-harmonic field (FieldKind.BiharmonicGraph)</summary>
         ThinPlateGraph = Constants.HF_BASE_THIN_PLATE_GRAPH,
     }
 
@@ -178,39 +178,39 @@ namespace Hf
     /// edges touches itself there are more parts: SMALLER takes all but the largest, SEED the part of its vertex.</summary>
     public enum Side
     {
-        /// the side of smaller area</summary>
+        /// <summary>the side of smaller area</summary>
         Smaller = Constants.HF_SIDE_SMALLER,
-        /// the side of larger area</summary>
+        /// <summary>the side of larger area</summary>
         Larger = Constants.HF_SIDE_LARGER,
-        /// the side that seed_vertex lies in</summary>
+        /// <summary>the side that seed_vertex lies in</summary>
         Seed = Constants.HF_SIDE_SEED,
     }
 
-    /// How the points of a curve are joined: each to the next, and the last to the first.</summary>
+    /// <summary>How the points of a curve are joined: each to the next, and the last to the first.</summary>
     public enum CurveKind
     {
-        /// by shortest paths along the surface, through triangles, exact up to rounding</summary>
+        /// <summary>by shortest paths along the surface, through triangles, exact up to rounding</summary>
         Straight = Constants.HF_CURVE_STRAIGHT,
-        /// by shortest paths along edges; points in triangles stand for their nearest corner</summary>
+        /// <summary>by shortest paths along edges; points in triangles stand for their nearest corner</summary>
         Edges = Constants.HF_CURVE_EDGES,
     }
 
-    /// Lists of vertices of a region.</summary>
+    /// <summary>Lists of vertices of a region.</summary>
     public enum RegionList
     {
-        /// the region</summary>
+        /// <summary>the region</summary>
         Inside = Constants.HF_REGION_INSIDE,
-        /// the vertices next to it</summary>
+        /// <summary>the vertices next to it</summary>
         Rim = Constants.HF_REGION_RIM,
-        /// vertices whose positions fix the base</summary>
+        /// <summary>vertices whose positions fix the base</summary>
         Sites = Constants.HF_REGION_SITES,
     }
 
     public enum TransferMode
     {
-        /// a cluster: vertices with similar values of all fields; the default</summary>
+        /// <summary>a cluster: vertices with similar values of all fields; the default</summary>
         Fields = Constants.HF_TRANSFER_FIELDS,
-        /// a cluster: vertices between two levels of one field, as in the paper</summary>
+        /// <summary>a cluster: vertices between two levels of one field, as in the paper</summary>
         Paper = Constants.HF_TRANSFER_PAPER,
         /// <summary>Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each
         /// target vertex i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The
@@ -224,149 +224,149 @@ namespace Hf
 
     public enum Ground
     {
-        /// feet stand, and no part sinks deeper than the source's, but for thin ones. The default</summary>
+        /// <summary>feet stand, and no part sinks deeper than the source's, but for thin ones. The default</summary>
         Keep = Constants.HF_GROUND_KEEP,
-        /// there is no ground: for flying and swimming, or where the host has its own</summary>
+        /// <summary>there is no ground: for flying and swimming, or where the host has its own</summary>
         Off = Constants.HF_GROUND_OFF,
     }
 
-    /// Bits that describe a pair of regions.</summary>
+    /// <summary>Bits that describe a pair of regions.</summary>
     [Flags]
     public enum PairFlag
     {
         None = 0,
-        /// the target's region follows the scaled path of the source's (feet, trunk)</summary>
+        /// <summary>the target's region follows the scaled path of the source's (feet, trunk)</summary>
         Anchor = Constants.HF_PAIR_ANCHOR,
-        /// an anchor that also stands on the ground, and whose leg gives the scale</summary>
+        /// <summary>an anchor that also stands on the ground, and whose leg gives the scale</summary>
         Foot = Constants.HF_PAIR_FOOT,
-        /// part of the trunk: no rest alignment</summary>
+        /// <summary>part of the trunk: no rest alignment</summary>
         Trunk = Constants.HF_PAIR_TRUNK,
-        /// keep the source's rotations as they are even if the rest limbs point elsewhere</summary>
+        /// <summary>keep the source's rotations as they are even if the rest limbs point elsewhere</summary>
         NoAlignment = Constants.HF_PAIR_NO_ALIGNMENT,
         /// <summary>comes as near to the ground as the source's region, scaled, while that is near it (a nose that grazes, a
         /// hand that leans); elsewhere it is free</summary>
         Contact = Constants.HF_PAIR_CONTACT,
-        /// this limb may sink into the ground, thick or thin (Transfer.Sinking)</summary>
+        /// <summary>this limb may sink into the ground, thick or thin (Transfer.Sinking)</summary>
         Sinks = Constants.HF_PAIR_SINKS,
-        /// head, nose or ears: neck_follow of TransferDials turns the neck that they share</summary>
+        /// <summary>head, nose or ears: neck_follow of TransferDials turns the neck that they share</summary>
         Neck = Constants.HF_PAIR_NECK,
-        /// part of the tail: tail_follow turns it</summary>
+        /// <summary>part of the tail: tail_follow turns it</summary>
         Tail = Constants.HF_PAIR_TAIL,
-        /// a hand: arm_space turns the arms of each side</summary>
+        /// <summary>a hand: arm_space turns the arms of each side</summary>
         Arm = Constants.HF_PAIR_ARM,
     }
 
-    /// How the weights of a vertex were found.</summary>
+    /// <summary>How the weights of a vertex were found.</summary>
     public enum WeightsOrigin
     {
-        /// it sees its nearest joint</summary>
+        /// <summary>it sees its nearest joint</summary>
         Informed = Constants.HF_WEIGHTS_INFORMED,
-        /// from the vertices around it</summary>
+        /// <summary>from the vertices around it</summary>
         Solved = Constants.HF_WEIGHTS_SOLVED,
-        /// given by a pin</summary>
+        /// <summary>given by a pin</summary>
         Pinned = Constants.HF_WEIGHTS_PINNED,
-        /// guessed: its piece has no information; from the nearest vertices of others</summary>
+        /// <summary>guessed: its piece has no information; from the nearest vertices of others</summary>
         Nearest = Constants.HF_WEIGHTS_NEAREST,
-        /// guessed, as NEAREST: one mean for all vertices of a small piece</summary>
+        /// <summary>guessed, as NEAREST: one mean for all vertices of a small piece</summary>
         Rigid = Constants.HF_WEIGHTS_RIGID,
-        /// guessed: it belongs to no triangle; from the nearest vertex</summary>
+        /// <summary>guessed: it belongs to no triangle; from the nearest vertex</summary>
         Isolated = Constants.HF_WEIGHTS_ISOLATED,
-        /// transferred or mirrored: from a near point whose normal agrees</summary>
+        /// <summary>transferred or mirrored: from a near point whose normal agrees</summary>
         Matched = Constants.HF_WEIGHTS_MATCHED,
-        /// mirrored: it is on the side that gives</summary>
+        /// <summary>mirrored: it is on the side that gives</summary>
         Kept = Constants.HF_WEIGHTS_KEPT,
     }
 
-    /// Bits that say why a joint deserves a look.</summary>
+    /// <summary>Bits that say why a joint deserves a look.</summary>
     [Flags]
     public enum JointFlag
     {
         None = 0,
-        /// it is a point</summary>
+        /// <summary>it is a point</summary>
         NoLength = Constants.HF_JOINT_NO_LENGTH,
-        /// it lies exactly on a joint of a lower number</summary>
+        /// <summary>it lies exactly on a joint of a lower number</summary>
         Coincident = Constants.HF_JOINT_COINCIDENT,
-        /// no vertex has it as its nearest joint in sight</summary>
+        /// <summary>no vertex has it as its nearest joint in sight</summary>
         InformsNone = Constants.HF_JOINT_INFORMS_NONE,
-        /// no part of it is inside the skin</summary>
+        /// <summary>no part of it is inside the skin</summary>
         Outside = Constants.HF_JOINT_OUTSIDE,
-        /// a proposal that follows from the other flags: it looks like a helper that should not deform</summary>
+        /// <summary>a proposal that follows from the other flags: it looks like a helper that should not deform</summary>
         Helper = Constants.HF_JOINT_HELPER,
     }
 
-    /// Bits that say why a joint looks like a helper: a root, a target or a control that moves no skin.</summary>
+    /// <summary>Bits that say why a joint looks like a helper: a root, a target or a control that moves no skin.</summary>
     [Flags]
     public enum HelperReason
     {
         None = 0,
-        /// the reasons together are enough to propose it</summary>
+        /// <summary>the reasons together are enough to propose it</summary>
         Proposed = Constants.HF_HELPER_PROPOSED,
-        /// its name says root, armature, master, ...</summary>
+        /// <summary>its name says root, armature, master, ...</summary>
         NameRoot = Constants.HF_HELPER_NAME_ROOT,
-        /// its name says pole, target, IK, control, ...</summary>
+        /// <summary>its name says pole, target, IK, control, ...</summary>
         NameControl = Constants.HF_HELPER_NAME_CONTROL,
-        /// its name says end, tip, slot, ...</summary>
+        /// <summary>its name says end, tip, slot, ...</summary>
         NameEnd = Constants.HF_HELPER_NAME_END,
-        /// it has no parent, but children</summary>
+        /// <summary>it has no parent, but children</summary>
         Root = Constants.HF_HELPER_ROOT,
-        /// it has no child, and its parent is a root with other joints</summary>
+        /// <summary>it has no child, and its parent is a root with other joints</summary>
         Apart = Constants.HF_HELPER_APART,
-        /// as JointFlag.NoLength, and so on</summary>
+        /// <summary>as JointFlag.NoLength, and so on</summary>
         NoLength = Constants.HF_HELPER_NO_LENGTH,
         Coincident = Constants.HF_HELPER_COINCIDENT,
         Outside = Constants.HF_HELPER_OUTSIDE,
         InformsNone = Constants.HF_HELPER_INFORMS_NONE,
     }
 
-    /// Which side of the plane gives its weights.</summary>
+    /// <summary>Which side of the plane gives its weights.</summary>
     public enum MirrorTo
     {
-        /// the side that the normal points to</summary>
+        /// <summary>the side that the normal points to</summary>
         ToNegative = Constants.HF_MIRROR_TO_NEGATIVE,
-        /// the other side</summary>
+        /// <summary>the other side</summary>
         ToPositive = Constants.HF_MIRROR_TO_POSITIVE,
-        /// each side takes the mean of both</summary>
+        /// <summary>each side takes the mean of both</summary>
         Both = Constants.HF_MIRROR_BOTH,
     }
 
-    /// Where a plane of symmetry comes from.</summary>
+    /// <summary>Where a plane of symmetry comes from.</summary>
     public enum MirrorPlane
     {
         Given = Constants.HF_MIRROR_PLANE_GIVEN,
-        /// from joints with partners</summary>
+        /// <summary>from joints with partners</summary>
         Joints = Constants.HF_MIRROR_PLANE_JOINTS,
-        /// from the surface</summary>
+        /// <summary>from the surface</summary>
         Surface = Constants.HF_MIRROR_PLANE_SURFACE,
     }
 
-    /// How a joint found its partner.</summary>
+    /// <summary>How a joint found its partner.</summary>
     public enum MirrorPairing
     {
-        /// it has none, and moves the other side too</summary>
+        /// <summary>it has none, and moves the other side too</summary>
         Alone = Constants.HF_MIRROR_JOINT_ALONE,
-        /// the names differ in the side: arm.L and arm.R, LeftArm and RightArm</summary>
+        /// <summary>the names differ in the side: arm.L and arm.R, LeftArm and RightArm</summary>
         Named = Constants.HF_MIRROR_JOINT_NAMED,
-        /// it lies where the partner's reflection lies</summary>
+        /// <summary>it lies where the partner's reflection lies</summary>
         Placed = Constants.HF_MIRROR_JOINT_PLACED,
-        /// it lies on the plane, and is its own partner</summary>
+        /// <summary>it lies on the plane, and is its own partner</summary>
         Centre = Constants.HF_MIRROR_JOINT_CENTRE,
         Given = Constants.HF_MIRROR_JOINT_GIVEN,
     }
 
-    /// A spring from a vertex to a point of a triangle. Surface.Links writes it, LinksDesc reads it.</summary>
+    /// <summary>A spring from a vertex to a point of a triangle. Surface.Links writes it, LinksDesc reads it.</summary>
     public sealed unsafe class Link
     {
-        /// as given, of welded copies the first</summary>
+        /// <summary>as given, of welded copies the first</summary>
         public uint Vertex;
-        /// the triangle; a corner of barycentric 0 is ignored and can be uint.MaxValue</summary>
+        /// <summary>the triangle; a corner of barycentric 0 is ignored and can be uint.MaxValue</summary>
         public uint[] Corners = new uint[3];
-        /// &gt;= 0, of sum 1 within 1e-3. 1, 0, 0 links two vertices</summary>
+        /// <summary>&gt;= 0, of sum 1 within 1e-3. 1, 0, 0 links two vertices</summary>
         public double[] Barycentrics = new double[3];
-        /// at rest, in the unit of the positions. Ignored when read</summary>
+        /// <summary>at rest, in the unit of the positions. Ignored when read</summary>
         public double Length;
-        /// 1: as strong as an edge between two equilateral triangles; &gt; 0</summary>
+        /// <summary>1: as strong as an edge between two equilateral triangles; &gt; 0</summary>
         public double Weight;
-        /// 1: the tree over the pieces has it. Ignored when read</summary>
+        /// <summary>1: the tree over the pieces has it. Ignored when read</summary>
         public bool InTree;
 
         internal Link(hf_link* raw)
@@ -392,36 +392,36 @@ namespace Hf
         }
     }
 
-    /// The options a surface was made with, defaults filled in.</summary>
+    /// <summary>The options a surface was made with, defaults filled in.</summary>
     public sealed unsafe class SurfaceInfo
     {
-        /// as given</summary>
+        /// <summary>as given</summary>
         public uint VertexCount;
-        /// as given; of faces, the triangles of their cut</summary>
+        /// <summary>as given; of faces, the triangles of their cut</summary>
         public uint TriangleCount;
-        /// Weld</summary>
+        /// <summary>Weld</summary>
         public Weld Weld;
         public double WeldTolerance;
-        /// Operator</summary>
+        /// <summary>Operator</summary>
         public Operator OperatorKind;
-        /// FieldKind</summary>
+        /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
-        /// Ordering</summary>
+        /// <summary>Ordering</summary>
         public Ordering Ordering;
         public uint ThreadCount;
         public uint VertexLimit;
-        /// 0: eight per vertex of the vertex limit</summary>
+        /// <summary>0: eight per vertex of the vertex limit</summary>
         public uint TriangleLimit;
-        /// 0: none</summary>
+        /// <summary>0: none</summary>
         public uint MemoryLimitMb;
         public uint WorkLimitGflop;
-        /// as given to Surface.FromGraph; 0 for a mesh</summary>
+        /// <summary>as given to Surface.FromGraph; 0 for a mesh</summary>
         public uint EdgeCount;
-        /// of a graph, 0: sixteen per vertex of the vertex limit</summary>
+        /// <summary>of a graph, 0: sixteen per vertex of the vertex limit</summary>
         public uint EdgeLimit;
-        /// as given; 0 where triangles were given</summary>
+        /// <summary>as given; 0 where triangles were given</summary>
         public uint FaceCount;
-        /// as given</summary>
+        /// <summary>as given</summary>
         public uint CornerCount;
 
         internal SurfaceInfo(hf_surface_info* raw)
@@ -450,61 +450,61 @@ namespace Hf
     /// Degenerate triangles, negative edges and the smallest angle are of the cut.</summary>
     public sealed unsafe class SurfaceReport
     {
-        /// as given</summary>
+        /// <summary>as given</summary>
         public uint VertexCount;
-        /// as given; of faces, the triangles of their cut</summary>
+        /// <summary>as given; of faces, the triangles of their cut</summary>
         public uint TriangleCount;
-        /// after welding</summary>
+        /// <summary>after welding</summary>
         public uint WeldedVertexCount;
         /// <summary>connected components with at least one triangle (or edge), after welding; linked pieces are one
         /// component</summary>
         public uint ComponentCount;
-        /// given vertices in no usable triangle (or edge); fields are 0 there</summary>
+        /// <summary>given vertices in no usable triangle (or edge); fields are 0 there</summary>
         public uint IsolatedVertexCount;
-        /// zero area to working precision</summary>
+        /// <summary>zero area to working precision</summary>
         public uint DegenerateTriangleCount;
-        /// equal corners after welding, or on a line and joining nothing; left out</summary>
+        /// <summary>equal corners after welding, or on a line and joining nothing; left out</summary>
         public uint CollapsedTriangleCount;
-        /// the same corners again after welding, in either direction; they do not count in the edges below</summary>
+        /// <summary>the same corners again after welding, in either direction; they do not count in the edges below</summary>
         public uint DuplicateTriangleCount;
-        /// edges of three or more triangles</summary>
+        /// <summary>edges of three or more triangles</summary>
         public uint NonManifoldEdgeCount;
-        /// edges that two triangles run through in the same direction</summary>
+        /// <summary>edges that two triangles run through in the same direction</summary>
         public uint FlippedEdgeCount;
         public uint BoundaryEdgeCount;
-        /// edges of negative cotangent weight, before any clamping</summary>
+        /// <summary>edges of negative cotangent weight, before any clamping</summary>
         public uint NegativeEdgeCount;
-        /// radians, over the usable triangles</summary>
+        /// <summary>radians, over the usable triangles</summary>
         public double SmallestAngle;
-        /// in the unit of the positions, without isolated vertices</summary>
+        /// <summary>in the unit of the positions, without isolated vertices</summary>
         public double BoundingBoxDiagonal;
         /// <summary>welded vertices with a weight that is not the mesh's, in the operator of field_kind: of triangles too
         /// thin for it, or cut to the digits that there are. A certificate holds for the weights used; near such
         /// vertices the field may be another's</summary>
         public uint ChangedVertexCount;
-        /// the first of them, as given; uint.MaxValue without one</summary>
+        /// <summary>the first of them, as given; uint.MaxValue without one</summary>
         public uint FirstChangedVertex;
-        /// edge-connected pieces, linked or not</summary>
+        /// <summary>edge-connected pieces, linked or not</summary>
         public uint PieceCount;
-        /// Surface.Links writes them</summary>
+        /// <summary>Surface.Links writes them</summary>
         public uint LinkCount;
         public uint LightPieceCount;
-        /// pieces without a link, if there are several</summary>
+        /// <summary>pieces without a link, if there are several</summary>
         public uint LonePieceCount;
-        /// of the tree over the pieces, in the unit of the positions</summary>
+        /// <summary>of the tree over the pieces, in the unit of the positions</summary>
         public double LongestTreeLink;
-        /// as given; 0 where triangles were given</summary>
+        /// <summary>as given; 0 where triangles were given</summary>
         public uint FaceCount;
-        /// faces of more than three corners</summary>
+        /// <summary>faces of more than three corners</summary>
         public uint PolygonCount;
-        /// polygons with a corner farther than 1 % of their diameter from their mean plane</summary>
+        /// <summary>polygons with a corner farther than 1 % of their diameter from their mean plane</summary>
         public uint NonPlanarCount;
-        /// corners of the largest face</summary>
+        /// <summary>corners of the largest face</summary>
         public uint LargestFace;
         /// <summary>closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The inner wall of a
         /// hollow body is one too. Fields do not change; what uses normals does</summary>
         public uint InsideOutCount;
-        /// the first vertex of one, as given; uint.MaxValue without one</summary>
+        /// <summary>the first vertex of one, as given; uint.MaxValue without one</summary>
         public uint FirstInsideOutVertex;
 
         internal SurfaceReport(hf_surface_report* raw)
@@ -539,14 +539,14 @@ namespace Hf
         }
     }
 
-    /// How far linked pieces have opened, in the unit of the positions.</summary>
+    /// <summary>How far linked pieces have opened, in the unit of the positions.</summary>
     public sealed unsafe class GapsInfo
     {
         public uint LinkCount;
-        /// 95 of 100 links opened no more than this; 0 without links</summary>
+        /// <summary>95 of 100 links opened no more than this; 0 without links</summary>
         public double Percentile95;
         public double Worst;
-        /// its number in Surface.Links; uint.MaxValue without links</summary>
+        /// <summary>its number in Surface.Links; uint.MaxValue without links</summary>
         public uint WorstLink;
 
         internal GapsInfo(hf_gaps_info* raw)
@@ -562,29 +562,29 @@ namespace Hf
     /// (exact to 2^53).</summary>
     public sealed unsafe class SurfaceStatistics
     {
-        /// size of the factored matrix</summary>
+        /// <summary>size of the factored matrix</summary>
         public uint UnknownCount;
         public double WeldMs;
         public double OperatorMs;
         public double OrderingMs;
         public double SymbolicMs;
         public double NumericMs;
-        /// non-zeros of the Cholesky factor</summary>
+        /// <summary>non-zeros of the Cholesky factor</summary>
         public double FactorEntries;
-        /// memory of the stored factor with its indices</summary>
+        /// <summary>memory of the stored factor with its indices</summary>
         public double FactorBytes;
         public double FactorFlops;
         /// <summary>in use by this surface and everything made on it, and up to 16 work buffers of a field each that calls
         /// leave for the next, refused calls too</summary>
         public double MemoryBytes;
         public double PeakMemoryBytes;
-        /// to load a saved factor; the times to make it are then 0</summary>
+        /// <summary>to load a saved factor; the times to make it are then 0</summary>
         public double LoadMs;
-        /// 1: the factor was loaded</summary>
+        /// <summary>1: the factor was loaded</summary>
         public bool FactorLoaded;
-        /// 1: its numbers are read in place; factor_bytes counts them, memory_bytes does not</summary>
+        /// <summary>1: its numbers are read in place; factor_bytes counts them, memory_bytes does not</summary>
         public bool FactorBorrowed;
-        /// to find the links; operator_ms counts them too</summary>
+        /// <summary>to find the links; operator_ms counts them too</summary>
         public double LinksMs;
 
         internal SurfaceStatistics(hf_surface_statistics* raw)
@@ -607,18 +607,18 @@ namespace Hf
         }
     }
 
-    /// Surface.CastRay writes the first triangle that a ray hits here.</summary>
+    /// <summary>Surface.CastRay writes the first triangle that a ray hits here.</summary>
     public sealed unsafe class Hit
     {
-        /// or face, as given</summary>
+        /// <summary>or face, as given</summary>
         public uint Triangle;
-        /// its corner nearest to the hit, as given, of welded copies the first</summary>
+        /// <summary>its corner nearest to the hit, as given, of welded copies the first</summary>
         public uint Vertex;
-        /// weights of `corners`, of sum 1: a site for Solver.AddSites</summary>
+        /// <summary>weights of `corners`, of sum 1: a site for Solver.AddSites</summary>
         public double[] Barycentrics = new double[3];
-        /// in the unit of the positions</summary>
+        /// <summary>in the unit of the positions</summary>
         public double[] Position = new double[3];
-        /// from the origin, in lengths of `direction`</summary>
+        /// <summary>from the origin, in lengths of `direction`</summary>
         public double Distance;
         /// <summary>the triangle's vertices, as given, of welded copies the first. In a face of more corners three of them:
         /// the triangle of the face's cut that the ray hits</summary>
@@ -635,18 +635,18 @@ namespace Hf
         }
     }
 
-    /// Solver.Info writes the options of a solver here, with defaults filled in, and the number of its sites.</summary>
+    /// <summary>Solver.Info writes the options of a solver here, with defaults filled in, and the number of its sites.</summary>
     public sealed unsafe class SolverInfo
     {
-        /// FieldKind</summary>
+        /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
-        /// Engine</summary>
+        /// <summary>Engine</summary>
         public Engine Engine;
         public uint ChannelCount;
         public uint SiteLimit;
         public uint SiteCount;
         public double Penalty;
-        /// as given to the surface: rows of a field</summary>
+        /// <summary>as given to the surface: rows of a field</summary>
         public uint VertexCount;
 
         internal SolverInfo(hf_solver_info* raw)
@@ -661,14 +661,14 @@ namespace Hf
         }
     }
 
-    /// The components that the sites of a solve did not reach.</summary>
+    /// <summary>The components that the sites of a solve did not reach.</summary>
     public sealed unsafe class SolveInfo
     {
-        /// components without a site</summary>
+        /// <summary>components without a site</summary>
         public uint UnreachedComponentCount;
-        /// uint.MaxValue for none</summary>
+        /// <summary>uint.MaxValue for none</summary>
         public uint FirstUnreachedComponent;
-        /// given vertices in them, isolated ones included</summary>
+        /// <summary>given vertices in them, isolated ones included</summary>
         public uint UnreachedVertexCount;
 
         internal SolveInfo(hf_solve_info* raw)
@@ -679,24 +679,24 @@ namespace Hf
         }
     }
 
-    /// Counts and errors of a preview.</summary>
+    /// <summary>Counts and errors of a preview.</summary>
     public sealed unsafe class PreviewInfo
     {
-        /// 1: solved in double, as Solver.Solve does</summary>
+        /// <summary>1: solved in double, as Solver.Solve does</summary>
         public bool Exact;
-        /// corrections made; 0 when exact</summary>
+        /// <summary>corrections made; 0 when exact</summary>
         public uint CorrectionCount;
-        /// components without a site; their vertices hold 0</summary>
+        /// <summary>components without a site; their vertices hold 0</summary>
         public uint UnreachedComponentCount;
-        /// largest less smallest site value, the widest over components and channels</summary>
+        /// <summary>largest less smallest site value, the widest over components and channels</summary>
         public double ValueRange;
-        /// largest change of a value by the last correction: about the error before it</summary>
+        /// <summary>largest change of a value by the last correction: about the error before it</summary>
         public double LargestCorrection;
         /// <summary>of the largest error, in the unit of the values: measured when corrections were made, else 1e-5 of
         /// value_range; 0 when exact; infinite where only corrections tell: bi-harmonic fields, long shapes,
         /// crowded sites</summary>
         public double ErrorEstimate;
-        /// memory of the single-precision copy, shared by the surface</summary>
+        /// <summary>memory of the single-precision copy, shared by the surface</summary>
         public double PreviewBytes;
 
         internal PreviewInfo(hf_preview_info* raw)
@@ -719,17 +719,17 @@ namespace Hf
         /// <summary>1: the field must keep to the range of its sites: harmonic, intrinsic Delaunay or clamped operator, all
         ///     sites at vertices</summary>
         public bool OvershootChecked;
-        /// in: largest error to accept, &gt; 0; 0 = 1e-8, Engine.Updown 1e-5; out: the one used</summary>
+        /// <summary>in: largest error to accept, &gt; 0; 0 = 1e-8, Engine.Updown 1e-5; out: the one used</summary>
         public double Tolerance;
-        /// largest less smallest value (or target), the widest over components and channels</summary>
+        /// <summary>largest less smallest value (or target), the widest over components and channels</summary>
         public double ValueRange;
-        /// largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours</summary>
+        /// <summary>largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours</summary>
         public double Residual;
-        /// largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by</summary>
+        /// <summary>largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by</summary>
         public double SiteError;
-        /// how far the field leaves the range of its sites; 0 when not checked</summary>
+        /// <summary>how far the field leaves the range of its sites; 0 when not checked</summary>
         public double Overshoot;
-        /// as given, where the largest of the three is</summary>
+        /// <summary>as given, where the largest of the three is</summary>
         public uint WorstVertex;
         /// <summary>welded vertices with a weight that a rule set (SurfaceReport). On a mesh, and for bi-harmonic fields,
         /// the errors hold for the weights used; on a graph for your own, within 1e30 of their median</summary>
@@ -752,33 +752,33 @@ namespace Hf
         }
     }
 
-    /// Counts, memory and cost estimates of a solver. Bytes are doubles (exact to 2^53).</summary>
+    /// <summary>Counts, memory and cost estimates of a solver. Bytes are doubles (exact to 2^53).</summary>
     public sealed unsafe class SolverStatistics
     {
         public uint SiteCount;
-        /// numeric factorisations this solver made; the surface's own is not counted</summary>
+        /// <summary>numeric factorisations this solver made; the surface's own is not counted</summary>
         public uint FactorisationCount;
-        /// sparse solves (elimination paths) for added sites</summary>
+        /// <summary>sparse solves (elimination paths) for added sites</summary>
         public uint PathSolveCount;
-        /// backward sweeps</summary>
+        /// <summary>backward sweeps</summary>
         public uint SweepCount;
-        /// Route of the last edit</summary>
+        /// <summary>Route of the last edit</summary>
         public uint LastRoute;
-        /// times sites were moved into the factor</summary>
+        /// <summary>times sites were moved into the factor</summary>
         public uint RebaseCount;
-        /// edits by rows of the dense system</summary>
+        /// <summary>edits by rows of the dense system</summary>
         public uint DenseEditCount;
-        /// sites in the dense system at present</summary>
+        /// <summary>sites in the dense system at present</summary>
         public uint DenseRowCount;
-        /// sites that the factor eliminates now</summary>
+        /// <summary>sites that the factor eliminates now</summary>
         public uint EliminatedCount;
-        /// 1: elimination paths outweigh the factor, fields get slower: Solver.PrepareRebase</summary>
+        /// <summary>1: elimination paths outweigh the factor, fields get slower: Solver.PrepareRebase</summary>
         public bool RebaseAdvised;
-        /// paths and dense part of the sites</summary>
+        /// <summary>paths and dense part of the sites</summary>
         public double SiteMemoryBytes;
-        /// the cost model's estimate for the last edit by rows of the dense system ...</summary>
+        /// <summary>the cost model's estimate for the last edit by rows of the dense system ...</summary>
         public double PredictedDenseMs;
-        /// ... and by a rebase, on one thread of the machine it was measured on; 0: none</summary>
+        /// <summary>... and by a rebase, on one thread of the machine it was measured on; 0: none</summary>
         public double PredictedRebaseMs;
 
         internal SolverStatistics(hf_solver_statistics* raw)
@@ -801,13 +801,13 @@ namespace Hf
 
     public sealed unsafe class CriticalPoint
     {
-        /// as given, of welded copies the first</summary>
+        /// <summary>as given, of welded copies the first</summary>
         public uint Vertex;
-        /// Critical</summary>
+        /// <summary>Critical</summary>
         public Critical Kind;
-        /// 1 for extrema (0 for a maximum on a border), -k for a saddle where k + 1 valleys meet</summary>
+        /// <summary>1 for extrema (0 for a maximum on a border), -k for a saddle where k + 1 valleys meet</summary>
         public int Index;
-        /// its piece, as Surface.Pieces: links do not count here</summary>
+        /// <summary>its piece, as Surface.Pieces: links do not count here</summary>
         public uint Component;
         public double Value;
 
@@ -834,15 +834,15 @@ namespace Hf
 
     public sealed unsafe class CriticalInfo
     {
-        /// minima + maxima + saddles</summary>
+        /// <summary>minima + maxima + saddles</summary>
         public uint PointCount;
         public uint MinimumCount;
         public uint MaximumCount;
-        /// a saddle of several valleys counts once</summary>
+        /// <summary>a saddle of several valleys counts once</summary>
         public uint SaddleCount;
-        /// of all points</summary>
+        /// <summary>of all points</summary>
         public int IndexSum;
-        /// vertices - edges + triangles of the usable surface that has values</summary>
+        /// <summary>vertices - edges + triangles of the usable surface that has values</summary>
         public int EulerCharacteristic;
 
         internal CriticalInfo(hf_critical_info* raw)
@@ -858,9 +858,9 @@ namespace Hf
 
     public sealed unsafe class Extremity
     {
-        /// as given, of welded copies the first</summary>
+        /// <summary>as given, of welded copies the first</summary>
         public uint Vertex;
-        /// its piece, as Surface.Pieces: links do not count here</summary>
+        /// <summary>its piece, as Surface.Pieces: links do not count here</summary>
         public uint Component;
         /// <summary>how far the tip protrudes, in the unit of the mesh. With p the persistence of the peak of the field:
         /// sqrt(2 p) for POISSON, p for GEODESIC</summary>
@@ -890,11 +890,11 @@ namespace Hf
     /// of 1 / degree of a full turn.</summary>
     public sealed unsafe class Singularity
     {
-        /// or face, as given</summary>
+        /// <summary>or face, as given</summary>
         public uint Triangle;
-        /// its corner where the field is shortest, as given; of welded copies the first</summary>
+        /// <summary>its corner where the field is shortest, as given; of welded copies the first</summary>
         public uint Vertex;
-        /// in parts of 1 / degree: +1 a source or vortex of a vector field, -1 a saddle</summary>
+        /// <summary>in parts of 1 / degree: +1 a source or vortex of a vector field, -1 a saddle</summary>
         public int Index;
 
         internal Singularity(hf_singularity* raw)
@@ -914,22 +914,22 @@ namespace Hf
         }
     }
 
-    /// The options a direction field was made with, and counts of its constraints and of the work done so far.</summary>
+    /// <summary>The options a direction field was made with, and counts of its constraints and of the work done so far.</summary>
     public sealed unsafe class DirectionStatistics
     {
         public uint Degree;
         public uint SiteLimit;
-        /// two per vertex</summary>
+        /// <summary>two per vertex</summary>
         public uint UnknownCount;
         public uint SiteCount;
-        /// the first included; grows when very many constraints go into the factor</summary>
+        /// <summary>the first included; grows when very many constraints go into the factor</summary>
         public uint FactorisationCount;
-        /// two per constraint added or moved</summary>
+        /// <summary>two per constraint added or moved</summary>
         public uint PathSolveCount;
         public uint SweepCount;
-        /// vertices whose triangles are not one fan of one orientation</summary>
+        /// <summary>vertices whose triangles are not one fan of one orientation</summary>
         public uint IrregularVertexCount;
-        /// constraints that the factor eliminates now</summary>
+        /// <summary>constraints that the factor eliminates now</summary>
         public uint EliminatedCount;
         public double OperatorMs;
         public double NumericMs;
@@ -956,18 +956,18 @@ namespace Hf
         }
     }
 
-    /// Pose.Info writes the options of a pose here, with defaults filled in, and the number of its handles.</summary>
+    /// <summary>Pose.Info writes the options of a pose here, with defaults filled in, and the number of its handles.</summary>
     public sealed unsafe class PoseInfo
     {
-        /// DeformMode</summary>
+        /// <summary>DeformMode</summary>
         public DeformMode Mode;
         public uint BandCount;
         public uint IterationCount;
-        /// sites per handle on its boundary; 0: all of it</summary>
+        /// <summary>sites per handle on its boundary; 0: all of it</summary>
         public uint RimSiteCount;
         public uint GroupCount;
         public uint HandleCount;
-        /// as given to the surface: rows of Pose.Deform</summary>
+        /// <summary>as given to the surface: rows of Pose.Deform</summary>
         public uint VertexCount;
 
         internal PoseInfo(hf_pose_info* raw)
@@ -982,22 +982,22 @@ namespace Hf
         }
     }
 
-    /// Pose.Handle writes the region of a handle here, its layer, and its motion in the last Pose.Deform.</summary>
+    /// <summary>Pose.Handle writes the region of a handle here, its layer, and its motion in the last Pose.Deform.</summary>
     public sealed unsafe class HandleInfo
     {
-        /// of the region, welded copies counted once</summary>
+        /// <summary>of the region, welded copies counted once</summary>
         public uint VertexCount;
-        /// of its boundary</summary>
+        /// <summary>of its boundary</summary>
         public uint SiteCount;
         public uint Component;
-        /// of the rest region, in the unit of the mesh</summary>
+        /// <summary>of the rest region, in the unit of the mesh</summary>
         public double[] Centroid = new double[3];
-        /// with rim_site_count: how far fields are off on the regions; 0 with full rings</summary>
+        /// <summary>with rim_site_count: how far fields are off on the regions; 0 with full rings</summary>
         public double Leak;
         /// <summary>where the handle stood in the last Pose.Deform, as in Transform; on higher layers with what the layers
         /// below did to it</summary>
         public double[] Rotation = new double[4];
-        /// the same of its translation</summary>
+        /// <summary>the same of its translation</summary>
         public double[] Translation = new double[3];
         public uint Layer;
 
@@ -1014,15 +1014,15 @@ namespace Hf
         }
     }
 
-    /// Counts and times of a deform.</summary>
+    /// <summary>Counts and times of a deform.</summary>
     public sealed unsafe class DeformInfo
     {
-        /// done</summary>
+        /// <summary>done</summary>
         public uint IterationCount;
         public uint ClusterCount;
-        /// in components without a handle; they stay at rest</summary>
+        /// <summary>in components without a handle; they stay at rest</summary>
         public uint UnreachedVertexCount;
-        /// largest change of a rotation in the last iteration</summary>
+        /// <summary>largest change of a rotation in the last iteration</summary>
         public double LastChange;
         public double SolveMs;
         public double BlendMs;
@@ -1046,21 +1046,21 @@ namespace Hf
     /// disjoint.</summary>
     public sealed unsafe class HandleProposal
     {
-        /// nearest to the position; as given, of welded copies the first</summary>
+        /// <summary>nearest to the position; as given, of welded copies the first</summary>
         public uint Vertex;
-        /// as Surface.Components</summary>
+        /// <summary>as Surface.Components</summary>
         public uint Component;
-        /// HandleReason</summary>
+        /// <summary>HandleReason</summary>
         public HandleReason Reason;
-        /// 1: add it at once, it holds the body; 0: offer it, and add it when it is dragged</summary>
+        /// <summary>1: add it at once, it holds the body; 0: offer it, and add it when it is dragged</summary>
         public bool Pinned;
-        /// the end joint nearby, or the joint proposed, by position in the list; uint.MaxValue = none</summary>
+        /// <summary>the end joint nearby, or the joint proposed, by position in the list; uint.MaxValue = none</summary>
         public uint Joint;
-        /// at rest, in the unit and frame of the mesh; inside the surface for a joint</summary>
+        /// <summary>at rest, in the unit and frame of the mesh; inside the surface for a joint</summary>
         public double[] Position = new double[3];
-        /// in the unit of the mesh</summary>
+        /// <summary>in the unit of the mesh</summary>
         public double Radius;
-        /// how far the part protrudes, in the unit of the mesh</summary>
+        /// <summary>how far the part protrudes, in the unit of the mesh</summary>
         public double Length;
 
         internal HandleProposal(hf_handle_proposal* raw)
@@ -1090,14 +1090,14 @@ namespace Hf
         }
     }
 
-    /// Counts of a quad mesh.</summary>
+    /// <summary>Counts of a quad mesh.</summary>
     public sealed unsafe class QuadsInfo
     {
         public uint VertexCount;
         public uint FaceCount;
-        /// vertices - edges + faces, that of the usable surface</summary>
+        /// <summary>vertices - edges + faces, that of the usable surface</summary>
         public int EulerCharacteristic;
-        /// wanted length, in the unit of the mesh</summary>
+        /// <summary>wanted length, in the unit of the mesh</summary>
         public double EdgeLength;
 
         internal QuadsInfo(hf_quads_info* raw)
@@ -1109,32 +1109,32 @@ namespace Hf
         }
     }
 
-    /// Counts and areas of a region and of its last edit. Welded copies count as one vertex.</summary>
+    /// <summary>Counts and areas of a region and of its last edit. Welded copies count as one vertex.</summary>
     public sealed unsafe class RegionInfo
     {
-        /// FieldKind</summary>
+        /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
-        /// of the region, without its rim</summary>
+        /// <summary>of the region, without its rim</summary>
         public uint VertexCount;
-        /// vertices next to the region</summary>
+        /// <summary>vertices next to the region</summary>
         public uint RimCount;
-        /// vertices that fix the base: the rim, for thin plates two rows or more</summary>
+        /// <summary>vertices that fix the base: the rim, for thin plates two rows or more</summary>
         public uint SiteCount;
-        /// sites of the last edit ...</summary>
+        /// <summary>sites of the last edit ...</summary>
         public uint InsertedCount;
         public uint RemovedCount;
         public uint KeptCount;
-        /// numeric factorisations of the region's edits so far</summary>
+        /// <summary>numeric factorisations of the region's edits so far</summary>
         public uint FactorisationCount;
-        /// sparse solves for added sites, over all edits</summary>
+        /// <summary>sparse solves for added sites, over all edits</summary>
         public uint PathSolveCount;
-        /// Route of the last edit</summary>
+        /// <summary>Route of the last edit</summary>
         public uint LastRoute;
-        /// 1: the last base took a sweep through the whole factor</summary>
+        /// <summary>1: the last base took a sweep through the whole factor</summary>
         public bool WholeSweep;
-        /// of the triangles with a corner in the region, on the surface, in units^2</summary>
+        /// <summary>of the triangles with a corner in the region, on the surface, in units^2</summary>
         public double Area;
-        /// the same on the base</summary>
+        /// <summary>the same on the base</summary>
         public double BaseArea;
 
         internal RegionInfo(hf_region_info* raw)
@@ -1158,16 +1158,16 @@ namespace Hf
     public sealed unsafe class PairInfo
     {
         public uint Flags;
-        /// of the pair's fields, see HandleInfo</summary>
+        /// <summary>of the pair's fields, see HandleInfo</summary>
         public double SourceLeak;
         public double TargetLeak;
-        /// between the rest directions of the limb, radians; negative when unknown (trunk, short limb)</summary>
+        /// <summary>between the rest directions of the limb, radians; negative when unknown (trunk, short limb)</summary>
         public double AlignmentAngle;
-        /// 0..1: share of the pair's clusters with enough source vertices</summary>
+        /// <summary>0..1: share of the pair's clusters with enough source vertices</summary>
         public double Confidence;
-        /// how much of that angle the rest alignment takes away, 0 to 1</summary>
+        /// <summary>how much of that angle the rest alignment takes away, 0 to 1</summary>
         public double AlignmentShare;
-        /// 1: alignment_share is above 0</summary>
+        /// <summary>1: alignment_share is above 0</summary>
         public bool Aligned;
         /// <summary>1: the region lies on one side of the source and on the other of the target, by the axes: left and right
         ///     may be exchanged</summary>
@@ -1186,21 +1186,21 @@ namespace Hf
         }
     }
 
-    /// Transfer.Info writes counts and the scale of a transfer here.</summary>
+    /// <summary>Transfer.Info writes counts and the scale of a transfer here.</summary>
     public sealed unsafe class TransferInfo
     {
         public uint PairCount;
         public uint ClusterCount;
-        /// pairs whose rest alignment is applied</summary>
+        /// <summary>pairs whose rest alignment is applied</summary>
         public uint AlignedCount;
-        /// pairs that change sides, see PairInfo</summary>
+        /// <summary>pairs that change sides, see PairInfo</summary>
         public uint CrossedCount;
-        /// 1: from the legs or the boxes; 0: given in the desc</summary>
+        /// <summary>1: from the legs or the boxes; 0: given in the desc</summary>
         public bool ScaleFound;
-        /// numeric factorisations by edits of pairs; 0 unless they are very many</summary>
+        /// <summary>numeric factorisations by edits of pairs; 0 unless they are very many</summary>
         public uint SourceFactorisationCount;
         public uint TargetFactorisationCount;
-        /// lengths of the target over those of the source, both in the units of their meshes</summary>
+        /// <summary>lengths of the target over those of the source, both in the units of their meshes</summary>
         public double Scale;
 
         internal TransferInfo(hf_transfer_info* raw)
@@ -1230,7 +1230,7 @@ namespace Hf
         /// it plays the source's motion from its own rest direction. 1: it also takes the rest direction of the
         /// source's limb. -1: it does not move against its root.</summary>
         public double NeckFollow;
-        /// pairs flagged PairFlag.Tail, together one limb</summary>
+        /// <summary>pairs flagged PairFlag.Tail, together one limb</summary>
         public double TailFollow;
         /// <summary>turns arms (PairFlag.Arm) away from the body, about the forward axis at rest, -pi/2 to pi/2 radians; 0 =
         /// neutral</summary>
@@ -1251,35 +1251,35 @@ namespace Hf
         }
     }
 
-    /// Counts of the weights. Vertices are counted as given.</summary>
+    /// <summary>Counts of the weights. Vertices are counted as given.</summary>
     public sealed unsafe class WeightsInfo
     {
         public uint VertexCount;
         public uint JointCount;
         public uint PinCount;
         public uint LockCount;
-        /// vertices by WeightsOrigin</summary>
+        /// <summary>vertices by WeightsOrigin</summary>
         public uint InformedCount;
         public uint SolvedCount;
         public uint PinnedCount;
         public uint NearestCount;
         public uint RigidCount;
         public uint IsolatedCount;
-        /// pieces without information</summary>
+        /// <summary>pieces without information</summary>
         public uint NearestPieceCount;
-        /// small ones of them</summary>
+        /// <summary>small ones of them</summary>
         public uint RigidPieceCount;
-        /// 1: a piece sees none of its nearest joints and asks for them unseen</summary>
+        /// <summary>1: a piece sees none of its nearest joints and asks for them unseen</summary>
         public bool Blind;
-        /// joints by JointFlag</summary>
+        /// <summary>joints by JointFlag</summary>
         public uint NoLengthCount;
         public uint CoincidentCount;
         public uint InformsNoneCount;
         public uint OutsideCount;
         public uint HelperCount;
-        /// numeric factorisations since the object was made</summary>
+        /// <summary>numeric factorisations since the object was made</summary>
         public uint FactorisationCount;
-        /// elimination paths of pins since then</summary>
+        /// <summary>elimination paths of pins since then</summary>
         public uint PathSolveCount;
 
         internal WeightsInfo(hf_weights_info* raw)
@@ -1307,17 +1307,17 @@ namespace Hf
         }
     }
 
-    /// Counts of transferred weights. Vertices of the target are counted as given.</summary>
+    /// <summary>Counts of transferred weights. Vertices of the target are counted as given.</summary>
     public sealed unsafe class WeightsTransferInfo
     {
         public uint VertexCount;
-        /// vertices by WeightsOrigin</summary>
+        /// <summary>vertices by WeightsOrigin</summary>
         public uint MatchedCount;
         public uint SolvedCount;
         public uint NearestCount;
         public uint RigidCount;
         public uint IsolatedCount;
-        /// pieces without a match</summary>
+        /// <summary>pieces without a match</summary>
         public uint GuessedPieceCount;
 
         internal WeightsTransferInfo(hf_weights_transfer_info* raw)
@@ -1332,36 +1332,36 @@ namespace Hf
         }
     }
 
-    /// The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh.</summary>
+    /// <summary>The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh.</summary>
     public sealed unsafe class WeightsMirrorInfo
     {
         public uint VertexCount;
-        /// MirrorPlane</summary>
+        /// <summary>MirrorPlane</summary>
         public MirrorPlane PlaneFrom;
-        /// joints by MirrorPairing</summary>
+        /// <summary>joints by MirrorPairing</summary>
         public uint NamedCount;
         public uint PlacedCount;
         public uint CentreCount;
         public uint GivenCount;
         public uint AloneCount;
-        /// vertices by WeightsOrigin</summary>
+        /// <summary>vertices by WeightsOrigin</summary>
         public uint KeptCount;
         public uint MatchedCount;
         public uint SolvedCount;
         public uint NearestCount;
         public uint RigidCount;
         public uint IsolatedCount;
-        /// the joint farthest off, uint.MaxValue: none has a partner</summary>
+        /// <summary>the joint farthest off, uint.MaxValue: none has a partner</summary>
         public uint WorstJoint;
-        /// the vertex farthest off, uint.MaxValue: none was mirrored</summary>
+        /// <summary>the vertex farthest off, uint.MaxValue: none was mirrored</summary>
         public uint WorstVertex;
-        /// of the plane</summary>
+        /// <summary>of the plane</summary>
         public double[] Point = new double[3];
         public double[] Normal = new double[3];
-        /// mean distance of reflected joints from their partners</summary>
+        /// <summary>mean distance of reflected joints from their partners</summary>
         public double JointOff;
         public double WorstJointOff;
-        /// mean distance of reflected vertices from the surface</summary>
+        /// <summary>mean distance of reflected vertices from the surface</summary>
         public double VertexOff;
         public double WorstVertexOff;
 
@@ -1396,17 +1396,17 @@ namespace Hf
     /// each is null or as large as its capacity.</summary>
     public sealed class Isolines
     {
-        /// pointCapacity x 2 numbers vertices a and b as given, of welded copies the first</summary>
+        /// <summary>pointCapacity x 2 numbers vertices a and b as given, of welded copies the first</summary>
         public uint[] PointEdges;
-        /// pointCapacity numbers 0 to 1</summary>
+        /// <summary>pointCapacity numbers 0 to 1</summary>
         public double[] Parameters;
-        /// pointCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
+        /// <summary>pointCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
         public double[] Positions;
-        /// lineCapacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1</summary>
+        /// <summary>lineCapacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1</summary>
         public uint[] LineStarts;
-        /// lineCapacity numbers position of its level in the list</summary>
+        /// <summary>lineCapacity numbers position of its level in the list</summary>
         public uint[] LineLevels;
-        /// lineCapacity numbers 1: closed, the first point is not repeated; 0: ends at borders</summary>
+        /// <summary>lineCapacity numbers 1: closed, the first point is not repeated; 0: ends at borders</summary>
         public int[] LineClosed;
     }
 
@@ -1414,20 +1414,20 @@ namespace Hf
     /// entries are ordered by site number.</summary>
     public sealed class SitesInfo
     {
-        /// capacity numbers numbers</summary>
+        /// <summary>capacity numbers numbers</summary>
         public uint[] Sites;
-        /// capacity numbers the vertex given, uint.MaxValue for a point in a triangle</summary>
+        /// <summary>capacity numbers the vertex given, uint.MaxValue for a point in a triangle</summary>
         public uint[] Vertices;
-        /// capacity numbers</summary>
+        /// <summary>capacity numbers</summary>
         public uint[] Components;
-        /// capacity x channelCount numbers</summary>
+        /// <summary>capacity x channelCount numbers</summary>
         public double[] Values;
-        /// capacity numbers 0 = hard</summary>
+        /// <summary>capacity numbers 0 = hard</summary>
         public double[] Stiffness;
         /// <summary>capacity x channelCount numbers lambda: what flows into the surface at the site, in value x weight; the
         /// sum over a disc</summary>
         public double[] Flux;
-        /// capacity numbers 0 = a point</summary>
+        /// <summary>capacity numbers 0 = a point</summary>
         public double[] Radii;
     }
 
@@ -1436,13 +1436,13 @@ namespace Hf
     /// triangle has uint.MaxValue for both. The arrays are yours: each is null or as large as the capacity.</summary>
     public sealed class SurfacePath
     {
-        /// pointCapacity x 2 numbers vertices a and b as given, of welded copies the first</summary>
+        /// <summary>pointCapacity x 2 numbers vertices a and b as given, of welded copies the first</summary>
         public uint[] PointEdges;
-        /// pointCapacity numbers 0 to 1</summary>
+        /// <summary>pointCapacity numbers 0 to 1</summary>
         public double[] Parameters;
-        /// pointCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
+        /// <summary>pointCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
         public double[] Positions;
-        /// in the unit of the mesh; -1: no path</summary>
+        /// <summary>in the unit of the mesh; -1: no path</summary>
         public double Length;
     }
 
@@ -1456,70 +1456,70 @@ namespace Hf
     /// null.</summary>
     public sealed class SkinInfo
     {
-        /// jointCapacity x 3 numbers rest centroid of what each joint moves</summary>
+        /// <summary>jointCapacity x 3 numbers rest centroid of what each joint moves</summary>
         public double[] Pivots;
-        /// jointCapacity x 4 numbers quaternion x, y, z, w of the last frame</summary>
+        /// <summary>jointCapacity x 4 numbers quaternion x, y, z, w of the last frame</summary>
         public double[] Rotations;
-        /// jointCapacity x 3 numbers posed place of the pivot</summary>
+        /// <summary>jointCapacity x 3 numbers posed place of the pivot</summary>
         public double[] Translations;
-        /// jointCapacity x 4 numbers quaternion of B, fixed while handles stay</summary>
+        /// <summary>jointCapacity x 4 numbers quaternion of B, fixed while handles stay</summary>
         public double[] Axes;
-        /// jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid</summary>
+        /// <summary>jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid</summary>
         public double[] Scales;
-        /// vertexCapacity x influenceCount numbers</summary>
+        /// <summary>vertexCapacity x influenceCount numbers</summary>
         public uint[] VertexJoints;
-        /// vertexCapacity x influenceCount numbers of sum 1, descending</summary>
+        /// <summary>vertexCapacity x influenceCount numbers of sum 1, descending</summary>
         public float[] VertexWeights;
-        /// joints per vertex, 4 or 8; 0 = 4</summary>
+        /// <summary>joints per vertex, 4 or 8; 0 = 4</summary>
         public uint InfluenceCount;
     }
 
-    /// Quads.Mesh writes the quad mesh to these arrays. They are yours: each is null or as large as its capacity.</summary>
+    /// <summary>Quads.Mesh writes the quad mesh to these arrays. They are yours: each is null or as large as its capacity.</summary>
     public sealed class QuadsMesh
     {
-        /// vertexCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
+        /// <summary>vertexCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
         public double[] Positions;
-        /// faceCapacity x 4 numbers vertices of each quad, counter-clockwise</summary>
+        /// <summary>faceCapacity x 4 numbers vertices of each quad, counter-clockwise</summary>
         public uint[] Faces;
-        /// vertexCapacity numbers triangle or face as given that the vertex lies in</summary>
+        /// <summary>vertexCapacity numbers triangle or face as given that the vertex lies in</summary>
         public uint[] Triangles;
         /// <summary>vertexCapacity x 3 numbers weights of that triangle's corners, in its own order, of sum 1; in a face of
         /// more corners the weights of `corners`</summary>
         public double[] Barycentrics;
-        /// vertexCapacity x 3 numbers vertices as given, of welded copies the first, that barycentrics belong to</summary>
+        /// <summary>vertexCapacity x 3 numbers vertices as given, of welded copies the first, that barycentrics belong to</summary>
         public uint[] Corners;
     }
 
-    /// Results.</summary>
+    /// <summary>Results.</summary>
     public sealed class Streamlines
     {
-        /// pointCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
+        /// <summary>pointCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
         public double[] Positions;
-        /// pointCapacity numbers of the field, rising along every line</summary>
+        /// <summary>pointCapacity numbers of the field, rising along every line</summary>
         public double[] Values;
-        /// lineCapacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1</summary>
+        /// <summary>lineCapacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1</summary>
         public uint[] LineStarts;
-        /// lineCapacity x 2 numbers vertices where it starts and ends, of welded copies the first</summary>
+        /// <summary>lineCapacity x 2 numbers vertices where it starts and ends, of welded copies the first</summary>
         public uint[] LineEnds;
     }
 
-    /// Receives the weights. The arrays are yours; each may be null.</summary>
+    /// <summary>Receives the weights. The arrays are yours; each may be null.</summary>
     public sealed class WeightsOut
     {
-        /// vertexCapacity x influenceCount numbers</summary>
+        /// <summary>vertexCapacity x influenceCount numbers</summary>
         public uint[] Joints;
-        /// vertexCapacity x influenceCount numbers descending, of sum exactly 1</summary>
+        /// <summary>vertexCapacity x influenceCount numbers descending, of sum exactly 1</summary>
         public float[] Weights;
-        /// vertexCapacity numbers WeightsOrigin</summary>
+        /// <summary>vertexCapacity numbers WeightsOrigin</summary>
         public byte[] Origins;
-        /// joints per vertex, 4 or 8</summary>
+        /// <summary>joints per vertex, 4 or 8</summary>
         public uint InfluenceCount;
     }
 
-    /// A factor that Surface.Save wrote. The surface loads it instead of computing it.</summary>
+    /// <summary>A factor that Surface.Save wrote. The surface loads it instead of computing it.</summary>
     public sealed unsafe class FactorDesc
     {
-        /// all of them, as saved</summary>
+        /// <summary>all of them, as saved</summary>
         public byte[] Bytes;
         /// <summary>0: the bytes are copied. 1: numbers are read in place (a mapped file, say). Then the bytes stay
         ///     unchanged until the surface and everything made on it are destroyed, and are aligned to
@@ -1546,24 +1546,24 @@ namespace Hf
     /// light piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it.</summary>
     public sealed unsafe class LinksDesc
     {
-        /// vertexCount x influenceCount numbers of a skin: pieces of the same joint link sooner</summary>
+        /// <summary>vertexCount x influenceCount numbers of a skin: pieces of the same joint link sooner</summary>
         public ushort[] Joints;
-        /// vertexCount x influenceCount numbers of sum 1; where all are 0, a vertex shares no joint</summary>
+        /// <summary>vertexCount x influenceCount numbers of sum 1; where all are 0, a vertex shares no joint</summary>
         public float[] Weights;
         /// <summary>vertexCount numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of
         /// a piece counts</summary>
         public uint[] Tags;
-        /// linkCount numbers</summary>
+        /// <summary>linkCount numbers</summary>
         public Link[] Links;
-        /// lightCount numbers: their pieces are light</summary>
+        /// <summary>lightCount numbers: their pieces are light</summary>
         public uint[] LightVertices;
-        /// heavyCount numbers: their pieces are not, as one that gets a site or handle</summary>
+        /// <summary>heavyCount numbers: their pieces are not, as one that gets a site or handle</summary>
         public uint[] HeavyVertices;
-        /// LinkMode</summary>
+        /// <summary>LinkMode</summary>
         public LinkMode Mode;
-        /// longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal</summary>
+        /// <summary>longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal</summary>
         public double Distance;
-        /// of all links, times each one's weight; 0 = 1</summary>
+        /// <summary>of all links, times each one's weight; 0 = 1</summary>
         public double Stiffness;
         /// <summary>automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of the
         ///     diagonal, below 0: no piece is light unless light_vertices say so</summary>
@@ -1605,11 +1605,11 @@ namespace Hf
     /// fields all its vertices do.</summary>
     public sealed unsafe class SitesDesc
     {
-        /// siteCount numbers vertices as given, or null</summary>
+        /// <summary>siteCount numbers vertices as given, or null</summary>
         public uint[] Vertices;
-        /// siteCount x channelCount numbers, up to 1e200 in size; null = 0</summary>
+        /// <summary>siteCount x channelCount numbers, up to 1e200 in size; null = 0</summary>
         public double[] Values;
-        /// siteCount numbers triangles (or faces of three corners) as given, or null</summary>
+        /// <summary>siteCount numbers triangles (or faces of three corners) as given, or null</summary>
         public uint[] Triangles;
         /// <summary>siteCount x 3 numbers with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1
         /// within 1e-6</summary>
@@ -1617,7 +1617,7 @@ namespace Hf
         /// <summary>siteCount numbers &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
         /// clamped to 1e-12 .. 1e12</summary>
         public double[] Stiffness;
-        /// siteCount numbers &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points</summary>
+        /// <summary>siteCount numbers &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points</summary>
         public double[] Radii;
         /// <summary>siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of more
         /// corners this places a site in a triangle of them</summary>
@@ -1651,20 +1651,20 @@ namespace Hf
     /// vertex at most 8 times.</summary>
     public sealed unsafe class CurveDesc
     {
-        /// pointCount numbers vertices as given, or null</summary>
+        /// <summary>pointCount numbers vertices as given, or null</summary>
         public uint[] Vertices;
-        /// pointCount numbers triangles (or faces of three corners) as given, or null</summary>
+        /// <summary>pointCount numbers triangles (or faces of three corners) as given, or null</summary>
         public uint[] Triangles;
         /// <summary>pointCount x 3 numbers with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1
         /// within 1e-6</summary>
         public double[] Barycentrics;
-        /// pointCount x 3 numbers three vertices of one face, as Hit has them, or null</summary>
+        /// <summary>pointCount x 3 numbers three vertices of one face, as Hit has them, or null</summary>
         public uint[] Corners;
-        /// Side</summary>
+        /// <summary>Side</summary>
         public Side Side;
-        /// with Side.Seed</summary>
+        /// <summary>with Side.Seed</summary>
         public uint SeedVertex;
-        /// CurveKind</summary>
+        /// <summary>CurveKind</summary>
         public CurveKind Kind;
 
         public static implicit operator CurveDesc(uint[] vertices)
@@ -1694,18 +1694,18 @@ namespace Hf
     /// Creates a progress object.</summary>
     public sealed unsafe class Progress : HfObject
     {
-        /// Creates a progress object.</summary>
+        /// <summary>Creates a progress object.</summary>
         public Progress()
         {
             using (var c = new Call(null))
             {
-                IntPtr raw;
-                HfException.Check(Functions.hf_progress_create(&raw));
-                Own(raw, Functions.hf_progress_destroy, c);
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_progress_create(raw)));
+                Own(*raw, Functions.hf_progress_destroy, c);
             }
         }
 
-        /// Writes how much of the running call is done.</summary>
+        /// <summary>Writes how much of the running call is done.</summary>
         public double Fraction
         {
             get
@@ -1719,7 +1719,7 @@ namespace Hf
             }
         }
 
-        /// Stops the call that uses this object, or the next one that does. That call returns HF_ERROR_CANCELLED.</summary>
+        /// <summary>Stops the call that uses this object, or the next one that does. That call returns HF_ERROR_CANCELLED.</summary>
         public void Cancel()
         {
             using (var c = new Call(this))
@@ -1749,25 +1749,25 @@ namespace Hf
     ///
     /// positions: vertexCount x 3 numbers, any unit, any offset
     /// triangles: triangleCount x 3 numbers, counter-clockwise seen from outside
-    /// face_starts: faceCount numbers first corner of each face. null: the faces follow one another. Without
+    /// faceStarts: faceCount numbers first corner of each face. null: the faces follow one another. Without
     ///     face_sizes faceCount + 1 numbers: the corners of face f end where those of f + 1 start
-    /// face_sizes: faceCount numbers corners of each face, 3 to 65,535. null: face_starts is enough
+    /// faceSizes: faceCount numbers corners of each face, 3 to 65,535. null: face_starts is enough
     /// corners: cornerCount numbers vertices, counter-clockwise seen from outside
     /// weld: Weld
-    /// weld_tolerance: for Weld.Tolerance, in the unit of the positions, &gt; 0
-    /// operator_kind: Operator
-    /// field_kind: FieldKind: the factor made now. Others are made when a solver or region asks
+    /// weldTolerance: for Weld.Tolerance, in the unit of the positions, &gt; 0
+    /// operatorKind: Operator
+    /// fieldKind: FieldKind: the factor made now. Others are made when a solver or region asks
     /// ordering: Ordering
-    /// thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
-    /// vertex_limit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices,
+    /// threadCount: threads the library may use, yours included, 1 to 256; 0 = 1
+    /// vertexLimit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices,
     ///     triangles or edges are always refused
-    /// triangle_limit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the
+    /// triangleLimit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the
     ///     vertex limit
-    /// memory_limit_mb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
-    /// work_limit_gflop: refuse a factorisation of more than this many 10^9 operations. They are counted before it
+    /// memoryLimitMb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
+    /// workLimitGflop: refuse a factorisation of more than this many 10^9 operations. They are counted before it
     ///     begins; 0 = 100,000, about an hour of one core
     /// progress: an object to poll and cancel through
-    /// saved_factor: the saved factor of this mesh; ordering is then 0 or the factor's
+    /// savedFactor: the saved factor of this mesh; ordering is then 0 or the factor's
     /// links: null: LinkMode.None. A saved factor needs the links it was made with</summary>
     public sealed unsafe class Surface : HfObject
     {
@@ -1786,25 +1786,25 @@ namespace Hf
         ///
         /// positions: vertexCount x 3 numbers, any unit, any offset
         /// triangles: triangleCount x 3 numbers, counter-clockwise seen from outside
-        /// face_starts: faceCount numbers first corner of each face. null: the faces follow one another. Without
+        /// faceStarts: faceCount numbers first corner of each face. null: the faces follow one another. Without
         ///     face_sizes faceCount + 1 numbers: the corners of face f end where those of f + 1 start
-        /// face_sizes: faceCount numbers corners of each face, 3 to 65,535. null: face_starts is enough
+        /// faceSizes: faceCount numbers corners of each face, 3 to 65,535. null: face_starts is enough
         /// corners: cornerCount numbers vertices, counter-clockwise seen from outside
         /// weld: Weld
-        /// weld_tolerance: for Weld.Tolerance, in the unit of the positions, &gt; 0
-        /// operator_kind: Operator
-        /// field_kind: FieldKind: the factor made now. Others are made when a solver or region asks
+        /// weldTolerance: for Weld.Tolerance, in the unit of the positions, &gt; 0
+        /// operatorKind: Operator
+        /// fieldKind: FieldKind: the factor made now. Others are made when a solver or region asks
         /// ordering: Ordering
-        /// thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
-        /// vertex_limit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices,
+        /// threadCount: threads the library may use, yours included, 1 to 256; 0 = 1
+        /// vertexLimit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices,
         ///     triangles or edges are always refused
-        /// triangle_limit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the
+        /// triangleLimit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the
         ///     vertex limit
-        /// memory_limit_mb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
-        /// work_limit_gflop: refuse a factorisation of more than this many 10^9 operations. They are counted before
+        /// memoryLimitMb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
+        /// workLimitGflop: refuse a factorisation of more than this many 10^9 operations. They are counted before
         ///     it begins; 0 = 100,000, about an hour of one core
         /// progress: an object to poll and cancel through
-        /// saved_factor: the saved factor of this mesh; ordering is then 0 or the factor's
+        /// savedFactor: the saved factor of this mesh; ordering is then 0 or the factor's
         /// links: null: LinkMode.None. A saved factor needs the links it was made with
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -1833,13 +1833,13 @@ namespace Hf
                 desc->progress = c.Handle(progress);
                 if (savedFactor != null) desc->saved_factor = savedFactor.Fill(c, "saved_factor.");
                 if (links != null) desc->links = links.Fill(c, "links.");
-                desc->vertex_count = (uint)c.Count("vertex_count", 0);
+                desc->vertex_count = (uint)c.Count("vertex_count", 1);
                 desc->triangle_count = (uint)c.Count("triangle_count", 0);
                 desc->face_count = (uint)c.Count("face_count", 0);
                 desc->corner_count = (uint)c.Count("corner_count", 0);
-                IntPtr raw;
-                HfException.Check(Functions.hf_surface_create(desc, &raw));
-                Own(raw, Functions.hf_surface_destroy, c, "vertex_count");
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_surface_create(desc, raw)));
+                Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
             }
         }
 
@@ -1858,18 +1858,18 @@ namespace Hf
         /// weights: edgeCount numbers any unit, up to 1e100 in size. An edge of weight 0 is left out
         /// masses: vertexCount numbers M of FieldKind.Biharmonic, any unit, above 0 and up to 1e100; null: all 1. A
         ///     mass below 1e-4 of the mean of its component counts as that
-        /// vertex_count: &gt;= 1, also without masses
-        /// allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
+        /// vertexCount: &gt;= 1, also without masses
+        /// allowNegative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
         ///     tetrahedra do. A field can then leave the range of its sites. 0: they are refused
-        /// field_kind: FieldKind: the factor made now. Others are made when a solver asks
+        /// fieldKind: FieldKind: the factor made now. Others are made when a solver asks
         /// ordering: Ordering
-        /// thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
-        /// vertex_limit: refuse larger graphs before allocating; 0 = 20,000,000
-        /// edge_limit: refuse more edges; 0 = sixteen per vertex of the vertex limit
-        /// memory_limit_mb: refuse to hold more memory than this, in MiB; 0 = no limit
-        /// work_limit_gflop: refuse a factorisation of more than this many 10^9 operations; 0 = 100,000
+        /// threadCount: threads the library may use, yours included, 1 to 256; 0 = 1
+        /// vertexLimit: refuse larger graphs before allocating; 0 = 20,000,000
+        /// edgeLimit: refuse more edges; 0 = sixteen per vertex of the vertex limit
+        /// memoryLimitMb: refuse to hold more memory than this, in MiB; 0 = no limit
+        /// workLimitGflop: refuse a factorisation of more than this many 10^9 operations; 0 = 100,000
         /// progress: an object to poll and cancel through
-        /// saved_factor: the saved factor of this graph; ordering is then 0 or the factor's
+        /// savedFactor: the saved factor of this graph; ordering is then 0 or the factor's
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -1893,15 +1893,15 @@ namespace Hf
                 desc->progress = c.Handle(progress);
                 if (savedFactor != null) desc->saved_factor = savedFactor.Fill(c, "saved_factor.");
                 desc->edge_count = (uint)c.Count("edge_count", 1);
-                IntPtr raw;
-                HfException.Check(Functions.hf_surface_create_graph(desc, &raw));
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_surface_create_graph(desc, raw)));
                 var made = new Surface();
-                made.Own(raw, Functions.hf_surface_destroy, c, "vertex_count");
+                made.Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
                 return made;
             }
         }
 
-        /// Writes the options of a surface.</summary>
+        /// <summary>Writes the options of a surface.</summary>
         public SurfaceInfo Info
         {
             get
@@ -1916,7 +1916,7 @@ namespace Hf
             }
         }
 
-        /// Writes the report of the mesh.</summary>
+        /// <summary>Writes the report of the mesh.</summary>
         public SurfaceReport Report
         {
             get
@@ -2041,12 +2041,12 @@ namespace Hf
         /// tags: vertexCount numbers: pieces with different tags do not link, as a rider and a horse. The first
         ///     vertex of a piece counts
         /// links: linkCount numbers
-        /// light_vertices: lightCount numbers: their pieces are light
-        /// heavy_vertices: heavyCount numbers: their pieces are not, as one that gets a site or handle
+        /// lightVertices: lightCount numbers: their pieces are light
+        /// heavyVertices: heavyCount numbers: their pieces are not, as one that gets a site or handle
         /// mode: LinkMode
         /// distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
         /// stiffness: of all links, times each one's weight; 0 = 1
-        /// overlay_distance: automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5
+        /// overlayDistance: automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5
         ///     % of the diagonal, below 0: no piece is light unless light_vertices say so
         /// progress: an object to poll and cancel through.
         ///
@@ -2072,15 +2072,15 @@ namespace Hf
                 desc->link_count = (uint)c.Count("link_count", 0);
                 desc->light_count = (uint)c.Count("light_count", 0);
                 desc->heavy_count = (uint)c.Count("heavy_count", 0);
-                IntPtr raw;
-                HfException.Check(Functions.hf_surface_relink(RawHandle, desc, c.Handle(progress), &raw));
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Functions.hf_surface_relink(RawHandle, desc, c.Handle(progress), raw));
                 var made = new Surface();
-                made.Own(raw, Functions.hf_surface_destroy, c, "vertex_count");
+                made.Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
                 return made;
             }
         }
 
-        /// Writes the statistics of a surface and of the factor it was made with.</summary>
+        /// <summary>Writes the statistics of a surface and of the factor it was made with.</summary>
         public SurfaceStatistics Statistics
         {
             get
@@ -2100,7 +2100,7 @@ namespace Hf
         /// the same mesh, options and library version, whatever the number of threads. The bytes are little-endian
         /// and hold a format version, a hash of the matrix and a checksum. They hold no sites.
         ///
-        /// field_kind: FieldKind; a factor that does not exist yet is made first.
+        /// fieldKind: FieldKind; a factor that does not exist yet is made first.
         /// progress: an object to poll and cancel through.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_TOO_SMALL.</summary>
@@ -2123,7 +2123,7 @@ namespace Hf
         /// origin: 3 numbers in the frame of the positions; the direction can have any length above 0.
         /// direction: 3 numbers in the frame of the positions; the direction can have any length above 0.
         /// positions: vertexCount x 3 numbers posed positions (Pose.Deform writes them), or null
-        /// front_only: 1: a ray passes triangles seen from behind
+        /// frontOnly: 1: a ray passes triangles seen from behind
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.</summary>
         public Hit CastRay(double[] origin, double[] direction, Reals positions = null, bool frontOnly = false)
@@ -2147,7 +2147,7 @@ namespace Hf
         ///
         /// point: 3 numbers in the frame of the positions.
         /// positions: vertexCount x 3 numbers posed positions (Pose.Deform writes them), or null
-        /// front_only: 1: a ray passes triangles seen from behind
+        /// frontOnly: 1: a ray passes triangles seen from behind
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public (uint Vertex, double Distance) FindVertex(double[] point, Reals positions = null, bool frontOnly = false)
@@ -2176,7 +2176,7 @@ namespace Hf
         /// cylinder and the distance from the pole on a sphere.
         ///
         /// spacing: Levels.
-        /// level_count: 1 to 1,000,000.
+        /// levelCount: 1 to 1,000,000.
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.</summary>
         public double[] SpaceLevels(Reals field, uint levelCount, Levels spacing = default(Levels))
@@ -2290,8 +2290,8 @@ namespace Hf
         /// mesh.
         ///
         /// kind: ExtremityKind
-        /// least_length_share: tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10
-        /// source_count: sources of the mean distance per component, 1 to 1,000; 0 = 40
+        /// leastLengthShare: tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10
+        /// sourceCount: sources of the mean distance per component, 1 to 1,000; 0 = 40
         /// geodesics: for ExtremityKind.Geodesic: an object of this surface. If its method is DistanceMethod.Heat
         ///     its factor serves; else, and for null, the call makes a factor
         /// progress: an object to poll and cancel through
@@ -2343,7 +2343,7 @@ namespace Hf
         /// joints: jointCount x 3 numbers their places at rest, in the unit and frame of the mesh
         /// parents: jointCount numbers position of each joint's parent in the list; uint.MaxValue for a root
         /// up: direction away from the ground, of any length; 0 0 0 = 0 1 0
-        /// least_length_share: as in ExtremitiesDesc; 0 = 0.05
+        /// leastLengthShare: as in ExtremitiesDesc; 0 = 0.05
         /// limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
         /// progress: an object to poll and cancel through
         ///
@@ -2396,10 +2396,10 @@ namespace Hf
     ///
     /// Creates a solver without sites.
     ///
-    /// field_kind: FieldKind; if the surface has no factor of that kind yet, it is made now
+    /// fieldKind: FieldKind; if the surface has no factor of that kind yet, it is made now
     /// engine: Engine
-    /// channel_count: fields solved at once, 1 to 64; 0 = 1
-    /// site_limit: at most this many sites; 0 = 100,000
+    /// channelCount: fields solved at once, 1 to 64; 0 = 1
+    /// siteLimit: at most this many sites; 0 = 100,000
     /// penalty: Engine.Updown: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Solver : Recorded
@@ -2408,10 +2408,10 @@ namespace Hf
 
         /// <summary>Creates a solver without sites.
         ///
-        /// field_kind: FieldKind; if the surface has no factor of that kind yet, it is made now
+        /// fieldKind: FieldKind; if the surface has no factor of that kind yet, it is made now
         /// engine: Engine
-        /// channel_count: fields solved at once, 1 to 64; 0 = 1
-        /// site_limit: at most this many sites; 0 = 100,000
+        /// channelCount: fields solved at once, 1 to 64; 0 = 1
+        /// siteLimit: at most this many sites; 0 = 100,000
         /// penalty: Engine.Updown: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
         /// progress: an object to poll and cancel through
         ///
@@ -2429,9 +2429,9 @@ namespace Hf
                 hf_solver_desc* desc = &descStruct;
                 c.Known("channel_count", channelCount == 0 ? 1 : channelCount);
                 desc->progress = c.Handle(progress);
-                IntPtr raw;
-                HfException.Check(Functions.hf_create(c.Handle(surface), desc, &raw));
-                Own(raw, Functions.hf_solver_destroy, c, "channel_count", "vertex_count");
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_create(c.Handle(surface), desc, raw)));
+                Own(*raw, Functions.hf_solver_destroy, c, "channel_count", "vertex_count");
             }
         }
 
@@ -2442,15 +2442,15 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                IntPtr raw;
-                HfException.Check(Functions.hf_solver_clone(RawHandle, &raw));
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Functions.hf_solver_clone(RawHandle, raw));
                 var made = new Solver();
-                made.Own(raw, Functions.hf_solver_destroy, c, "channel_count", "vertex_count");
+                made.Own(*raw, Functions.hf_solver_destroy, c, "channel_count", "vertex_count");
                 return made;
             }
         }
 
-        /// Writes the options of a solver.</summary>
+        /// <summary>Writes the options of a solver.</summary>
         public SolverInfo Info
         {
             get
@@ -2590,11 +2590,11 @@ namespace Hf
 
         /// <summary>Applies a batch of edits at once.
         ///
-        /// remove_sites: removeCount numbers
-        /// move_sites: moveCount numbers
-        /// set_sites: setCount numbers
-        /// set_values: setCount x channelCount numbers
-        /// move_to: places of moveCount numbers sites
+        /// removeSites: removeCount numbers
+        /// moveSites: moveCount numbers
+        /// setSites: setCount numbers
+        /// setValues: setCount x channelCount numbers
+        /// moveTo: places of moveCount numbers sites
         /// add: the sites to add</summary>
         public uint[] EditSites(uint[] removeSites = null, uint[] moveSites = null, uint[] setSites = null,
                 double[] setValues = null, SitesDesc moveTo = null, SitesDesc add = null)
@@ -2619,7 +2619,7 @@ namespace Hf
             }
         }
 
-        /// Returns the number of sites, or 0 for an invalid object.</summary>
+        /// <summary>Returns the number of sites, or 0 for an invalid object.</summary>
         public int SiteCount
         {
             get
@@ -2630,7 +2630,7 @@ namespace Hf
             }
         }
 
-        /// Writes all sites.</summary>
+        /// <summary>Writes all sites.</summary>
         public SitesInfo Sites()
         {
             using (var c = new Call(this))
@@ -2692,8 +2692,8 @@ namespace Hf
 
         /// <summary>Solves for the field at every vertex of your mesh.
         ///
-        /// out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
-        ///     components without a site.
+        /// @out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
+        /// components without a site.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -2712,8 +2712,8 @@ namespace Hf
 
         /// <summary>Solves for the field at every vertex of your mesh.
         ///
-        /// out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
-        ///     components without a site.
+        /// @out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
+        /// components without a site.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -2733,8 +2733,8 @@ namespace Hf
 
         /// <summary>Solves for the field at every vertex of your mesh.
         ///
-        /// out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
-        ///     components without a site.
+        /// @out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
+        /// components without a site.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -2753,8 +2753,8 @@ namespace Hf
 
         /// <summary>Solves for the field at every vertex of your mesh.
         ///
-        /// out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
-        ///     components without a site.
+        /// @out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
+        /// components without a site.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -2800,7 +2800,7 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// out: vertexCount x 3 numbers, not normalised.
+        /// @out: vertexCount x 3 numbers, not normalised.
         /// normals: vertexCount x 3 numbers, packed: the normals used.
         /// info: filled in when given
         ///
@@ -2828,7 +2828,7 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// out: vertexCount x 3 numbers, not normalised.
+        /// @out: vertexCount x 3 numbers, not normalised.
         /// normals: vertexCount x 3 numbers, packed: the normals used.
         /// info: filled in when given
         ///
@@ -2858,7 +2858,7 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// out: vertexCount x 3 numbers, not normalised.
+        /// @out: vertexCount x 3 numbers, not normalised.
         /// normals: vertexCount x 3 numbers, packed: the normals used.
         /// info: filled in when given
         ///
@@ -2887,7 +2887,7 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// out: vertexCount x 3 numbers, not normalised.
+        /// @out: vertexCount x 3 numbers, not normalised.
         /// normals: vertexCount x 3 numbers, packed: the normals used.
         /// info: filled in when given
         ///
@@ -2924,8 +2924,8 @@ namespace Hf
         /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
         /// factor eliminates sites. info.exact is then 1.
         ///
-        /// correction_count: 0 to 8.
-        /// out: vertexCount x channelCount numbers, as Solver.Solve.
+        /// correctionCount: 0 to 8.
+        /// @out: vertexCount x channelCount numbers, as Solver.Solve.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -2954,8 +2954,8 @@ namespace Hf
         /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
         /// factor eliminates sites. info.exact is then 1.
         ///
-        /// correction_count: 0 to 8.
-        /// out: vertexCount x channelCount numbers, as Solver.Solve.
+        /// correctionCount: 0 to 8.
+        /// @out: vertexCount x channelCount numbers, as Solver.Solve.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -2986,8 +2986,8 @@ namespace Hf
         /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
         /// factor eliminates sites. info.exact is then 1.
         ///
-        /// correction_count: 0 to 8.
-        /// out: vertexCount x channelCount numbers, as Solver.Solve.
+        /// correctionCount: 0 to 8.
+        /// @out: vertexCount x channelCount numbers, as Solver.Solve.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -3017,8 +3017,8 @@ namespace Hf
         /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
         /// factor eliminates sites. info.exact is then 1.
         ///
-        /// correction_count: 0 to 8.
-        /// out: vertexCount x channelCount numbers, as Solver.Solve.
+        /// correctionCount: 0 to 8.
+        /// @out: vertexCount x channelCount numbers, as Solver.Solve.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -3119,7 +3119,7 @@ namespace Hf
             }
         }
 
-        /// Writes the statistics.</summary>
+        /// <summary>Writes the statistics.</summary>
         public SolverStatistics Statistics
         {
             get
@@ -3181,9 +3181,9 @@ namespace Hf
                     method = (int)method, smoothing = smoothing };
                 hf_geodesics_desc* desc = &descStruct;
                 desc->progress = c.Handle(progress);
-                IntPtr raw;
-                HfException.Check(Functions.hf_geodesics_create(c.Handle(surface), desc, &raw));
-                Own(raw, Functions.hf_geodesics_destroy, c, "vertex_count");
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_geodesics_create(c.Handle(surface), desc, raw)));
+                Own(*raw, Functions.hf_geodesics_destroy, c, "vertex_count");
             }
         }
 
@@ -3194,7 +3194,8 @@ namespace Hf
         ///     one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right
         ///     up to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at
         ///     corners and where two shortest paths meet.
-        /// out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+        /// @out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can
+        /// reach.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public float[] Solve(uint[] sources)
@@ -3217,7 +3218,8 @@ namespace Hf
         ///     one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right
         ///     up to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at
         ///     corners and where two shortest paths meet.
-        /// out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+        /// @out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can
+        /// reach.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public void Solve(uint[] sources, Span<float> into)
@@ -3241,7 +3243,8 @@ namespace Hf
         ///     one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right
         ///     up to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at
         ///     corners and where two shortest paths meet.
-        /// out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+        /// @out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can
+        /// reach.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public double[] SolveDouble(uint[] sources)
@@ -3264,7 +3267,8 @@ namespace Hf
         ///     one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right
         ///     up to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at
         ///     corners and where two shortest paths meet.
-        /// out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+        /// @out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can
+        /// reach.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public void Solve(uint[] sources, Span<double> into)
@@ -3347,7 +3351,7 @@ namespace Hf
     /// operator, and factorises once, with two unknowns per vertex.
     ///
     /// degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
-    /// site_limit: most constraints; 0 = 100,000
+    /// siteLimit: most constraints; 0 = 100,000
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Direction : Recorded
     {
@@ -3357,7 +3361,7 @@ namespace Hf
         /// operator, and factorises once, with two unknowns per vertex.
         ///
         /// degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
-        /// site_limit: most constraints; 0 = 100,000
+        /// siteLimit: most constraints; 0 = 100,000
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE.</summary>
@@ -3370,9 +3374,9 @@ namespace Hf
                     site_limit = siteLimit };
                 hf_direction_desc* desc = &descStruct;
                 desc->progress = c.Handle(progress);
-                IntPtr raw;
-                HfException.Check(Functions.hf_direction_create(c.Handle(surface), desc, &raw));
-                Own(raw, Functions.hf_direction_destroy, c, "vertex_count");
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_direction_create(c.Handle(surface), desc, raw)));
+                Own(*raw, Functions.hf_direction_destroy, c, "vertex_count");
             }
         }
 
@@ -3383,10 +3387,10 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                IntPtr raw;
-                HfException.Check(Functions.hf_direction_clone(RawHandle, &raw));
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Functions.hf_direction_clone(RawHandle, raw));
                 var made = new Direction();
-                made.Own(raw, Functions.hf_direction_destroy, c, "vertex_count");
+                made.Own(*raw, Functions.hf_direction_destroy, c, "vertex_count");
                 return made;
             }
         }
@@ -3483,7 +3487,7 @@ namespace Hf
             }
         }
 
-        /// Returns the number of constraints, or 0 for an invalid object.</summary>
+        /// <summary>Returns the number of constraints, or 0 for an invalid object.</summary>
         public int SiteCount
         {
             get
@@ -3494,7 +3498,7 @@ namespace Hf
             }
         }
 
-        /// Writes the constraints by ascending number.</summary>
+        /// <summary>Writes the constraints by ascending number.</summary>
         public (uint[] Sites, uint[] Vertices, double[] Vectors) Sites()
         {
             using (var c = new Call(this))
@@ -3521,7 +3525,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// out: vertexCount x 3 numbers.
+        /// @out: vertexCount x 3 numbers.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3542,7 +3546,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// out: vertexCount x 3 numbers.
+        /// @out: vertexCount x 3 numbers.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3564,7 +3568,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// out: vertexCount x 3 numbers.
+        /// @out: vertexCount x 3 numbers.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3585,7 +3589,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// out: vertexCount x 3 numbers.
+        /// @out: vertexCount x 3 numbers.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3631,7 +3635,7 @@ namespace Hf
             }
         }
 
-        /// Writes the statistics.</summary>
+        /// <summary>Writes the statistics.</summary>
         public DirectionStatistics Statistics
         {
             get
@@ -3661,10 +3665,10 @@ namespace Hf
     /// Creates a pose without handles.
     ///
     /// mode: DeformMode
-    /// band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-    /// iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-    /// rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-    /// group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250</summary>
+    /// bandCount: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+    /// iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+    /// rimSiteCount: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
+    /// groupCount: rotation groups of the smooth mode, 1 to 2000; 0 = 250</summary>
     public sealed unsafe class Pose : Recorded
     {
         Pose() { }
@@ -3672,10 +3676,10 @@ namespace Hf
         /// <summary>Creates a pose without handles.
         ///
         /// mode: DeformMode
-        /// band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-        /// iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-        /// rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-        /// group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+        /// bandCount: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+        /// iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+        /// rimSiteCount: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
+        /// groupCount: rotation groups of the smooth mode, 1 to 2000; 0 = 250
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT.</summary>
         public Pose(Surface surface, DeformMode mode = default(DeformMode), uint bandCount = 0, uint iterationCount = 0,
@@ -3688,26 +3692,26 @@ namespace Hf
                     band_count = bandCount, iteration_count = iterationCount, rim_site_count = rimSiteCount,
                     group_count = groupCount };
                 hf_pose_desc* desc = &descStruct;
-                IntPtr raw;
-                HfException.Check(Functions.hf_pose_create(c.Handle(surface), desc, &raw));
-                Own(raw, Functions.hf_pose_destroy, c, "vertex_count");
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_pose_create(c.Handle(surface), desc, raw)));
+                Own(*raw, Functions.hf_pose_destroy, c, "vertex_count");
             }
         }
 
-        /// Copies a pose with its handles and transforms, so that several threads can pose one rig.</summary>
+        /// <summary>Copies a pose with its handles and transforms, so that several threads can pose one rig.</summary>
         public Pose Clone()
         {
             using (var c = new Call(this))
             {
-                IntPtr raw;
-                HfException.Check(Functions.hf_pose_clone(RawHandle, &raw));
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Functions.hf_pose_clone(RawHandle, raw));
                 var made = new Pose();
-                made.Own(raw, Functions.hf_pose_destroy, c, "vertex_count");
+                made.Own(*raw, Functions.hf_pose_destroy, c, "vertex_count");
                 return made;
             }
         }
 
-        /// Writes the options of a pose.</summary>
+        /// <summary>Writes the options of a pose.</summary>
         public PoseInfo Info
         {
             get
@@ -3731,13 +3735,13 @@ namespace Hf
         /// 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for the
         /// higher layers.
         ///
-        /// region_vertices: lists of whole numbers: all regions one after the other; vertices as given
+        /// regionVertices: lists of whole numbers: all regions one after the other; vertices as given
         /// points: handleCount x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-
         ///     connected to it within the radius. null: regions are given
         /// radii: handleCount numbers of the regions of points, in the unit of the mesh; null: regions are given. A
         ///     radius below 1 % of the box makes regions of 2 vertices or more
         /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
-        /// in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+        /// inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
@@ -3873,7 +3877,7 @@ namespace Hf
             }
         }
 
-        /// Returns the number of handles, or 0 for an invalid object.</summary>
+        /// <summary>Returns the number of handles, or 0 for an invalid object.</summary>
         public int HandleCount
         {
             get
@@ -3887,7 +3891,7 @@ namespace Hf
         /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
         /// handle reaches, the fields of all handles sum to 1.
         ///
-        /// out: vertexCount numbers.
+        /// @out: vertexCount numbers.
         ///
         /// Throws HF_ERROR_NOT_FOUND.</summary>
         public float[] Field(uint handle)
@@ -3904,7 +3908,7 @@ namespace Hf
         /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
         /// handle reaches, the fields of all handles sum to 1.
         ///
-        /// out: vertexCount numbers.
+        /// @out: vertexCount numbers.
         ///
         /// Throws HF_ERROR_NOT_FOUND.</summary>
         public void Field(uint handle, Span<float> into)
@@ -3921,20 +3925,20 @@ namespace Hf
 
         /// <summary>Does the same as Pose.Deform, with the options of a desc.
         ///
-        /// iteration_count: 1 to 1000; 0 = the pose's
+        /// iterationCount: 1 to 1000; 0 = the pose's
         /// restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose
         ///     with the same handles, added in the same order, and the same transforms. Without restart a frame
         ///     continues from the last one, so it also depends on that
         /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
         ///     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
         ///     sharper
-        /// refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the
-        ///     smooth pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles
-        ///     stand still, more calls go on to the minimum. A restart, or a call without it, forgets that surface.
-        ///     Needs a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
-        /// first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-        /// vertex_count: positions of a range cost only the range, without higher layers, refine and normals
-        /// out: vertexCount x 3 numbers posed positions, or null
+        /// refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth
+        ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand
+        ///     still, more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs
+        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+        /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
+        /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
+        /// @out: vertexCount x 3 numbers posed positions, or null
         /// normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
         /// info: filled in when given
         ///
@@ -3968,27 +3972,27 @@ namespace Hf
 
         /// <summary>Does the same as Pose.Deform, with the options of a desc.
         ///
-        /// iteration_count: 1 to 1000; 0 = the pose's
+        /// iterationCount: 1 to 1000; 0 = the pose's
         /// restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose
         ///     with the same handles, added in the same order, and the same transforms. Without restart a frame
         ///     continues from the last one, so it also depends on that
         /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
         ///     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
         ///     sharper
-        /// refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the
-        ///     smooth pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles
-        ///     stand still, more calls go on to the minimum. A restart, or a call without it, forgets that surface.
-        ///     Needs a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
-        /// first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-        /// vertex_count: positions of a range cost only the range, without higher layers, refine and normals
-        /// out: vertexCount x 3 numbers posed positions, or null
+        /// refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth
+        ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand
+        ///     still, more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs
+        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+        /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
+        /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
+        /// @out: vertexCount x 3 numbers posed positions, or null
         /// normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
-        public void Deform(Span<float> into, uint iterationCount = 0, bool restart = false, int refine = 0,
-                bool refineFromLast = false, uint firstVertex = 0, uint vertexCount = 0,
-                Span<float> normals = default(Span<float>))
+        public void Deform(Span<float> into, Span<float> normals = default(Span<float>), uint iterationCount = 0,
+                bool restart = false, int refine = 0, bool refineFromLast = false, uint firstVertex = 0,
+                uint vertexCount = 0)
         {
             using (var c = new Call(this))
             {
@@ -4016,20 +4020,20 @@ namespace Hf
 
         /// <summary>Does the same as Pose.Deform, with the options of a desc.
         ///
-        /// iteration_count: 1 to 1000; 0 = the pose's
+        /// iterationCount: 1 to 1000; 0 = the pose's
         /// restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose
         ///     with the same handles, added in the same order, and the same transforms. Without restart a frame
         ///     continues from the last one, so it also depends on that
         /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
         ///     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
         ///     sharper
-        /// refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the
-        ///     smooth pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles
-        ///     stand still, more calls go on to the minimum. A restart, or a call without it, forgets that surface.
-        ///     Needs a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
-        /// first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-        /// vertex_count: positions of a range cost only the range, without higher layers, refine and normals
-        /// out: vertexCount x 3 numbers posed positions, or null
+        /// refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth
+        ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand
+        ///     still, more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs
+        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+        /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
+        /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
+        /// @out: vertexCount x 3 numbers posed positions, or null
         /// normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
         /// info: filled in when given
         ///
@@ -4063,27 +4067,27 @@ namespace Hf
 
         /// <summary>Does the same as Pose.Deform, with the options of a desc.
         ///
-        /// iteration_count: 1 to 1000; 0 = the pose's
+        /// iterationCount: 1 to 1000; 0 = the pose's
         /// restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose
         ///     with the same handles, added in the same order, and the same transforms. Without restart a frame
         ///     continues from the last one, so it also depends on that
         /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
         ///     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
         ///     sharper
-        /// refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the
-        ///     smooth pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles
-        ///     stand still, more calls go on to the minimum. A restart, or a call without it, forgets that surface.
-        ///     Needs a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
-        /// first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-        /// vertex_count: positions of a range cost only the range, without higher layers, refine and normals
-        /// out: vertexCount x 3 numbers posed positions, or null
+        /// refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth
+        ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand
+        ///     still, more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs
+        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+        /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
+        /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
+        /// @out: vertexCount x 3 numbers posed positions, or null
         /// normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
-        public void Deform(Span<double> into, uint iterationCount = 0, bool restart = false, int refine = 0,
-                bool refineFromLast = false, uint firstVertex = 0, uint vertexCount = 0,
-                Span<float> normals = default(Span<float>))
+        public void Deform(Span<double> into, Span<float> normals = default(Span<float>), uint iterationCount = 0,
+                bool restart = false, int refine = 0, bool refineFromLast = false, uint firstVertex = 0,
+                uint vertexCount = 0)
         {
             using (var c = new Call(this))
             {
@@ -4118,7 +4122,7 @@ namespace Hf
         /// With scales, classic bends, twists and lifts replay within 0.5 per cent of the box. Without scales,
         /// bends and twists replay within 1 per cent and stretched surfaces within about 2.5 per cent.
         ///
-        /// influence_count: joints per vertex, 4 or 8; 0 = 4
+        /// influenceCount: joints per vertex, 4 or 8; 0 = 4
         /// scales: jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.</summary>
@@ -4204,24 +4208,24 @@ namespace Hf
     /// the crosses sum to four times the Euler characteristic. On a torus or a knot a single one of 5 is often
     /// lost.
     ///
-    /// crease_edges: creaseCount x 2 numbers the two vertices of each edge, as given
-    /// guide_vertices: guideCount numbers as given; guides of one vertex are averaged
-    /// guide_vectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector
+    /// creaseEdges: creaseCount x 2 numbers the two vertices of each edge, as given
+    /// guideVertices: guideCount numbers as given; guides of one vertex are averaged
+    /// guideVectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector
     ///     and across it
-    /// guide_weights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with
+    /// guideWeights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with
     ///     that of the curvature, which has the rest of the weight
-    /// irregular_points: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
-    /// irregular_valences: irregularCount numbers how many quads meet there: 3 or 5
-    /// irregular_directions: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along
+    /// irregularPoints: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
+    /// irregularValences: irregularCount numbers how many quads meet there: 3 or 5
+    /// irregularDirections: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along
     ///     it; 0 0 0 = any
-    /// face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
-    /// edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
-    /// crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0
-    ///     = none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases
+    /// faceCount: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+    /// edgeLength: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+    /// creaseAngle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
+    ///     none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases
     ///     nearer to each other than an edge may be released
-    /// relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; uint.MaxValue = none, and the mesh is not
+    /// relaxCount: rounds of tangential relaxation, up to 1,000; 0 = 60; uint.MaxValue = none, and the mesh is not
     ///     fitted to the surface either
-    /// symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none.
+    /// symmetryPlane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none.
     ///     Quads are made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular
     ///     vertices on the other side are not used
     /// progress: an object to poll and cancel through</summary>
@@ -4255,24 +4259,24 @@ namespace Hf
         /// the indices of the crosses sum to four times the Euler characteristic. On a torus or a knot a single one
         /// of 5 is often lost.
         ///
-        /// crease_edges: creaseCount x 2 numbers the two vertices of each edge, as given
-        /// guide_vertices: guideCount numbers as given; guides of one vertex are averaged
-        /// guide_vectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the
+        /// creaseEdges: creaseCount x 2 numbers the two vertices of each edge, as given
+        /// guideVertices: guideCount numbers as given; guides of one vertex are averaged
+        /// guideVectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the
         ///     vector and across it
-        /// guide_weights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it
+        /// guideWeights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it
         ///     with that of the curvature, which has the rest of the weight
-        /// irregular_points: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
-        /// irregular_valences: irregularCount numbers how many quads meet there: 3 or 5
-        /// irregular_directions: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs
+        /// irregularPoints: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
+        /// irregularValences: irregularCount numbers how many quads meet there: 3 or 5
+        /// irregularDirections: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs
         ///     along it; 0 0 0 = any
-        /// face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
-        /// edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
-        /// crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of
-        ///     quads; 0 = none.  If there are more than 1,024 lines of creases and borders, only the longest are
-        ///     kept. Creases nearer to each other than an edge may be released
-        /// relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; uint.MaxValue = none, and the mesh is
+        /// faceCount: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+        /// edgeLength: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+        /// creaseAngle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads;
+        ///     0 = none.  If there are more than 1,024 lines of creases and borders, only the longest are kept.
+        ///     Creases nearer to each other than an edge may be released
+        /// relaxCount: rounds of tangential relaxation, up to 1,000; 0 = 60; uint.MaxValue = none, and the mesh is
         ///     not fitted to the surface either
-        /// symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none.
+        /// symmetryPlane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none.
         ///     Quads are made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular
         ///     vertices on the other side are not used
         /// progress: an object to poll and cancel through
@@ -4304,9 +4308,9 @@ namespace Hf
                 desc->crease_count = (uint)c.Count("crease_count", 0);
                 desc->guide_count = (uint)c.Count("guide_count", 0);
                 desc->irregular_count = (uint)c.Count("irregular_count", 0);
-                IntPtr raw;
-                HfException.Check(Functions.hf_quads_create(c.Handle(surface), desc, &raw));
-                Own(raw, Functions.hf_quads_destroy, c);
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_quads_create(c.Handle(surface), desc, raw)));
+                Own(*raw, Functions.hf_quads_destroy, c);
             }
         }
 
@@ -4318,24 +4322,24 @@ namespace Hf
         /// are allowed; what belongs to them is made again. After an error `quads` is what it was. Kept memory: 2
         /// to 4 kB a vertex, until `quads` is destroyed.
         ///
-        /// crease_edges: creaseCount x 2 numbers the two vertices of each edge, as given
-        /// guide_vertices: guideCount numbers as given; guides of one vertex are averaged
-        /// guide_vectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the
+        /// creaseEdges: creaseCount x 2 numbers the two vertices of each edge, as given
+        /// guideVertices: guideCount numbers as given; guides of one vertex are averaged
+        /// guideVectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the
         ///     vector and across it
-        /// guide_weights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it
+        /// guideWeights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it
         ///     with that of the curvature, which has the rest of the weight
-        /// irregular_points: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
-        /// irregular_valences: irregularCount numbers how many quads meet there: 3 or 5
-        /// irregular_directions: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs
+        /// irregularPoints: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
+        /// irregularValences: irregularCount numbers how many quads meet there: 3 or 5
+        /// irregularDirections: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs
         ///     along it; 0 0 0 = any
-        /// face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
-        /// edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
-        /// crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of
-        ///     quads; 0 = none.  If there are more than 1,024 lines of creases and borders, only the longest are
-        ///     kept. Creases nearer to each other than an edge may be released
-        /// relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; uint.MaxValue = none, and the mesh is
+        /// faceCount: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+        /// edgeLength: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+        /// creaseAngle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads;
+        ///     0 = none.  If there are more than 1,024 lines of creases and borders, only the longest are kept.
+        ///     Creases nearer to each other than an edge may be released
+        /// relaxCount: rounds of tangential relaxation, up to 1,000; 0 = 60; uint.MaxValue = none, and the mesh is
         ///     not fitted to the surface either
-        /// symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none.
+        /// symmetryPlane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none.
         ///     Quads are made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular
         ///     vertices on the other side are not used
         /// progress: an object to poll and cancel through
@@ -4369,7 +4373,7 @@ namespace Hf
             }
         }
 
-        /// Writes the counts.</summary>
+        /// <summary>Writes the counts.</summary>
         public QuadsInfo Info
         {
             get
@@ -4437,9 +4441,9 @@ namespace Hf
             using (var c = new Call(null))
             {
                 c.Parent("surface", surface);
-                IntPtr raw;
-                HfException.Check(Functions.hf_flow_create(c.Handle(surface), &raw));
-                Own(raw, Functions.hf_flow_destroy, c, "vertex_count");
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_flow_create(c.Handle(surface), raw)));
+                Own(*raw, Functions.hf_flow_destroy, c, "vertex_count");
             }
         }
 
@@ -4448,7 +4452,7 @@ namespace Hf
         /// that cross the streamlines.
         ///
         /// seeds: seedCount numbers vertices as given
-        /// wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
+        /// wantedCount: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.</summary>
         public Streamlines Trace(Reals field, uint[] seeds = null, uint wantedCount = 0)
@@ -4500,7 +4504,7 @@ namespace Hf
     ///
     /// positions: vertexCount x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or any
     ///     pose of them. null: the mesh's own to 1e-15 of the box. Copied
-    /// base: Base. If the surface has no factor for it yet, it is made now
+    /// @base: Base. If the surface has no factor for it yet, it is made now
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Region : Recorded
     {
@@ -4510,7 +4514,7 @@ namespace Hf
         ///
         /// positions: vertexCount x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or
         ///     any pose of them. null: the mesh's own to 1e-15 of the box. Copied
-        /// base: Base. If the surface has no factor for it yet, it is made now
+        /// @base: Base. If the surface has no factor for it yet, it is made now
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -4524,9 +4528,9 @@ namespace Hf
                 hf_region_desc* desc = &descStruct;
                 c.Either(positions, "positions", out desc->positions, out desc->positions_f64, "vertex_count", "3");
                 desc->progress = c.Handle(progress);
-                IntPtr raw;
-                HfException.Check(Functions.hf_region_create(c.Handle(surface), desc, &raw));
-                Own(raw, Functions.hf_region_destroy, c, "vertex_count");
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_region_create(c.Handle(surface), desc, raw)));
+                Own(*raw, Functions.hf_region_destroy, c, "vertex_count");
             }
         }
 
@@ -4536,10 +4540,10 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                IntPtr raw;
-                HfException.Check(Functions.hf_region_clone(RawHandle, &raw));
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Functions.hf_region_clone(RawHandle, raw));
                 var made = new Region();
-                made.Own(raw, Functions.hf_region_destroy, c, "vertex_count");
+                made.Own(*raw, Functions.hf_region_destroy, c, "vertex_count");
                 return made;
             }
         }
@@ -4550,9 +4554,9 @@ namespace Hf
         /// covers only the part of the factor that its vertices need. A region may have several pieces, in several
         /// components. Progress covers curve, sites and base; the call can be cancelled between them.
         ///
-        /// remove_vertices: removeCount numbers vertices that leave the region; others are passed over
-        /// add_vertices: addCount numbers vertices that join it; those in it already are passed over
-        /// ring_count: rings of vertices by which the region grows; below 0 it shrinks
+        /// removeVertices: removeCount numbers vertices that leave the region; others are passed over
+        /// addVertices: addCount numbers vertices that join it; those in it already are passed over
+        /// ringCount: rings of vertices by which the region grows; below 0 it shrinks
         /// curve: the region becomes what this curve encloses
         /// progress: an object to poll and cancel through
         ///
@@ -4576,7 +4580,7 @@ namespace Hf
             }
         }
 
-        /// Writes the info of a region.</summary>
+        /// <summary>Writes the info of a region.</summary>
         public RegionInfo Info
         {
             get
@@ -4646,7 +4650,7 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
+        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
         /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -4676,11 +4680,11 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
+        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
         /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
-        public void Morph(Span<float> into, double weight = 0, Span<float> normals = default(Span<float>))
+        public void Morph(Span<float> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
             {
@@ -4707,7 +4711,7 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
+        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
         /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -4737,11 +4741,11 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
+        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
         /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
-        public void Morph(Span<double> into, double weight = 0, Span<float> normals = default(Span<float>))
+        public void Morph(Span<double> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
             {
@@ -4780,8 +4784,8 @@ namespace Hf
     ///     the offsets in the triangles of the source, and applies them in the same frames of the target. The
     ///     detail fades to nothing at the rim. If source and target are the same region, the result is the surface
     ///     itself. Later edits of the regions do not change the object.
-    /// source_vertices: pairCount numbers rim vertices of the source, as given
-    /// target_vertices: pairCount numbers rim vertices of the target, as given
+    /// sourceVertices: pairCount numbers rim vertices of the source, as given
+    /// targetVertices: pairCount numbers rim vertices of the target, as given
     /// scale: of the detail, &gt; 0; 0 = square root of target base area over source base area
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Detail : HfObject
@@ -4796,8 +4800,8 @@ namespace Hf
         ///     interpolates the offsets in the triangles of the source, and applies them in the same frames of the
         ///     target. The detail fades to nothing at the rim. If source and target are the same region, the result
         ///     is the surface itself. Later edits of the regions do not change the object.
-        /// source_vertices: pairCount numbers rim vertices of the source, as given
-        /// target_vertices: pairCount numbers rim vertices of the target, as given
+        /// sourceVertices: pairCount numbers rim vertices of the source, as given
+        /// targetVertices: pairCount numbers rim vertices of the target, as given
         /// scale: of the detail, &gt; 0; 0 = square root of target base area over source base area
         /// progress: an object to poll and cancel through
         ///
@@ -4816,9 +4820,10 @@ namespace Hf
                 desc->target_vertices = (IntPtr)c.Array(targetVertices, "targetVertices", "pair_count");
                 desc->progress = c.Handle(progress);
                 desc->pair_count = (uint)c.Count("pair_count", 0);
-                IntPtr raw;
-                HfException.Check(Functions.hf_detail_create(c.Handle(source), c.Handle(target), desc, &raw));
-                Own(raw, Functions.hf_detail_destroy, c, "vertex_count");
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_detail_create(c.Handle(source), c.Handle(target), desc,
+                    raw)));
+                Own(*raw, Functions.hf_detail_destroy, c, "vertex_count");
             }
         }
 
@@ -4828,7 +4833,7 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
+        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
         /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -4858,11 +4863,11 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
+        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
         /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
-        public void Morph(Span<float> into, double weight = 0, Span<float> normals = default(Span<float>))
+        public void Morph(Span<float> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
             {
@@ -4889,7 +4894,7 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
+        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
         /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -4919,11 +4924,11 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
+        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
         /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
-        public void Morph(Span<double> into, double weight = 0, Span<float> normals = default(Span<float>))
+        public void Morph(Span<double> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
             {
@@ -4959,43 +4964,43 @@ namespace Hf
     ///
     /// Creates a transfer between two surfaces; both may be the same.
     ///
-    /// source_rest: source.vertexCount x 3 numbers, or null Poses in which the two bodies correspond, in each
+    /// sourceRest: source.vertexCount x 3 numbers, or null Poses in which the two bodies correspond, in each
     ///     surface's unit, read by the call, or null for the positions of the surface. A character bound in a
     ///     crouch gets a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
-    /// target_rest: target.vertexCount x 3 numbers, or null
+    /// targetRest: target.vertexCount x 3 numbers, or null
     /// mode: TransferMode
-    /// cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
+    /// clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
     /// ground: Ground
-    /// kernel_width: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is
+    /// kernelWidth: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is
     ///     more, up to 0.12
     /// scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes
     ///     when no pair is a foot
-    /// alignment_angle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6
+    /// alignmentAngle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6
     ///     times the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative =
     ///     never.
-    /// source_axes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y,
+    /// sourceAxes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y,
     ///     forward +z). Lengths, and right x up = forward, must hold within 1e-3. The library takes the nearest
     ///     rotation.</summary>
     public sealed unsafe class Transfer : HfObject
     {
         /// <summary>Creates a transfer between two surfaces; both may be the same.
         ///
-        /// source_rest: source.vertexCount x 3 numbers, or null Poses in which the two bodies correspond, in each
+        /// sourceRest: source.vertexCount x 3 numbers, or null Poses in which the two bodies correspond, in each
         ///     surface's unit, read by the call, or null for the positions of the surface. A character bound in a
         ///     crouch gets a standing pose here. Motion counts from these poses; the fields stay those of the
         ///     surfaces.
-        /// target_rest: target.vertexCount x 3 numbers, or null
+        /// targetRest: target.vertexCount x 3 numbers, or null
         /// mode: TransferMode
-        /// cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
+        /// clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
         /// ground: Ground
-        /// kernel_width: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if
-        ///     that is more, up to 0.12
+        /// kernelWidth: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that
+        ///     is more, up to 0.12
         /// scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes
         ///     when no pair is a foot
-        /// alignment_angle: A limb whose rest directions differ by this angle is aligned by half, radians. Below
-        ///     0.6 times the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees;
-        ///     negative = never.
-        /// source_axes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y,
+        /// alignmentAngle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6
+        ///     times the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative =
+        ///     never.
+        /// sourceAxes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y,
         ///     forward +z). Lengths, and right x up = forward, must hold within 1e-3. The library takes the nearest
         ///     rotation.
         ///
@@ -5017,17 +5022,18 @@ namespace Hf
                 desc->target_rest = (IntPtr)c.Array(targetRest, "targetRest", "target.vertex_count", "3");
                 c.Fixed(sourceAxes, "sourceAxes", 9, desc->source_axes);
                 c.Fixed(targetAxes, "targetAxes", 9, desc->target_axes);
-                IntPtr raw;
-                HfException.Check(Functions.hf_transfer_create(c.Handle(source), c.Handle(target), desc, &raw));
-                Own(raw, Functions.hf_transfer_destroy, c, "vertex_count");
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_transfer_create(c.Handle(source), c.Handle(target), desc,
+                    raw)));
+                Own(*raw, Functions.hf_transfer_destroy, c, "vertex_count");
             }
         }
 
         /// <summary>Adds pairs.
         ///
-        /// source_vertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4
+        /// sourceVertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4
         ///     entries per vertex
-        /// target_vertices: lists of whole numbers:
+        /// targetVertices: lists of whole numbers:
         /// flags: pairCount numbers PairFlag, or null for none
         /// progress: an object to poll and cancel through
         ///
@@ -5106,16 +5112,16 @@ namespace Hf
         ///
         /// stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A
         ///     planted foot does not slide. The body travels as much farther
-        /// hip_height_share: raises the pairs flagged PairFlag.Trunk and PairFlag.Anchor by this share of their
-        ///     mean height at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not
+        /// hipHeightShare: raises the pairs flagged PairFlag.Trunk and PairFlag.Anchor by this share of their mean
+        ///     height at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not
         ///     raised
-        /// neck_follow: pairs flagged PairFlag.Neck, together one limb How far a limb follows the source, -1 to 1.
-        ///     0 = neutral: it plays the source's motion from its own rest direction. 1: it also takes the rest
+        /// neckFollow: pairs flagged PairFlag.Neck, together one limb How far a limb follows the source, -1 to 1. 0
+        ///     = neutral: it plays the source's motion from its own rest direction. 1: it also takes the rest
         ///     direction of the source's limb. -1: it does not move against its root.
-        /// tail_follow: pairs flagged PairFlag.Tail, together one limb
-        /// arm_space: turns arms (PairFlag.Arm) away from the body, about the forward axis at rest, -pi/2 to pi/2
+        /// tailFollow: pairs flagged PairFlag.Tail, together one limb
+        /// armSpace: turns arms (PairFlag.Arm) away from the body, about the forward axis at rest, -pi/2 to pi/2
         ///     radians; 0 = neutral
-        /// long_follow: how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn
+        /// longFollow: how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn
         ///     less, so that they move as far. 1: they make the whole turn. Between, a part may jump that turns by
         ///     half a turn against the part before it
         ///
@@ -5133,7 +5139,7 @@ namespace Hf
             }
         }
 
-        /// Writes the dials; stride is never 0.</summary>
+        /// <summary>Writes the dials; stride is never 0.</summary>
         public TransferDials Dials
         {
             get
@@ -5165,11 +5171,11 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// source_positions: source.vertexCount x 3 numbers the posed source, its own vertex order
-        /// hold_pairs: holdCount numbers each pair at most once
-        /// hold_positions: holdCount x 3 numbers in the target's unit and frame
-        /// out: target.vertexCount x 3 numbers, or null
-        /// target_normals: target.vertexCount x 3 numbers, or null
+        /// sourcePositions: source.vertexCount x 3 numbers the posed source, its own vertex order
+        /// holdPairs: holdCount numbers each pair at most once
+        /// holdPositions: holdCount x 3 numbers in the target's unit and frame
+        /// @out: target.vertexCount x 3 numbers, or null
+        /// targetNormals: target.vertexCount x 3 numbers, or null
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -5216,16 +5222,16 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// source_positions: source.vertexCount x 3 numbers the posed source, its own vertex order
-        /// hold_pairs: holdCount numbers each pair at most once
-        /// hold_positions: holdCount x 3 numbers in the target's unit and frame
-        /// out: target.vertexCount x 3 numbers, or null
-        /// target_normals: target.vertexCount x 3 numbers, or null
+        /// sourcePositions: source.vertexCount x 3 numbers the posed source, its own vertex order
+        /// holdPairs: holdCount numbers each pair at most once
+        /// holdPositions: holdCount x 3 numbers in the target's unit and frame
+        /// @out: target.vertexCount x 3 numbers, or null
+        /// targetNormals: target.vertexCount x 3 numbers, or null
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
-        public void Apply(Span<float> into, Reals sourcePositions = null, uint[] holdPairs = null,
-                double[] holdPositions = null, Span<float> targetNormals = default(Span<float>))
+        public void Apply(Span<float> into, Span<float> targetNormals = default(Span<float>),
+                Reals sourcePositions = null, uint[] holdPairs = null, double[] holdPositions = null)
         {
             using (var c = new Call(this))
             {
@@ -5268,11 +5274,11 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// source_positions: source.vertexCount x 3 numbers the posed source, its own vertex order
-        /// hold_pairs: holdCount numbers each pair at most once
-        /// hold_positions: holdCount x 3 numbers in the target's unit and frame
-        /// out: target.vertexCount x 3 numbers, or null
-        /// target_normals: target.vertexCount x 3 numbers, or null
+        /// sourcePositions: source.vertexCount x 3 numbers the posed source, its own vertex order
+        /// holdPairs: holdCount numbers each pair at most once
+        /// holdPositions: holdCount x 3 numbers in the target's unit and frame
+        /// @out: target.vertexCount x 3 numbers, or null
+        /// targetNormals: target.vertexCount x 3 numbers, or null
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -5319,16 +5325,16 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// source_positions: source.vertexCount x 3 numbers the posed source, its own vertex order
-        /// hold_pairs: holdCount numbers each pair at most once
-        /// hold_positions: holdCount x 3 numbers in the target's unit and frame
-        /// out: target.vertexCount x 3 numbers, or null
-        /// target_normals: target.vertexCount x 3 numbers, or null
+        /// sourcePositions: source.vertexCount x 3 numbers the posed source, its own vertex order
+        /// holdPairs: holdCount numbers each pair at most once
+        /// holdPositions: holdCount x 3 numbers in the target's unit and frame
+        /// @out: target.vertexCount x 3 numbers, or null
+        /// targetNormals: target.vertexCount x 3 numbers, or null
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
-        public void Apply(Span<double> into, Reals sourcePositions = null, uint[] holdPairs = null,
-                double[] holdPositions = null, Span<float> targetNormals = default(Span<float>))
+        public void Apply(Span<double> into, Span<float> targetNormals = default(Span<float>),
+                Reals sourcePositions = null, uint[] holdPairs = null, double[] holdPositions = null)
         {
             using (var c = new Call(this))
             {
@@ -5371,7 +5377,7 @@ namespace Hf
         /// <summary>Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the
         /// skin replays Transfer.Apply exactly, because that function also uses the four largest weights.
         ///
-        /// influence_count: joints per vertex, 4 or 8; 0 = 4
+        /// influenceCount: joints per vertex, 4 or 8; 0 = 4
         /// scales: jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.</summary>
@@ -5438,7 +5444,7 @@ namespace Hf
     /// sources: jointCount numbers for Weights.SetJoints: the number that the joint had before, uint.MaxValue for a
     ///     new one; null: the same number. Weights: null
     /// progress: an object to poll and cancel through
-    /// influence_count: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has
+    /// influenceCount: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has
     ///     none, it is made now. Sets *weights to null first.</summary>
     public sealed unsafe class Weights : Recorded
     {
@@ -5456,7 +5462,7 @@ namespace Hf
         /// sources: jointCount numbers for Weights.SetJoints: the number that the joint had before, uint.MaxValue
         ///     for a new one; null: the same number. Weights: null
         /// progress: an object to poll and cancel through
-        /// influence_count: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it
+        /// influenceCount: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it
         ///     has none, it is made now. Sets *weights to null first.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -5479,9 +5485,10 @@ namespace Hf
                 desc->progress = c.Handle(progress);
                 desc->joint_count = (uint)c.Count("joint_count", 0);
                 c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
-                IntPtr raw;
-                HfException.Check(Functions.hf_weights_create(c.Handle(surface), desc, influenceCount, &raw));
-                Own(raw, Functions.hf_weights_destroy, c, "vertex_count");
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_weights_create(c.Handle(surface), desc, influenceCount,
+                    raw)));
+                Own(*raw, Functions.hf_weights_destroy, c, "vertex_count");
             }
         }
 
@@ -5491,10 +5498,10 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                IntPtr raw;
-                HfException.Check(Functions.hf_weights_clone(RawHandle, &raw));
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Functions.hf_weights_clone(RawHandle, raw));
                 var made = new Weights();
-                made.Own(raw, Functions.hf_weights_destroy, c, "vertex_count");
+                made.Own(*raw, Functions.hf_weights_destroy, c, "vertex_count");
                 return made;
             }
         }
@@ -5643,7 +5650,7 @@ namespace Hf
             }
         }
 
-        /// Writes the info.</summary>
+        /// <summary>Writes the info.</summary>
         public WeightsInfo Info
         {
             get
@@ -5694,7 +5701,7 @@ namespace Hf
         ///     gives none
         /// distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
         /// angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
-        /// influence_count: joints of each vertex in the result: 4 or 8; 0: 4
+        /// influenceCount: joints of each vertex in the result: 4 or 8; 0: 4
         /// progress: an object to poll and cancel through
         /// info: filled in when given
         ///
@@ -5758,7 +5765,7 @@ namespace Hf
         /// to: MirrorTo
         /// distance: as in WeightsTransferDesc
         /// angle: as in WeightsTransferDesc
-        /// influence_count: joints of each vertex in the result: 4 or 8; 0: 4
+        /// influenceCount: joints of each vertex in the result: 4 or 8; 0: 4
         /// progress: an object to poll and cancel through
         /// info: filled in when given
         ///

@@ -50,10 +50,13 @@ namespace Hf
 
         public Call(HfObject own)
         {
+            Library.Load();
             if (own == null) return;
             kept.Add(own);
             foreach (KeyValuePair<string, int> count in own.Counts) sizes[count.Key] = count.Value;
         }
+
+        public static int Late(Func<int> call) { return call(); }
 
         public void Dispose()
         {
@@ -76,9 +79,8 @@ namespace Hf
 
         public void Tell(Dictionary<string, int> counts, string[] keys)
         {
-            int size;
-            foreach (string key in keys)
-                if (sizes.TryGetValue(key, out size) || sizes.TryGetValue("source." + key, out size)) counts[key] = size;
+            foreach (KeyValuePair<string, int> size in sizes)
+                if (System.Array.IndexOf(keys, size.Key.Substring(size.Key.LastIndexOf('.') + 1)) >= 0) counts[size.Key] = size.Value;
         }
 
         public void Known(string key, uint value) { if (value != 0) sizes[key] = (int)Math.Min(value, int.MaxValue); }

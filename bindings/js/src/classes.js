@@ -44,7 +44,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('saved_factor', c.inner(savedFactor, 'bytes', factorDesc, 'saved_factor.'));
     desc.set('links', c.inner(links, 'joints', linksDesc, 'links.'));
-    c.counts(desc, { vertex_count: [prefix + 'vertex_count', 0], triangle_count: [prefix + 'triangle_count', 0],
+    c.counts(desc, { vertex_count: [prefix + 'vertex_count', 1], triangle_count: [prefix + 'triangle_count', 0],
             face_count: [prefix + 'face_count', 0], corner_count: [prefix + 'corner_count', 0] });
     return desc;
   };

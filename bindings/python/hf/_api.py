@@ -573,7 +573,7 @@ def _surface_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] =
     desc.progress = handle_of(progress, Progress, 'progress')
     desc.saved_factor = c.inner(saved_factor, 'bytes', _factor_desc, 'saved_factor.')
     desc.links = c.inner(links, 'joints', _links_desc, 'links.')
-    c.counts(desc, vertex_count=(prefix + 'vertex_count', 0), triangle_count=(prefix + 'triangle_count', 0),
+    c.counts(desc, vertex_count=(prefix + 'vertex_count', 1), triangle_count=(prefix + 'triangle_count', 0),
             face_count=(prefix + 'face_count', 0), corner_count=(prefix + 'corner_count', 0))
     return desc
 
