@@ -201,7 +201,7 @@ pub type hf_weights = *mut hf_weights_object;
 
 /// Details of the last failed call on this thread.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_error_detail {
     pub code: i32,
     pub index: u32,
@@ -217,7 +217,7 @@ impl Default for hf_error_detail {
 
 /// Your allocator, which serves a surface and everything made from it.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_allocator {
     pub allocate: *const c_void,
     pub release: *const c_void,
@@ -232,7 +232,7 @@ impl Default for hf_allocator {
 
 /// Your job system.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_job_runner {
     pub run: *const c_void,
     pub user: *mut c_void,
@@ -246,7 +246,7 @@ impl Default for hf_job_runner {
 
 /// A factor that hf_surface_save wrote.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_factor_desc {
     pub struct_size: u32,
     pub borrow: i32,
@@ -264,7 +264,7 @@ impl Default for hf_factor_desc {
 
 /// A spring from a vertex to a point of a triangle.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_link {
     pub vertex: u32,
     pub corners: [u32; 3],
@@ -283,7 +283,7 @@ impl Default for hf_link {
 
 /// Says which pieces to link.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_links_desc {
     pub struct_size: u32,
     pub mode: i32,
@@ -312,7 +312,7 @@ impl Default for hf_links_desc {
 
 /// The mesh and the options of a surface.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_desc {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -357,7 +357,7 @@ impl Default for hf_surface_desc {
 
 /// A graph of your own and the options of its surface
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_graph_desc {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -390,7 +390,7 @@ impl Default for hf_graph_desc {
 
 /// The options a surface was made with, defaults filled in.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -446,7 +446,7 @@ impl hf_surface_info {
 
 /// Counts of what the surface found in the mesh.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_report {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -526,7 +526,7 @@ impl hf_surface_report {
 
 /// Posed positions of the mesh, of which gaps are measured.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_gaps_desc {
     pub struct_size: u32,
     pub position_stride: u32,
@@ -544,7 +544,7 @@ impl Default for hf_gaps_desc {
 
 /// How far linked pieces have opened, in the unit of the positions.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_gaps_info {
     pub struct_size: u32,
     pub link_count: u32,
@@ -578,7 +578,7 @@ impl hf_gaps_info {
 
 /// hf_surface_get_statistics writes sizes and times of a surface here.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_statistics {
     pub struct_size: u32,
     pub unknown_count: u32,
@@ -632,7 +632,7 @@ impl hf_surface_statistics {
 
 /// Options of picking
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pick_desc {
     pub struct_size: u32,
     pub position_stride: u32,
@@ -652,7 +652,7 @@ impl Default for hf_pick_desc {
 
 /// hf_surface_cast_ray writes the first triangle that a ray hits here.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_hit {
     pub struct_size: u32,
     pub found: i32,
@@ -674,7 +674,7 @@ impl Default for hf_hit {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_solver_desc {
     pub struct_size: u32,
     pub field_kind: i32,
@@ -696,7 +696,7 @@ impl Default for hf_solver_desc {
 
 /// hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_solver_info {
     pub struct_size: u32,
     pub field_kind: i32,
@@ -736,7 +736,7 @@ impl hf_solver_info {
 
 /// Places and values of sites.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_sites_desc {
     pub struct_size: u32,
     pub site_count: u32,
@@ -759,7 +759,7 @@ impl Default for hf_sites_desc {
 
 /// One batch of edits, applied in the order remove, move, set, add.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_edit_desc {
     pub struct_size: u32,
     pub remove_count: u32,
@@ -783,7 +783,7 @@ impl Default for hf_edit_desc {
 
 /// Places, values and fluxes of the sites.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_sites_info {
     pub struct_size: u32,
     pub capacity: u32,
@@ -808,7 +808,7 @@ impl Default for hf_sites_info {
 
 /// The components that the sites of a solve did not reach.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_solve_info {
     pub struct_size: u32,
     pub unreached_component_count: u32,
@@ -838,7 +838,7 @@ impl hf_solve_info {
 
 /// Counts and errors of a preview.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_preview_info {
     pub struct_size: u32,
     pub exact: i32,
@@ -876,7 +876,7 @@ impl hf_preview_info {
 
 /// The certificate says how accurate a field is.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_certificate {
     pub struct_size: u32,
     pub overshoot_checked: i32,
@@ -918,7 +918,7 @@ impl hf_certificate {
 
 /// Counts, memory and cost estimates of a solver.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_solver_statistics {
     pub struct_size: u32,
     pub site_count: u32,
@@ -970,7 +970,7 @@ impl hf_solver_statistics {
 
 /// This struct passes a field with one value per vertex of your mesh.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_scalars {
     pub struct_size: u32,
     pub value_stride: u32,
@@ -988,7 +988,7 @@ impl Default for hf_scalars {
 
 /// Iso-lines as polylines.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_isolines {
     pub struct_size: u32,
     pub point_capacity: u32,
@@ -1013,7 +1013,7 @@ impl Default for hf_isolines {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_critical_point {
     pub vertex: u32,
     pub kind: i32,
@@ -1029,7 +1029,7 @@ impl Default for hf_critical_point {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_critical_info {
     pub struct_size: u32,
     pub point_count: u32,
@@ -1066,7 +1066,7 @@ impl hf_critical_info {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_geodesics_desc {
     pub struct_size: u32,
     pub method: i32,
@@ -1084,7 +1084,7 @@ impl Default for hf_geodesics_desc {
 
 /// A point of the surface in the form of hf_hit
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_point {
     pub corners: [u32; 3],
     pub reserved: u32,
@@ -1099,7 +1099,7 @@ impl Default for hf_surface_point {
 
 /// A path along the surface, from its first point to its last.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_path {
     pub struct_size: u32,
     pub point_capacity: u32,
@@ -1120,7 +1120,7 @@ impl Default for hf_path {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_extremities_desc {
     pub struct_size: u32,
     pub kind: i32,
@@ -1141,7 +1141,7 @@ impl Default for hf_extremities_desc {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_extremity {
     pub vertex: u32,
     pub component: u32,
@@ -1156,7 +1156,7 @@ impl Default for hf_extremity {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_direction_desc {
     pub struct_size: u32,
     pub degree: u32,
@@ -1175,7 +1175,7 @@ impl Default for hf_direction_desc {
 
 /// A singularity is a triangle, or a face, around which the field makes extra turns.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_singularity {
     pub triangle: u32,
     pub vertex: u32,
@@ -1190,7 +1190,7 @@ impl Default for hf_singularity {
 
 /// The options a direction field was made with, and counts of its constraints and of the work done so far.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_direction_statistics {
     pub struct_size: u32,
     pub degree: u32,
@@ -1241,7 +1241,7 @@ impl hf_direction_statistics {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pose_desc {
     pub struct_size: u32,
     pub mode: i32,
@@ -1261,7 +1261,7 @@ impl Default for hf_pose_desc {
 
 /// hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pose_info {
     pub struct_size: u32,
     pub mode: i32,
@@ -1299,7 +1299,7 @@ impl hf_pose_info {
 
 /// The handles to add.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_handles_desc {
     pub struct_size: u32,
     pub handle_count: u32,
@@ -1322,7 +1322,7 @@ impl Default for hf_handles_desc {
 
 /// A rigid motion of a handle from its rest place.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transform {
     pub rotation: [f64; 4],
     pub translation: [f64; 3],
@@ -1336,7 +1336,7 @@ impl Default for hf_transform {
 
 /// hf_pose_get_handle writes the region of a handle here, its layer, and its motion in the last hf_deform.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_handle_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -1375,7 +1375,7 @@ impl hf_handle_info {
 
 /// Counts and times of a deform.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_deform_info {
     pub struct_size: u32,
     pub iteration_count: u32,
@@ -1415,7 +1415,7 @@ impl hf_deform_info {
 
 /// The options of hf_pose_deform are outputs, strides and a range of vertices.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_deform_desc {
     pub struct_size: u32,
     pub position_stride: u32,
@@ -1442,7 +1442,7 @@ impl Default for hf_deform_desc {
 
 /// This struct receives a pose or a transfer as a skin for linear blend skinning.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_skin_info {
     pub struct_size: u32,
     pub joint_capacity: u32,
@@ -1468,7 +1468,7 @@ impl Default for hf_skin_info {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_handle_proposals_desc {
     pub struct_size: u32,
     pub joint_count: u32,
@@ -1491,7 +1491,7 @@ impl Default for hf_handle_proposals_desc {
 
 /// One proposed handle.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_handle_proposal {
     pub vertex: u32,
     pub component: u32,
@@ -1512,7 +1512,7 @@ impl Default for hf_handle_proposal {
 
 /// Options of a quad mesh.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_quads_desc {
     pub struct_size: u32,
     pub face_count: u32,
@@ -1543,7 +1543,7 @@ impl Default for hf_quads_desc {
 
 /// Counts of a quad mesh.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_quads_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -1575,7 +1575,7 @@ impl hf_quads_info {
 
 /// hf_quads_get_mesh writes the quad mesh to these arrays.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_quads_mesh {
     pub struct_size: u32,
     pub vertex_capacity: u32,
@@ -1599,7 +1599,7 @@ impl Default for hf_quads_mesh {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_streamlines {
     pub struct_size: u32,
     pub wanted_count: u32,
@@ -1625,7 +1625,7 @@ impl Default for hf_streamlines {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_region_desc {
     pub struct_size: u32,
     pub base: i32,
@@ -1646,7 +1646,7 @@ impl Default for hf_region_desc {
 
 /// Describes a closed curve through at least 3 points, on the mesh at rest.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_curve_desc {
     pub struct_size: u32,
     pub point_count: u32,
@@ -1670,7 +1670,7 @@ impl Default for hf_curve_desc {
 
 /// A change of a region.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_region_edit_desc {
     pub struct_size: u32,
     pub ring_count: i32,
@@ -1692,7 +1692,7 @@ impl Default for hf_region_edit_desc {
 
 /// Counts and areas of a region and of its last edit.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_region_info {
     pub struct_size: u32,
     pub field_kind: i32,
@@ -1742,7 +1742,7 @@ impl hf_region_info {
 
 /// Gives hf_region_morph and hf_detail_morph their weight and outputs.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_morph_desc {
     pub struct_size: u32,
     pub position_stride: u32,
@@ -1763,7 +1763,7 @@ impl Default for hf_morph_desc {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_detail_desc {
     pub struct_size: u32,
     pub pair_count: u32,
@@ -1783,7 +1783,7 @@ impl Default for hf_detail_desc {
 
 /// most pairs of a transfer
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_desc {
     pub struct_size: u32,
     pub mode: i32,
@@ -1808,7 +1808,7 @@ impl Default for hf_transfer_desc {
 
 /// The pairs to add.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pairs_desc {
     pub struct_size: u32,
     pub pair_count: u32,
@@ -1829,7 +1829,7 @@ impl Default for hf_pairs_desc {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pair_info {
     pub struct_size: u32,
     pub flags: u32,
@@ -1869,7 +1869,7 @@ impl hf_pair_info {
 
 /// hf_transfer_get_info writes counts and the scale of a transfer here.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_info {
     pub struct_size: u32,
     pub pair_count: u32,
@@ -1909,7 +1909,7 @@ impl hf_transfer_info {
 
 /// What an animator turns while a transfer plays.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_dials {
     pub struct_size: u32,
     pub reserved: u32,
@@ -1947,7 +1947,7 @@ impl hf_transfer_dials {
 
 /// Describes one frame
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_frame {
     pub struct_size: u32,
     pub source_stride: u32,
@@ -1974,7 +1974,7 @@ impl Default for hf_transfer_frame {
 
 /// The joints of a skeleton, in the unit and frame of the mesh.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_joints_desc {
     pub struct_size: u32,
     pub joint_count: u32,
@@ -1997,7 +1997,7 @@ impl Default for hf_joints_desc {
 
 /// Places with given weights.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pins_desc {
     pub struct_size: u32,
     pub pin_count: u32,
@@ -2022,7 +2022,7 @@ impl Default for hf_pins_desc {
 
 /// Receives the weights.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_out {
     pub struct_size: u32,
     pub vertex_capacity: u32,
@@ -2044,7 +2044,7 @@ impl Default for hf_weights_out {
 
 /// Counts of the weights.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -2110,7 +2110,7 @@ impl hf_weights_info {
 
 /// Weights to transfer from one surface to another.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_transfer_desc {
     pub struct_size: u32,
     pub source_influence_count: u32,
@@ -2133,7 +2133,7 @@ impl Default for hf_weights_transfer_desc {
 
 /// Counts of transferred weights.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_transfer_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -2171,7 +2171,7 @@ impl hf_weights_transfer_info {
 
 /// Weights to mirror.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_mirror_desc {
     pub struct_size: u32,
     pub joint_count: u32,
@@ -2200,7 +2200,7 @@ impl Default for hf_weights_mirror_desc {
 
 /// The findings of a mirror.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_mirror_info {
     pub struct_size: u32,
     pub vertex_count: u32,
