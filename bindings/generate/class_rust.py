@@ -38,7 +38,7 @@ class Steps:
     """Steps of steps.py as lines of Rust. options: inside the `fill` of a struct of options; fresh: a new array is returned."""
 
     def __init__(self, writer, plan=None, options=None, fresh=False):
-        self.w, self.options, self.fresh, self.records = writer, options, fresh, set()
+        self.w, self.plan, self.options, self.fresh, self.records = writer, plan, options, fresh, set()
         self.required = {a.name for a in plan.arguments if a.required} if plan else set()
         self.twin = bool(plan) and any(a.role == "type" for a in plan.arguments)
         self.fills = {a.name for a in plan.arguments if a.role == "fill"} if plan else set()
@@ -100,7 +100,7 @@ class Steps:
     def do_desc(self, var, struct, names):
         ahead = "".join(f", {self.w.ahead_value(struct, n)}" for n in self.w.ahead(struct))
         mutable = "mut " * bool(struct.filled)
-        who = "options" if self.w.fields_of(struct) else f"{self.w.options_name(struct)} {{}}"
+        who = self.w.options_argument(self.plan) if self.w.fields_of(struct) else f"{self.w.options_name(struct)} {{}}"
         return [f'let {mutable}desc = {who}.fill(&mut c, ""{ahead})?;']
 
     def do_record(self, var, type, fields, dims):
@@ -300,7 +300,7 @@ class Writer:
     def options(self, struct):
         name, fields = self.options_name(struct), self.fields_of(struct)
         life = "<'a>" if self.borrows(struct) else ""
-        out = ["", *self.doc(struct.struct["doc"], 0), "#[derive(Clone, Copy, Debug, Default, PartialEq)]", f"pub struct {name}{life} {{"]
+        out = ["", *self.doc(struct.struct["doc"], 0), "#[derive(Clone, Copy, Debug, Default, PartialEq)]", f"{'pub ' if fields else ''}struct {name}{life} {{"]
         for f in fields:
             out += self.doc(f["doc"], 4) + [f"    pub {safe(f['name'])}: {self.hint(f, struct)},"]
         given = "".join(f", {safe(n)}: {self.hint(named(struct.struct['fields'], n), struct, life='')}" for n in self.ahead(struct))
@@ -354,24 +354,28 @@ class Writer:
             parts += [self.argument(a, plan) for a in shown if a.role == "fill"]
         elif not out:
             parts += [self.argument(a, plan) for a in shown if a.role == "fill"]
+        if desc and self.fields_of(desc):
+            parts.append(f"{self.options_argument(plan)}: &{self.options_name(desc)}")
         parts += [self.argument(a, plan) for a in shown if not a.required and a.role != "fill" and a.struct is None or a.role == "request" or (
             a.struct is not None and not m.flat)]
-        if desc and self.fields_of(desc):
-            parts.append(f"options: &{self.options_name(desc)}")
         return ", ".join(parts)
 
+    def options_argument(self, plan):
+        name = plan.method.flat[0]["name"]
+        return "options" if name == "desc" else safe(name)
+
     def ahead_hint(self, desc, name):
-        """Slices that the call is about stand without Some; an empty one is none."""
+        """Slices that the call is about stand without Some, unless the header says that they may be NULL."""
         item = named(desc.struct["fields"], name)
         if item["role"] == "array" and item["name"] in desc.twins:
             return f"impl Into<{PAIRS[item['type']]}<'i>>"
-        return re.sub(r"^Option<(.*)>$", r"\1", self.hint(item, desc, life=""))
+        return self.hint(item, desc, life="") if item["optional"] else re.sub(r"^Option<(.*)>$", r"\1", self.hint(item, desc, life=""))
 
     def ahead_value(self, desc, name):
         item = named(desc.struct["fields"], name)
-        if item["role"] != "array":
-            return safe(name)
-        return f"{safe(name)}.into().some()" if item["name"] in desc.twins else f"(!{safe(name)}.is_empty()).then_some({safe(name)})"
+        if item["role"] == "array" and item["name"] in desc.twins:
+            return f"Some({safe(name)}.into())"
+        return f"Some({safe(name)})" if item["role"] == "array" and not item["optional"] else safe(name)
 
     def returned(self, plan):
         found = []

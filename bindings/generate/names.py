@@ -3,6 +3,7 @@
 import class_csharp
 import class_js
 import class_python
+import class_rust
 from plan import LOOSE, camel, classes
 
 
@@ -10,14 +11,14 @@ def write(api):
     groups, _ = classes(api)
     methods = {m.name: (handle, m) for handle, group in groups for m in group}
     lines = ["# Names", "", "Generated from include/hf/*.h by bindings/generate; do not edit. A function without a name of its own is the short form of another, or the same in double:",
-             "the other takes its arguments.", "", "| C | Python | JavaScript | C# |", "|---|---|---|---|"]
+             "the other takes its arguments.", "", "| C | Python | JavaScript | C# | Rust |", "|---|---|---|---|---|"]
     for function in api["functions"]:
         name = function["name"]
         handle, m = methods.get(name) or methods.get(function["short_of"] or function["double_of"]) or (None, None)
         if name in LOOSE:
-            python = script = sharp = "inside the package"
+            python = script = sharp = rust = "inside the package"
         elif m.kind == "destroy":
-            python, script, sharp = "close", "close", "Dispose"
+            python, script, sharp, rust = "close", "close", "Dispose", "drop"
         else:
             owner = camel(handle["name"])
             makes = m.kind == "create" and m.function["verb"] == "create"
@@ -26,5 +27,6 @@ def write(api):
             script = f"new {owner}" if makes else f"{owner}.{class_js.js(m.title())}{called}"
             owner = class_csharp.cs(handle["name"])
             sharp = f"new {owner}" if makes else f"{owner}.{class_csharp.upper(m.title())}{called}"
-        lines.append(f"| `{name}` | {python} | {script} | {sharp} |")
+            rust = f"{camel(handle['name'])}::{'new' if makes else class_rust.Spoken().method(m)}"
+        lines.append(f"| `{name}` | {python} | {script} | {sharp} | {rust} |")
     return {"names.md": "\n".join(lines) + "\n"}

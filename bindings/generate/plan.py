@@ -16,6 +16,8 @@ FIRST = {"hf_surface_desc": ("positions", "triangles"), "hf_sites_desc": ("verti
 # functions that no class holds: the layers use them for errors and versions
 LOOSE = ("hf_error_get_detail", "hf_result_get_name", "hf_version_get")
 
+LENT = ("borrow",)  # memory of the caller that outlives the call: no language of owned arrays can promise it
+
 
 def bare(name):
     return re.sub(r"^(in)?out_", "", name)
@@ -30,7 +32,7 @@ class Struct:
     """A desc, an info, or both, as a class layer sees it."""
 
     def __init__(self, api, struct):
-        fields = [f for f in struct["fields"] if not f["twin_of"] and f["role"] not in ("size", "reserved", "callback")]
+        fields = [f for f in struct["fields"] if not f["twin_of"] and f["role"] not in ("size", "reserved", "callback") and f["name"] not in LENT]
         self.api, self.struct, self.name = api, struct, struct["name"]
         self.twins = {f["twin_of"]: f for f in struct["fields"] if f["twin_of"]}
         self.strides = {name: f["name"] for f in struct["fields"] for name in f["rows_of"]}

@@ -97,6 +97,22 @@ class OneDescription(unittest.TestCase):
                         *sorted((self.folder / "csharp/Hf").glob("*.cs"))], check=True)
         subprocess.run(["mono", self.folder / "toy.exe"], check=True, env={"PATH": "/usr/bin:/bin", "HF_LIBRARY": str(self.folder / "libhf.so")})
 
+    def test_a_toy_function_is_a_method_of_rust_that_is_called_with_slices(self):
+        if shutil.which("rustc") is None:
+            self.skipTest("no Rust here")
+        self.stub()
+        made = generate.files(with_toy(self.folder))
+        shutil.copytree(ROOT / "bindings/rust/src", self.folder / "rust/src")
+        for name, text in made.items():
+            if name.startswith("rust/"):
+                (self.folder / name).write_text(text)
+        (self.folder / "toy.rs").write_text(CALL_RS)
+        subprocess.run(["rustc", "--edition=2021", "--crate-type=rlib", "--crate-name=hf", self.folder / "rust/src/lib.rs", "-o",
+                        self.folder / "libhf.rlib"], check=True)
+        subprocess.run(["rustc", "--edition=2021", "--extern", f"hf={self.folder}/libhf.rlib", "-L", self.folder, "-l", "hf", "-C",
+                        "link-args=-Wl,--unresolved-symbols=ignore-all", self.folder / "toy.rs", "-o", self.folder / "toy"], check=True)
+        subprocess.run([self.folder / "toy"], check=True, env={"LD_LIBRARY_PATH": str(self.folder)})
+
     def test_what_a_comment_leaves_open_is_refused_by_name(self):
         cases = {"hf_solver_get_mean, out_mean: how many?": TOY.replace("out_mean: receives the mean. ", ""),
                  "hf_solver_shift_sites, vectors: how many?": TOY.replace("vectors: double[site_count][3] ", "vectors: "),
@@ -208,6 +224,18 @@ static class Toy
         }
         throw new Exception("two numbers for each were taken for three");
     }
+}
+'''
+
+CALL_RS = '''
+fn main() -> hf::Result<()> {
+    let surface = hf::Surface::new(&[0f32; 3], &[0u32; 3], &hf::SurfaceOptions::default())?;
+    let mut solver = hf::Solver::new(&surface, &hf::SolverOptions::default())?;
+    assert_eq!(solver.mean()?, 2.5);
+    solver.shift_sites(&[4, 5], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0])?;
+    let refused = solver.shift_sites(&[4, 5], &[1.0, 2.0, 3.0, 4.0]).unwrap_err();
+    assert_eq!(refused.message, "vectors must hold 6 entries, not 4");
+    Ok(())
 }
 '''
 

@@ -1521,10 +1521,6 @@ namespace Hf
     {
         /// <summary>all of them, as saved</summary>
         public byte[] Bytes;
-        /// <summary>0: the bytes are copied. 1: numbers are read in place (a mapped file, say). Then the bytes stay
-        ///     unchanged until the surface and everything made on it are destroyed, and are aligned to
-        ///     HF_FACTOR_ALIGNMENT</summary>
-        public bool Borrow;
 
         public static implicit operator FactorDesc(byte[] bytes)
         {
@@ -1535,7 +1531,6 @@ namespace Hf
         {
             var desc = (hf_factor_desc*)c.New(sizeof(hf_factor_desc));
             desc->struct_size = (uint)sizeof(hf_factor_desc);
-            desc->borrow = Borrow ? 1 : 0;
             desc->bytes = c.Pin(Bytes);
             desc->byte_count = (UIntPtr)(Bytes == null ? 0 : Bytes.Length);
             return (IntPtr)desc;
@@ -3735,7 +3730,7 @@ namespace Hf
         /// 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for the
         /// higher layers.
         ///
-        /// regionVertices: lists of whole numbers: all regions one after the other; vertices as given
+        /// regionVertices: lists of whole numbers: all regions one after the other; null: points are given
         /// points: handleCount x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-
         ///     connected to it within the radius. null: regions are given
         /// radii: handleCount numbers of the regions of points, in the unit of the mesh; null: regions are given. A

@@ -3,9 +3,9 @@
 export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, none, written }) {
 
   const factorDesc = (c, prefix, options) => {
-    const { bytes = null, borrow = false, ...more } = options;
+    const { bytes = null, ...more } = options;
     none(more);
-    const desc = c.struct('hf_factor_desc', { borrow });
+    const desc = c.struct('hf_factor_desc', {});
     c.bytes(desc, 'bytes', 'byte_count', bytes, 'bytes');
     return desc;
   };

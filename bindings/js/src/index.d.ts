@@ -865,11 +865,6 @@ export interface CurveDescGiven {
 export interface FactorDescGiven {
   /** all of them, as saved */
   bytes?: Uint8Array | null;
-  /**
-   * 0: the bytes are copied. 1: numbers are read in place (a mapped file, say). Then the bytes stay unchanged
-   *     until the surface and everything made on it are destroyed, and are aligned to HF_FACTOR_ALIGNMENT
-   */
-  borrow?: boolean | number;
 }
 
 /**
@@ -1606,7 +1601,7 @@ export interface Pose extends Recorded {
    * HF_DEFORM_PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until
    * you move the handle. Handles of lower layers hold the surface in place for the higher layers.
    *
-   * regionVertices: lists of whole numbers: all regions one after the other; vertices as given
+   * regionVertices: lists of whole numbers: all regions one after the other; null: points are given
    * points: handleCount x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-
    *     connected to it within the radius. null: regions are given
    * radii: handleCount numbers of the regions of points, in the unit of the mesh; null: regions are given. A

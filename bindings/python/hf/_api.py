@@ -530,8 +530,8 @@ class WeightsOut(NamedTuple):
     """(vertex_capacity,) WeightsOrigin"""
 
 
-def _factor_desc(c: Call, prefix: str = '', *, bytes: Optional[bytes] = None, borrow: bool = False) -> Any:
-    desc = c.struct(_raw.hf_factor_desc, {'borrow': borrow})
+def _factor_desc(c: Call, prefix: str = '', *, bytes: Optional[bytes] = None) -> Any:
+    desc = c.struct(_raw.hf_factor_desc, {})
     c.bytes(desc, 'bytes', 'byte_count', bytes)
     return desc
 
@@ -2004,7 +2004,7 @@ class Pose(Recorded):
         DeformMode.PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box)
         until you move the handle. Handles of lower layers hold the surface in place for the higher layers.
 
-        region_vertices: lists of whole numbers: all regions one after the other; vertices as given
+        region_vertices: lists of whole numbers: all regions one after the other; None: points are given
         points: (handle_count, 3) at rest. The region is the vertex nearest to the point and what is edge-connected to
             it within the radius. None: regions are given
         radii: (handle_count,) of the regions of points, in the unit of the mesh; None: regions are given. A radius

@@ -9,23 +9,11 @@ use crate::{raw, Result};
 pub struct Factor<'a> {
     /// all of them, as saved
     pub bytes: Option<&'a [u8]>,
-    /// 0: the bytes are copied. 1: numbers are read in place (a mapped file, say). Then the bytes stay unchanged until
-    /// the surface and everything made on it are destroyed, and are aligned to HF_FACTOR_ALIGNMENT
-    pub borrow: bool,
 }
 impl<'a> Factor<'a> {
-    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
-    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
-        match name {
-            "borrow" => self.borrow = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
-        }
-        Ok(())
-    }
-
     #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_factor_desc> {
-        let mut desc = raw::hf_factor_desc { borrow: i32::from(self.borrow), ..Default::default() };
+        let mut desc = raw::hf_factor_desc { ..Default::default() };
         desc.bytes = start_of(self.bytes).cast();
         desc.byte_count = self.bytes.map_or(0, <[u8]>::len);
         Ok(desc)
@@ -263,7 +251,7 @@ impl<'a> GraphOptions<'a> {
 
 /// Posed positions of the mesh, of which gaps are measured. Set one of the two.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Gaps {
+struct Gaps {
 }
 impl Gaps {
     #[allow(unused_variables, unused_mut, clippy::all)]
@@ -872,7 +860,7 @@ impl<'a> RegionEditOptions<'a> {
 
 /// Gives `Region::morph` and `Detail::morph` their weight and outputs. Set at least one output.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct MorphOptions {
+struct MorphOptions {
 }
 impl MorphOptions {
     #[allow(unused_variables, unused_mut, clippy::all)]
@@ -1446,7 +1434,7 @@ impl Surface {
     pub fn new<'i>(positions: impl Into<Reals<'i>>, triangles: impl Into<Indices<'i>>,
             options: &SurfaceOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
-        let desc = options.fill(&mut c, "", positions.into().some(), triangles.into().some())?;
+        let desc = options.fill(&mut c, "", Some(positions.into()), Some(triangles.into()))?;
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_create(&desc, &mut handle_) })?;
@@ -1487,8 +1475,7 @@ impl Surface {
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn from_graph(edges: &[u32], weights: &[f64], options: &GraphOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
-        let desc = options.fill(&mut c, "", (!edges.is_empty()).then_some(edges),
-            (!weights.is_empty()).then_some(weights))?;
+        let desc = options.fill(&mut c, "", Some(edges), Some(weights))?;
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_create_graph(&desc, &mut handle_) })?;
@@ -1596,7 +1583,7 @@ impl Surface {
     pub fn measure_gaps<'i>(&self, positions: impl Into<Reals<'i>>) -> Result<(Vec<f64>, raw::hf_gaps_info)> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_gaps_info::default();
-        let desc = Gaps {}.fill(&mut c, "", positions.into().some())?;
+        let desc = Gaps {}.fill(&mut c, "", Some(positions.into()))?;
         let mut room = Room::new(&[("capacity", None)]);
         let mut gaps: Vec<f64> = Vec::new();
         loop {
@@ -1632,9 +1619,9 @@ impl Surface {
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn relink(&self, progress: Option<&Progress>, options: &Links) -> Result<Self> {
+    pub fn relink(&self, links: &Links, progress: Option<&Progress>) -> Result<Self> {
         let mut c = Call::new(&self.counts);
-        let desc = options.fill(&mut c, "")?;
+        let desc = links.fill(&mut c, "")?;
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_relink(self.handle, &desc, progress.map_or(std::ptr::null_mut(), |o| o.handle),
@@ -1975,9 +1962,9 @@ impl Solver {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn add_sites(&mut self, options: &Sites) -> Result<Vec<u32>> {
+    pub fn add_sites(&mut self, sites: &Sites) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
-        let desc = options.fill(&mut c, "")?;
+        let desc = sites.fill(&mut c, "")?;
         let mut sites = vec![u32::default(); c.product(&["site_count"])];
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_add_sites(self.handle, &desc, sites.as_mut_ptr()) })?;
@@ -2034,10 +2021,10 @@ impl Solver {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn move_sites(&mut self, sites: &[u32], options: &Sites) -> Result<()> {
+    pub fn move_sites(&mut self, sites: &[u32], to: &Sites) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
-        let desc = options.fill(&mut c, "")?;
+        let desc = to.fill(&mut c, "")?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_move_sites(self.handle, c.count("site_count", 1)?, sites_, &desc) })?;
         Ok(())
@@ -2068,9 +2055,9 @@ impl Solver {
     /// move_to: places of move_count numbers sites
     /// add: the sites to add
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn edit_sites(&mut self, options: &Edit) -> Result<Vec<u32>> {
+    pub fn edit_sites(&mut self, edit: &Edit) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
-        let desc = options.fill(&mut c, "")?;
+        let desc = edit.fill(&mut c, "")?;
         let mut sites = vec![u32::default(); c.product(&["add.site_count"])];
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_edit_sites(self.handle, &desc, sites.as_mut_ptr()) })?;
@@ -2785,7 +2772,7 @@ impl Pose {
     /// the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle.
     /// Handles of lower layers hold the surface in place for the higher layers.
     ///
-    /// region_vertices: lists of whole numbers: all regions one after the other; vertices as given
+    /// region_vertices: lists of whole numbers: all regions one after the other; `None`: points are given
     /// points: handle_count x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-connected
     /// to it within the radius. `None`: regions are given
     /// radii: handle_count numbers of the regions of points, in the unit of the mesh; `None`: regions are given. A radius
@@ -2797,9 +2784,9 @@ impl Pose {
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn add_handles(&mut self, region_vertices: &[&[u32]], options: &HandlesOptions) -> Result<Vec<u32>> {
+    pub fn add_handles(&mut self, region_vertices: Option<&[&[u32]]>, handles: &HandlesOptions) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
-        let desc = options.fill(&mut c, "", (!region_vertices.is_empty()).then_some(region_vertices))?;
+        let desc = handles.fill(&mut c, "", region_vertices)?;
         let mut handles = vec![u32::default(); c.product(&["handle_count"])];
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_add_handles(self.handle, &desc, handles.as_mut_ptr()) })?;
@@ -3368,9 +3355,9 @@ impl Region {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn edit(&mut self, options: &RegionEditOptions) -> Result<()> {
+    pub fn edit(&mut self, edit: &RegionEditOptions) -> Result<()> {
         let mut c = Call::new(&self.counts);
-        let desc = options.fill(&mut c, "")?;
+        let desc = edit.fill(&mut c, "")?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_edit(self.handle, &desc) })?;
         Ok(())
@@ -3613,11 +3600,10 @@ impl Transfer {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn add_pairs(&mut self, source_vertices: &[&[u32]], target_vertices: &[&[u32]], flags: &[u32],
-            options: &Pairs) -> Result<Vec<u32>> {
+    pub fn add_pairs(&mut self, source_vertices: &[&[u32]], target_vertices: &[&[u32]], flags: Option<&[u32]>,
+            pairs: &Pairs) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
-        let desc = options.fill(&mut c, "", (!source_vertices.is_empty()).then_some(source_vertices),
-            (!target_vertices.is_empty()).then_some(target_vertices), (!flags.is_empty()).then_some(flags))?;
+        let desc = pairs.fill(&mut c, "", Some(source_vertices), Some(target_vertices), flags)?;
         let mut pairs = vec![u32::default(); c.product(&["pair_count"])];
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_add_pairs(self.handle, &desc, pairs.as_mut_ptr()) })?;
@@ -3683,9 +3669,9 @@ impl Transfer {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn set_dials(&mut self, options: &TransferDials) -> Result<()> {
+    pub fn set_dials(&mut self, dials: &TransferDials) -> Result<()> {
         let mut c = Call::new(&self.counts);
-        let desc = options.fill(&mut c, "")?;
+        let desc = dials.fill(&mut c, "")?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_set_dials(self.handle, &desc) })?;
         Ok(())
@@ -3724,9 +3710,9 @@ impl Transfer {
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn apply<'i>(&mut self, source_positions: impl Into<Reals<'i>>, options: &TransferFrame) -> Result<Vec<f64>> {
+    pub fn apply<'i>(&mut self, source_positions: impl Into<Reals<'i>>, frame: &TransferFrame) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
-        let mut desc = options.fill(&mut c, "", source_positions.into().some())?;
+        let mut desc = frame.fill(&mut c, "", Some(source_positions.into()))?;
         let mut out = vec![f64::default(); c.product(&["target.vertex_count", "3"])];
         (desc.target_positions, desc.target_positions_f64) = f64::both_mut(out.as_mut_ptr());
         let target_normals_at = std::ptr::null_mut();
@@ -3739,9 +3725,9 @@ impl Transfer {
     /// As `apply`, into a slice of yours.
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn apply_into<'i, P: Real>(&mut self, source_positions: impl Into<Reals<'i>>, out: &mut [P],
-            target_normals: Option<&mut [f32]>, options: &TransferFrame) -> Result<()> {
+            target_normals: Option<&mut [f32]>, frame: &TransferFrame) -> Result<()> {
         let mut c = Call::new(&self.counts);
-        let mut desc = options.fill(&mut c, "", source_positions.into().some())?;
+        let mut desc = frame.fill(&mut c, "", Some(source_positions.into()))?;
         of_length(out, "out", c.product(&["target.vertex_count", "3"]))?;
         (desc.target_positions, desc.target_positions_f64) = P::both_mut(out.as_mut_ptr());
         let target_normals_at = c.fill(target_normals, "target_normals", &["target.vertex_count", "3"])?;
@@ -3852,10 +3838,10 @@ impl Weights {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn new(surface: &Surface, influence_count: u32, options: &Joints) -> Result<Self> {
+    pub fn new(surface: &Surface, joints: &Joints, influence_count: u32) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
-        let desc = options.fill(&mut c, "")?;
+        let desc = joints.fill(&mut c, "")?;
         c.known("influence_count", if influence_count == 0 { 4 } else { influence_count });
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
@@ -3891,9 +3877,9 @@ impl Weights {
     /// [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn set_joints(&mut self, options: &Joints) -> Result<()> {
+    pub fn set_joints(&mut self, joints: &Joints) -> Result<()> {
         let mut c = Call::new(&self.counts);
-        let desc = options.fill(&mut c, "")?;
+        let desc = joints.fill(&mut c, "")?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_weights_set_joints(self.handle, &desc) })?;
         Ok(())
@@ -3916,9 +3902,9 @@ impl Weights {
     /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn set_pins(&mut self, vertices: &[u32], options: &Pins) -> Result<()> {
+    pub fn set_pins(&mut self, vertices: Option<&[u32]>, pins: &Pins) -> Result<()> {
         let mut c = Call::new(&self.counts);
-        let desc = options.fill(&mut c, "", (!vertices.is_empty()).then_some(vertices))?;
+        let desc = pins.fill(&mut c, "", vertices)?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_weights_set_pins(self.handle, &desc) })?;
         Ok(())

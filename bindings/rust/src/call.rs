@@ -41,20 +41,6 @@ macro_rules! from_slices {
         })*
     };
 }
-impl Reals<'_> {
-    /// `None` when it is empty.
-    pub(crate) fn some(self) -> Option<Self> {
-        let empty = matches!(self, Reals::F32([]) | Reals::F64([]));
-        (!empty).then_some(self)
-    }
-}
-impl Indices<'_> {
-    /// `None` when it is empty.
-    pub(crate) fn some(self) -> Option<Self> {
-        let empty = matches!(self, Indices::U32([]) | Indices::U16([]));
-        (!empty).then_some(self)
-    }
-}
 from_slices!(Reals::F32(f32); Reals::F64(f64); Indices::U32(u32); Indices::U16(u16););
 
 /// What an object says of its arrays.
