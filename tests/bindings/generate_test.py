@@ -47,7 +47,7 @@ class OneDescription(unittest.TestCase):
 
     def test_a_toy_function_is_in_every_raw_layer(self):
         made = generate.files(with_toy(self.folder))
-        for name in ("functions.txt", "api.json", "python/hf/_raw.py", "js/src/raw.js", "csharp/Hf/Raw.cs", "rust/src/raw.rs"):
+        for name in ("functions.txt", "api.json", "python/hf/_raw.py", "js/src/raw.js", "csharp/Hf/Raw.cs", "rust/src/raw.rs", "../include/hf/hf.hpp"):
             self.assertIn("hf_solver_get_mean", made[name], name)
 
     def test_a_toy_function_is_a_method_of_python_that_is_called_with_arrays(self):
@@ -112,6 +112,18 @@ class OneDescription(unittest.TestCase):
         subprocess.run(["rustc", "--edition=2021", "--extern", f"hf={self.folder}/libhf.rlib", "-L", self.folder, "-l", "hf", "-C",
                         "link-args=-Wl,--unresolved-symbols=ignore-all", self.folder / "toy.rs", "-o", self.folder / "toy"], check=True)
         subprocess.run([self.folder / "toy"], check=True, env={"LD_LIBRARY_PATH": str(self.folder)})
+
+    def test_a_toy_function_is_a_method_of_cpp_that_is_called_with_vectors(self):
+        if shutil.which("c++") is None:
+            self.skipTest("no C++ compiler here")
+        self.stub()
+        made = generate.files(with_toy(self.folder))
+        (self.folder / "include/hf/hf.hpp").write_text(made["../include/hf/hf.hpp"])
+        (self.folder / "toy.cpp").write_text(CALL_CPP)
+        # the inline methods of the other classes call functions that the stub has not
+        subprocess.run(["c++", "-std=c++17", "-I", self.folder / "include", self.folder / "toy.cpp", "-o", self.folder / "toy_cpp",
+                        "-L", self.folder, "-lhf", "-Wl,--unresolved-symbols=ignore-all"], check=True)
+        subprocess.run([self.folder / "toy_cpp"], check=True, env={"LD_LIBRARY_PATH": str(self.folder)})
 
     def test_what_a_comment_leaves_open_is_refused_by_name(self):
         cases = {"hf_solver_get_mean, out_mean: how many?": TOY.replace("out_mean: receives the mean. ", ""),
@@ -236,6 +248,24 @@ fn main() -> hf::Result<()> {
     let refused = solver.shift_sites(&[4, 5], &[1.0, 2.0, 3.0, 4.0]).unwrap_err();
     assert_eq!(refused.message, "vectors must hold 6 entries, not 4");
     Ok(())
+}
+'''
+
+CALL_CPP = '''
+#include <string>
+#include "hf/hf.hpp"
+
+int main() {
+  const hf::Surface surface(std::vector<float>(3), std::vector<uint32_t>(3));
+  hf::Solver solver(surface);
+  if (solver.mean() != 2.5) return 1;
+  solver.shift_sites({4, 5}, {1, 2, 3, 4, 5, 6});
+  try {
+    solver.shift_sites({4, 5}, {1, 2, 3, 4});
+  } catch (const std::invalid_argument& error) {
+    return std::string(error.what()) != "vectors must hold 6 numbers, not 4";
+  }
+  return 2;
 }
 '''
 
