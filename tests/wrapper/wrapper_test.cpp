@@ -125,7 +125,7 @@ TEST(Wrapper, throws_with_code_and_index) {
     EXPECT_EQ(error.index(), 1u);
     EXPECT_NE(std::string(error.what()).find("hf_add_sites"), std::string::npos);
   }
-  EXPECT_THROW(solver.add_sites({0}, {}), std::invalid_argument);
+  EXPECT_THROW(solver.add_sites({0}, {0, 1}), std::invalid_argument);
   EXPECT_EQ(solver.site_count(), 0u);
 }
 
