@@ -426,7 +426,7 @@ class Scene
         try { result = Run(step); }
         catch (HfException error)
         {
-            // of two arrays that belong together, the library names the one that is missing; hf.hpp refuses the lone one
+            // of two arrays that belong together, the library names the one that is missing; golden.cpp refuses the lone one
             bool lone = (string)Get(step, "error") == "HF_ERROR_INVALID_ARGUMENT" && error.Name == "HF_ERROR_NULL_POINTER"
                 && error.Message.Contains("is NULL");
             Expect(lone || (string)Get(step, "error") == error.Name, "raised " + error.Message);

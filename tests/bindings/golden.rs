@@ -869,7 +869,7 @@ impl Scene<'_> {
                     Err(format!("index {:?}", error.index))
                 };
             }
-            // of two arrays that belong together, the library names the one that is missing; hf.hpp refuses the lone one
+            // of two arrays that belong together, the library names the one that is missing; golden.cpp refuses the lone one
             (Err(error), Some("HF_ERROR_INVALID_ARGUMENT"))
                 if error.name() == "HF_ERROR_NULL_POINTER" && error.message.contains("is NULL") =>
             {
