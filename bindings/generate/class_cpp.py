@@ -6,7 +6,7 @@ import re
 import class_rust
 import comments
 from model import named, symbols
-from plan import camel, dims_used
+from plan import camel, counts_of, dims_used
 from steps import Planner, desc_steps, field_steps, least
 from words import Words, class_words, fold, method_words, wrapped
 
@@ -379,7 +379,7 @@ class Writer(class_rust.Writer):
 
     def class_of(self, handle, methods):
         name, raw = camel(handle["name"]), handle["name"]
-        self.noun, self.counts = raw, sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & {"vertex_count", "channel_count"})
+        self.noun, self.counts = raw, counts_of(handle, self.groups, self.structs)
         destroy = next(m.name for m in methods if m.kind == "destroy")
         out = ["", *self.doc(class_words(handle, [], self.structs), 0), f"class {name} {{", " public:"]
         body = [line for m in methods if m.kind != "destroy" for line in self.method(m)]
@@ -431,7 +431,7 @@ class Writer(class_rust.Writer):
         rest = [q for q in m.function["parameters"] if q["role"] not in ("handle",) and q is not p]
         extra = "".join(f", {q['type']} {q['name']} = 0" for q in rest)
         body = ["Call c;", *[f'c.parent("{q["name"]}", {q["name"]}.known_counts());' for q in m.parents]]
-        body += [f'c.known("{k}", desc.{k});' for k in ("vertex_count", "channel_count") if named(self.structs[p["type"]].struct["fields"], k)]
+        body += [f'c.known("{k}", desc.{k});' for k in self.counts if named(self.structs[p["type"]].struct["fields"], k)]
         if "channel_count" in self.counts:
             body.append('if (!desc.channel_count) c.known("channel_count", 1);')
         counts = ", ".join(f'"{k}"' for k in self.counts)

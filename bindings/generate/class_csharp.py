@@ -6,7 +6,7 @@ import re
 import comments
 from layer_csharp import TYPES, safe as raw_safe
 from model import named, symbols
-from plan import bare, camel, classes, dims_used, recorded
+from plan import bare, camel, classes, counts_of, dims_used, recorded
 from steps import Planner, desc_steps, field_steps, least
 from words import Words, class_words, fold, method_words, wrapped
 
@@ -391,7 +391,7 @@ class Writer:
 
     def class_of(self, handle, methods):
         name = cs(handle["name"])
-        self.noun, self.counts = handle["name"], sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & {"vertex_count", "channel_count"})
+        self.noun, self.counts = handle["name"], counts_of(handle, self.groups, self.structs)
         self.destroy = f"Functions.{next(m.name for m in methods if m.kind == 'destroy')}"
         out = ["", *self.doc(class_words(handle, methods, self.structs, lower), 4), f"    public sealed unsafe class {name} : {'Recorded' if recorded(methods) else 'HfObject'}", "    {"]
         body, told = [], []

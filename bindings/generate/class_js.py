@@ -4,7 +4,7 @@ arrays to memory and counts, room for arrays that grow."""
 import re
 
 from model import named, symbols
-from plan import FIRST, camel, classes, dims_used, recorded
+from plan import FIRST, camel, classes, counts_of, dims_used, recorded
 from steps import Planner, desc_steps, field_steps, least
 from types_js import ARRAYS, KINDS, Types, js
 from words import Words, fold, wrapped
@@ -298,7 +298,7 @@ class Writer(Types):
         self.methods = {}
         for handle, methods in self.groups:
             name = camel(handle["name"])
-            counts = sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & {"vertex_count", "channel_count"})
+            counts = counts_of(handle, self.groups, self.structs)
             out += ["", f"  class {name} extends {'Recorded' if recorded(methods) else 'Handle'} {{", f"    static destroy = '{next((m.name for m in methods if m.kind == 'destroy'), '')}';",
                     f"    static counts = [{', '.join(repr(c) for c in counts)}];"]
             for count in counts:

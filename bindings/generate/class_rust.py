@@ -6,7 +6,7 @@ import re
 import comments
 from layer_rust import RESERVED as WORDS, TYPES, safe as raw_safe
 from model import named, symbols
-from plan import FIRST, camel, classes, dims_used, recorded
+from plan import FIRST, camel, classes, counts_of, dims_used, recorded
 from steps import Planner, field_steps, least
 from words import Words, class_words, fold, method_words, wrapped
 
@@ -445,7 +445,7 @@ class Writer:
 
     def class_of(self, handle, methods):
         name = camel(handle["name"])
-        self.noun, self.counts = handle["name"], sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & {"vertex_count", "channel_count"})
+        self.noun, self.counts = handle["name"], counts_of(handle, self.groups, self.structs)
         destroy = next(m.name for m in methods if m.kind == "destroy")
         out = ["", "object!(", *self.doc(class_words(handle, [], self.structs), 4), f"    {name}: {handle['name']}, {destroy}", ");", f"impl {name} {{"]
         body = [line for m in methods if m.kind != "destroy" for line in self.method(m)]

@@ -7,7 +7,7 @@ become named arguments. Outputs are returned; an optional struct of results is f
 import re
 
 import comments
-from model import named, symbols
+from model import OBJECT_COUNTS, named, symbols
 
 # what a call is about comes first; the other ways to say it are named, as options are
 FIRST = {"hf_surface_desc": ("positions", "triangles"), "hf_sites_desc": ("vertices", "values"), "hf_morph_desc": ("weight",),
@@ -131,6 +131,17 @@ def classes(api):
     if lost:
         raise ValueError(f"no class for {', '.join(lost)}")
     return [(h, [m for m in methods if m.noun == h["name"]]) for h in api["handles"]], structs
+
+
+def counts_of(handle, groups, structs):
+    """The counts that an object keeps: its own calls ask for them, or those of objects made on it do."""
+    methods = next(methods for h, methods in groups if h is handle)
+    found = {c.rpartition(".")[2] for c in dims_used(methods, structs)} & OBJECT_COUNTS
+    own = set().union(*(m.function["object_counts"] for m in methods if m.own and m.kind != "create"), set())
+    for child, others in groups:
+        if child is not handle and any(p["type"] == handle["name"] for m in others if m.kind == "create" for p in m.parents):
+            own |= set().union(*(m.function["object_counts"] for m in others if m.own), set())
+    return sorted(found | own - OBJECT_COUNTS)
 
 
 def recorded(methods):

@@ -13,7 +13,7 @@ import re
 from collections import namedtuple
 
 import comments
-from model import named, symbols
+from model import OBJECT_COUNTS, named, symbols
 from plan import bare
 
 Argument = namedtuple("Argument", "name role item required first doc struct")
@@ -42,7 +42,7 @@ class Planner:
     def plan(self):
         m = self.m
         for p in m.function["parameters"]:
-            if p["role"] == "count" and p["name"] in ("vertex_count", "channel_count"):
+            if p["role"] == "count" and (p["name"] in OBJECT_COUNTS or p["name"] in m.function["object_counts"]):
                 self.do("forget", key=p["name"])  # of the list given here, not of the object
         if m.own:
             self.values[m.own["name"]] = ("self",)
