@@ -3,8 +3,8 @@ arrays to memory and counts, room for arrays that grow."""
 
 import re
 
-from model import OBJECT_COUNTS, named, symbols
-from plan import FIRST, camel, classes, dims_used, recorded
+from model import named, symbols
+from plan import FIRST, camel, classes, counts_of, dims_used, recorded
 from steps import Planner, desc_steps, field_steps, least
 from types_js import ARRAYS, KINDS, Types, js
 from words import Words, fold, wrapped
@@ -97,7 +97,7 @@ class Steps:
             lines.append(f"{js(var)}.set('{f['name']}', c.inner({js(f['name'])}, '{js(first)}', {js(f['type'][3:])}, '{f['name']}.'));")
         if struct.counts:
             prefix = "prefix + " if self.filler else ""
-            lines.append(f"c.counts({js(var)}, {{ {', '.join(f'''{f['name']}: [{prefix}'{f['name']}', {least(struct, f)}]''' for f in struct.counts)} }});")
+            lines.append(f"c.counts({js(var)}, {{ {', '.join(f'''{f['name']}: [{prefix}'{f['name']}', {least(f)}]''' for f in struct.counts)} }});")
         return lines
 
     def field_ragged(self, var, counts, field):
@@ -300,7 +300,7 @@ class Writer(Types):
         self.methods = {}
         for handle, methods in self.groups:
             name = camel(handle["name"])
-            counts = sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & set(OBJECT_COUNTS))
+            counts = counts_of(handle, self.groups, self.structs)
             out += ["", f"  class {name} extends {'Recorded' if recorded(methods) else 'Handle'} {{", f"    static destroy = '{next((m.name for m in methods if m.kind == 'destroy'), '')}';",
                     f"    static counts = [{', '.join(repr(c) for c in counts)}];"]
             for count in counts:

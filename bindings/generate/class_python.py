@@ -6,8 +6,8 @@ import textwrap
 
 from errors_python import block, error_name, errors
 from layer_python import TYPES as CTYPES
-from model import OBJECT_COUNTS, named, symbols
-from plan import camel, classes, dims_used, recorded
+from model import named, symbols
+from plan import camel, classes, counts_of, dims_used, recorded
 from steps import Planner, desc_steps, field_steps, least
 from words import Words, class_words, fold, method_words
 
@@ -113,7 +113,7 @@ class Steps:
             lines.append(f"{var}.{f['name']} = c.inner({safe(f['name'])}, '{first}', _{f['type'][3:]}, '{f['name']}.')")
         if struct.counts:
             pre = "prefix + " if prefixed else ""
-            lines.append(f"c.counts({var}, {', '.join(f'''{f['name']}=({pre}'{f['name']}', {least(struct, f)})''' for f in struct.counts)})")
+            lines.append(f"c.counts({var}, {', '.join(f'''{f['name']}=({pre}'{f['name']}', {least(f)})''' for f in struct.counts)})")
         return lines
 
     def field_ragged(self, var, counts, field):
@@ -333,7 +333,7 @@ class Writer:
 
     def class_of(self, handle, methods):
         self.names.append(camel(handle["name"]))
-        counts = sorted({c.rpartition(".")[2] for c in dims_used(methods, self.structs)} & set(OBJECT_COUNTS))
+        counts = counts_of(handle, self.groups, self.structs)
         out = ["", "", f"class {camel(handle['name'])}({'Recorded' if recorded(methods) else 'Object'}):", *block(self.words.say(class_words(handle, methods, self.structs)), 4), ""]
         out += [f"    _destroy = {next((m.name for m in methods if m.kind == 'destroy'), '')!r}", f"    _counts = {tuple(counts)!r}"]
         for count in counts:

@@ -20,7 +20,7 @@ def rust_type(item):
 
 def write_struct(struct):
     out = [f"/// {line}" for line in [first_sentence(struct["doc"])] if line]
-    out += ["#[repr(C)]", "#[derive(Clone, Copy, Debug)]", f"pub struct {struct['name']} {{"]
+    out += ["#[repr(C)]", "#[derive(Clone, Copy, Debug, PartialEq)]", f"pub struct {struct['name']} {{"]
     for f in struct["fields"]:
         kind = rust_type(f)
         whole = f"[{kind}; {f['count']}]" if f["count"] else kind

@@ -11,7 +11,6 @@ derive(api) adds them to the description; every layer reads the same. Roles:
 import re
 
 SUFFIXES = ("_f64", "_u16")  # the same array in another type
-OBJECT_COUNTS = ("vertex_count", "channel_count", "joint_count")  # lengths that belong to an object
 
 class Problems(Exception):
     pass
@@ -188,6 +187,20 @@ def kind_of(api, function):
     return "count" if function["returns"]["type"] not in ("hf_result", "void") else "call"
 
 
+OBJECT_COUNTS = {"vertex_count", "channel_count"}  # objects know them whatever made them
+
+
+def counts_of_objects(api):
+    """What each object can know of its arrays: counts of the descs that made it, and of the objects it was made on."""
+    kept = {h["name"]: set(OBJECT_COUNTS) for h in api["handles"]}
+    for _ in api["handles"]:  # objects on objects on objects
+        for function in api["functions"]:
+            for p in function["parameters"] if function["kind"] == "create" else ():
+                struct = named(api["structs"], p["type"])
+                kept[function["noun"]] |= {f["name"] for f in struct["fields"] if f["role"] == "count"} if struct else kept.get(p["type"], set())
+    return kept
+
+
 def derive(api):
     problems = []
     enums = enums_of(api)
@@ -202,10 +215,17 @@ def derive(api):
         look_at_parameters(api, function, enums, problems)
         function["noun"], function["verb"] = place_of(api, function)
         function["kind"] = kind_of(api, function)
-        known = set().union(*(names_known(api, function, p) for p in function["parameters"]), set(OBJECT_COUNTS))
+    kept = counts_of_objects(api)
+    for function in api["functions"]:
+        known = set().union(*(names_known(api, function, p) for p in function["parameters"]))
+        objects = set().union(*(kept.get(p["type"], set()) for p in function["parameters"]))
+        function["object_counts"] = []
         for p in function["parameters"]:
             for name in symbols(p["dims"]):
-                if name not in known and name.split(".")[0] not in known and name.rpartition(".")[2] not in OBJECT_COUNTS:
+                base, _, last = name.rpartition(".")
+                if name not in known and last in objects:
+                    function["object_counts"] += [last] if last not in function["object_counts"] else []
+                elif name not in known and name.split(".")[0] not in known:
                     problems.append(f"{function['name']}, {p['name']}: what is {name}?")
     for function in api["functions"]:
         also = [named(api["functions"], name) for pair in function.pop("errors_as") for name in pair if name]

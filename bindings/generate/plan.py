@@ -7,7 +7,7 @@ become named arguments. Outputs are returned; an optional struct of results is f
 import re
 
 import comments
-from model import named, symbols
+from model import OBJECT_COUNTS, named, symbols
 
 # what a call is about comes first; the other ways to say it are named, as options are
 FIRST = {"hf_surface_desc": ("positions", "triangles"), "hf_skeleton_desc": ("names", "parents", "rest"), "hf_skin_desc": ("positions", "triangles", "joints", "weights"),
@@ -16,6 +16,8 @@ FIRST = {"hf_surface_desc": ("positions", "triangles"), "hf_skeleton_desc": ("na
          "hf_pairs_desc": ("source_vertices", "target_vertices", "flags"), "hf_graph_desc": ("edges", "weights"), "hf_pins_desc": ("vertices",)}
 # functions that no class holds: the layers use them for errors and versions
 LOOSE = ("hf_error_get_detail", "hf_result_get_name", "hf_version_get")
+
+LENT = ("borrow",)  # memory of the caller that outlives the call: no language of owned arrays can promise it
 
 
 def bare(name):
@@ -31,7 +33,7 @@ class Struct:
     """A desc, an info, or both, as a class layer sees it."""
 
     def __init__(self, api, struct):
-        fields = [f for f in struct["fields"] if not f["twin_of"] and f["role"] not in ("size", "reserved", "callback")]
+        fields = [f for f in struct["fields"] if not f["twin_of"] and f["role"] not in ("size", "reserved", "callback") and f["name"] not in LENT]
         self.api, self.struct, self.name = api, struct, struct["name"]
         self.twins = {f["twin_of"]: f for f in struct["fields"] if f["twin_of"]}
         self.strides = {name: f["name"] for f in struct["fields"] for name in f["rows_of"]}
@@ -130,6 +132,17 @@ def classes(api):
     if lost:
         raise ValueError(f"no class for {', '.join(lost)}")
     return [(h, [m for m in methods if m.noun == h["name"]]) for h in api["handles"]], structs
+
+
+def counts_of(handle, groups, structs):
+    """The counts that an object keeps: its own calls ask for them, or those of objects made on it do."""
+    methods = next(methods for h, methods in groups if h is handle)
+    found = {c.rpartition(".")[2] for c in dims_used(methods, structs)} & OBJECT_COUNTS
+    own = set().union(*(m.function["object_counts"] for m in methods if m.own and m.kind != "create"), set())
+    for child, others in groups:
+        if child is not handle and any(p["type"] == handle["name"] for m in others if m.kind == "create" for p in m.parents):
+            own |= set().union(*(m.function["object_counts"] for m in others if m.own), set())
+    return sorted(found | own - OBJECT_COUNTS)
 
 
 def recorded(methods):

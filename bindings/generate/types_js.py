@@ -60,7 +60,7 @@ class Types:
             returns = results[0][1] if len(results + extra) == 1 else "{ " + "; ".join(f"{n}: {h}" for n, h in results + extra) + " }"
         generic = "<T extends Floats = Float32Array>" if self.both else ""
         name = js(m.title())
-        lines = self.doc(method_words(plan, "Throws"), 2)
+        lines = self.doc(method_words(plan, "Throws", js), 2)
         if m.is_property():
             return lines + [f"  readonly {name}: {returns};"]
         return lines + fold(f"{name}{generic}({', '.join(parts)}): {returns};", 2)
@@ -88,7 +88,7 @@ class Types:
                 out += (self.doc(a.doc, 2) if a.doc else []) + [f"  {js(a.name)}?: {self.hint(a)};"]
             out.append("}")
         for name, (handle, methods, plans, told, counts) in self.methods.items():
-            out += ["", *self.doc(class_words(handle, methods, self.structs), 0), f"export interface {name} extends {'Recorded' if recorded(methods) else 'Handle'} {{"]
+            out += ["", *self.doc(class_words(handle, methods, self.structs, js), 0), f"export interface {name} extends {'Recorded' if recorded(methods) else 'Handle'} {{"]
             out += [f"  readonly {js(count)}: number;" for count in counts]
             for plan in plans:
                 if plan.method.kind != "create" and plan.method.own:

@@ -58,23 +58,23 @@ def fold(text, indent, deeper=8):
     return lines
 
 
-def method_words(plan, raises):
+def method_words(plan, raises, shown=str):
     """What a method's documentation says: prose, a line for each argument, errors."""
-    said = [f"{a.name}: {re.sub(r'^NULL, or ', '', a.doc)}" for a in plan.arguments if a.doc]
+    said = [f"{shown(a.name)}: {re.sub(r'^NULL, or ', '', a.doc)}" for a in plan.arguments if a.doc]
     errors = plan.method.function["errors"]
     parts = [plan.method.prose(), "\n".join(said), raises + " " + ", ".join(errors) + "." if errors else ""]
     return "\n\n".join(part for part in parts if part)
 
 
-def class_words(handle, methods, structs):
+def class_words(handle, methods, structs, shown=str):
     make = next((m for m in methods if m.function["verb"] == "create"), None)
     parts = [handle["doc"]]
     if make:
         said = []
         for p in make.inputs:
             if p in make.flat:
-                said += [f"{f['name']}: {re.sub(r'^NULL, or ', '', f['doc'])}" for f, _ in structs[p["type"]].asked() if f["doc"]]
+                said += [f"{shown(f['name'])}: {re.sub(r'^NULL, or ', '', f['doc'])}" for f, _ in structs[p["type"]].asked() if f["doc"]]
             elif p["doc"]:
-                said.append(f"{p['name']}: {p['doc']}")
+                said.append(f"{shown(p['name'])}: {p['doc']}")
         parts += [make.prose(), "\n".join(said)]
     return "\n\n".join(part for part in parts if part) or f"{camel(handle['name'])}."

@@ -75,7 +75,7 @@ typedef struct hf_handles_desc {
   uint32_t handle_count;         /* >= 1 */
   const uint32_t* region_counts; /* [handle_count] vertices of each region, >= 1; repeats are allowed, up to four times
                                     the vertices of the mesh in all */
-  const uint32_t* region_vertices; /* [sum(region_counts)] all regions one after the other; vertices as given */
+  const uint32_t* region_vertices; /* [sum(region_counts)] all regions one after the other; NULL: points are given */
   const double* points; /* [handle_count][3] at rest. The region is the vertex nearest to the point and what is
                            edge-connected to it within the radius. NULL: regions are given */
   const double* radii;  /* [handle_count] of the regions of points, in the unit of the mesh; NULL: regions are given.

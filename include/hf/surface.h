@@ -118,7 +118,7 @@ typedef struct hf_links_desc {
 typedef struct hf_surface_desc {
   uint32_t struct_size;
   uint32_t vertex_count;         /* >= 1 */
-  uint32_t triangle_count;       /* >= 1 */
+  uint32_t triangle_count;       /* 0 with faces, else >= 1 */
   uint32_t position_stride;      /* bytes between rows of positions; 0 = packed */
   const float* positions;        /* [vertex_count][3], any unit, any offset */
   const double* positions_f64;   /* [vertex_count][3] */

@@ -95,13 +95,15 @@ struct Subject {
         positions(float_positions(moved(mesh.positions, -offset))),
         curve(read_curve_file(curve_name, mesh)),
         surface(make_surface(thin_plate)),
-        region(*surface, positions, thin_plate ? HF_BASE_THIN_PLATE : HF_BASE_MEMBRANE) {
+        region(*surface, hf::RegionOptions{positions, thin_plate ? HF_BASE_THIN_PLATE : HF_BASE_MEMBRANE}) {
     const auto begin = std::chrono::steady_clock::now();
     enclose(region, curve, 0);
     edit_seconds = seconds_of(begin);
     if (grow == 0) return;
     const auto again = std::chrono::steady_clock::now();
-    region.grow(grow);
+    hf::RegionEditOptions edit;
+    edit.ring_count = grow;
+    region.edit(edit);
     grow_seconds = seconds_of(again);
   }
   std::optional<hf::Surface> make_surface(bool thin_plate) {
@@ -153,7 +155,7 @@ hf::Detail carry(const Subject& from, const Subject& onto) {
     desc.source_vertices = a.data();
     desc.target_vertices = b.data();
   }
-  return hf::Detail(from.region, onto.region, &desc);
+  return hf::Detail(from.region, onto.region, desc);
 }
 
 void run(const Command& options) {

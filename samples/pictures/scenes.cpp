@@ -27,7 +27,7 @@ Body::Body(const std::string& name, uint32_t vertices)
       coat[3 * size_t{creature.surface_vertex[v]} + c] = displayed(creature.base_color[c] * creature.colors[3 * v + c]);
 }
 
-uint32_t Body::vertex_at(double x, double y, double z) const { return surface.find_vertex({x, y, z}); }
+uint32_t Body::vertex_at(double x, double y, double z) const { return std::get<0>(surface.find_vertex({x, y, z})); }
 
 Surface Body::drawn() const { return drawn(positions); }
 
@@ -76,8 +76,7 @@ PoseScene::PoseScene(const Body& body) : body_(body), pose_(body.surface), handl
 
 void PoseScene::pull(double pull) {
   const glm::dquat turn = glm::angleAxis(-0.7 * pull, glm::dvec3(1, 0, 0));
-  const hf_transform transform = {{turn.x, turn.y, turn.z, turn.w}, {0, 0.5 * pull, -0.42 * pull}};
-  pose_.set_transform(head_, transform);
+  pose_.set_transform(head_, {{turn.x, turn.y, turn.z, turn.w}}, {{0, 0.5 * pull, -0.42 * pull}});
   posed_ = pose_.deform();
 }
 
@@ -99,13 +98,10 @@ FieldScene::FieldScene(const Body& body) : body_(body), solver_(body.surface) {
                             {0.15, 0, 0.55}, {-0.15, 0, -0.6}, {0.15, 0, -0.6}};
   for (const auto& tip : tips) still_.push_back(body.vertex_at(tip[0], tip[1], tip[2]));
   solver_.add_sites(still_, std::vector<double>(still_.size(), 0));
-  auto site = hf::make<hf_sites_desc>();
-  const uint32_t vertex = body.vertex_at(-0.4, 1.2, 0.3);
-  const double value = 1, radius = 0.09;
-  site.site_count = 1;
-  site.vertices = &vertex;
-  site.values = &value;
-  site.radii = &radius;
+  hf::Sites site;
+  site.vertices = {body.vertex_at(-0.4, 1.2, 0.3)};
+  site.values = {1};
+  site.radii = {0.09};
   dragged_ = solver_.add_sites(site)[0];
 }
 

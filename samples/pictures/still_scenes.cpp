@@ -14,8 +14,7 @@ Point point_of(const std::vector<double>& xyz, size_t v) { return {xyz[3 * v], x
 }  // namespace
 
 Picture draw_quads(const Body& body, int width, int height) {
-  auto desc = hf::make<hf_quads_desc>();
-  const hf::QuadMesh quads = hf::make_quads(body.surface, &desc);
+  const hf::QuadsMesh quads = hf::Quads(body.surface).mesh();
   Surface drawn;
   drawn.positions = quads.positions;
   Marks marks;
@@ -50,8 +49,12 @@ Picture draw_detail(const Body& body, int width, int height) {
     seen.insert(seen.end(), p, p + 3);
   }
   extend(box, empty, seen);
-  hf::Region region(body.surface, {}, HF_BASE_THIN_PLATE);
-  region.add_vertices(head);
+  hf::RegionOptions thin_plate;
+  thin_plate.base = HF_BASE_THIN_PLATE;
+  hf::Region region(body.surface, thin_plate);
+  hf::RegionEditOptions add;
+  add.add_vertices = head;
+  region.edit(add);
   std::vector<uint8_t> in(body.surface.vertex_count(), 0);
   for (const uint32_t v : head) in[v] = 1;
   Picture page{width, height, std::vector<uint8_t>(3 * size_t(width) * size_t(height), 246)};

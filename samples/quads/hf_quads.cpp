@@ -43,7 +43,8 @@ const char* const usage =
     "lines,\n"
     "                 in the frame of the mesh; below 1 the curvature has a say\n"
     "  --irregular FILE\n"
-    "                 {\"irregular\": [{\"point\": [0, 1, 0.2], \"valence\": 3, \"direction\": [1, 0, 0]}]}: 3 or 5 quads\n"
+    "                 {\"irregular\": [{\"point\": [0, 1, 0.2], \"valence\": 3, \"direction\": [1, 0, 0]}]}: 3 or 5 "
+    "quads\n"
     "                 meet there; one of its sides runs along the direction, which may be missing\n"
     "  --symmetry x   the side where x (or y, or z) is positive gets quads, the other side is its mirror image; the\n"
     "                 plane goes through 0, and --symmetry x=0.25 moves it\n"
@@ -277,7 +278,7 @@ bool is_gltf(const std::filesystem::path& file) {
 
 // Writes the quads: as polygons, or in a glTF model in the place of its surface.
 void write(const Command& options, const std::optional<Model>& model, const SurfaceMesh& input, const SurfaceMesh& mesh,
-           const hf::QuadMesh& quads) {
+           const hf::QuadsMesh& quads) {
   if (!is_gltf(options.out)) return write_mesh_file(mesh, options.out);
   const Model source = model ? *model : make_model(options.mesh.stem().string(), input.positions, input.triangles);
   const Model out = quad_model(source, flatten(source), mesh, {quads.triangles, quads.barycentrics});
@@ -329,7 +330,9 @@ void run(const Command& options) {
   std::copy(options.plane, options.plane + 4, desc.symmetry_plane);
 
   const auto begin = std::chrono::steady_clock::now();
-  const hf::QuadMesh quads = hf::make_quads(surface, &desc);
+  const hf::Quads made(surface, desc);
+  const hf::QuadsMesh quads = made.mesh();
+  const hf_quads_info info = made.info();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   SurfaceMesh mesh;
@@ -337,23 +340,21 @@ void run(const Command& options) {
   FaceTriangles cut;
   for (size_t i = 0; i < quads.faces.size(); i += 4)
     append_measured(cut, mesh.positions, &quads.faces[i], 4, mesh.triangles);
-  mesh.face_sizes.assign(quads.info.face_count, 4);
+  mesh.face_sizes.assign(info.face_count, 4);
   mesh.face_vertices = quads.faces;
 
-  const QuadReport report = measure_quads(mesh, quads.info.edge_length);
+  const QuadReport report = measure_quads(mesh, info.edge_length);
   const bool valid = report.each_directed_edge_once && report.no_repeated_corner &&
-                     report.euler_characteristic == quads.info.euler_characteristic;
+                     report.euler_characteristic == info.euler_characteristic;
   std::printf("quads       %u vertices, %u faces in %.2f s; edge length %.6g (%.2f %% of the box)\n", report.vertices,
-              report.faces, seconds, quads.info.edge_length,
-              100 * quads.info.edge_length / diagonal);
-  print_figures(input, diagonal, mesh, report, quads.info.euler_characteristic);
+              report.faces, seconds, info.edge_length, 100 * info.edge_length / diagonal);
+  print_figures(input, diagonal, mesh, report, info.euler_characteristic);
   if (options.edge != 0 && report.faces < too_few * wanted)
     std::printf(
         "warning     %u faces where the edge length asks for about %.0f: corners of the border are too sharp, or parts "
         "too thin\n",
         report.faces, wanted);
-  if (options.crease > 0)
-    print_creases(measure_creases(input, options.crease, mesh, quads.info.edge_length));
+  if (options.crease > 0) print_creases(measure_creases(input, options.crease, mesh, info.edge_length));
   if (!options.out.empty()) {
     write(options, model, input, mesh, quads);
     std::printf("wrote       %s\n", options.out.c_str());

@@ -46,7 +46,7 @@ Guides read_strokes(const std::filesystem::path& file, const hf::Surface& surfac
       if ((all_steps += steps) > most_steps) points.fail("the strokes are too long for this surface: see its unit");
       for (double step = 0; step < steps; ++step) {
         const glm::dvec3 at = from + (step + 0.5) / steps * way;
-        out.vertices.push_back(surface.find_vertex({at.x, at.y, at.z}));
+        out.vertices.push_back(std::get<0>(surface.find_vertex({at.x, at.y, at.z})));
         out.vectors.insert(out.vectors.end(), {way.x, way.y, way.z});
         out.weights.push_back(static_cast<float>(weight));
       }

@@ -13,15 +13,7 @@ namespace samples {
 using namespace hf_gltf;
 namespace {
 
-hf::VertexWeights given_of(const Rig& rig) {
-  hf::VertexWeights out;
-  out.influence_count = rig.given.per_vertex;
-  out.joints = rig.given.joints;
-  out.weights = rig.given.weights;
-  return out;
-}
-
-RigWeights taken(hf::VertexWeights found) {
+RigWeights taken(hf::WeightsOut found) {
   return {found.influence_count, std::move(found.joints), std::move(found.weights)};
 }
 
@@ -56,13 +48,15 @@ CarriedWeights carry_from(const Model& from, const Model& model, const Rig& rig,
       throw std::runtime_error("the model has no joint \"" + source.names[j] + "\", which has weights in " + from.name);
     number.push_back(static_cast<uint32_t>(there - rig.joints.begin()));
   }
-  hf::VertexWeights given = given_of(source);
-  for (size_t i = 0; i < given.joints.size(); ++i) given.joints[i] = given.weights[i] > 0 ? number[given.joints[i]] : 0;
-  auto options = hf::make<hf_weights_transfer_desc>();
+  hf::WeightsTransferOptions options;
+  options.joints = source.given.joints;
+  options.weights = source.given.weights;
+  for (size_t i = 0; i < options.joints.size(); ++i)
+    options.joints[i] = options.weights[i] > 0 ? number[options.joints[i]] : 0;
   options.influence_count = influence_count;
   auto info = hf::make<hf_weights_transfer_info>();
   CarriedWeights out;
-  out.weights = taken(hf::transfer_weights(at_rest(from, source), given, at_rest(model, rig), options, &info));
+  out.weights = taken(hf::Weights::transfer(at_rest(from, source), at_rest(model, rig), options, &info));
   out.report = {{"from", from.name},
                 {"matched", info.matched_count},
                 {"solved", info.solved_count},
@@ -78,14 +72,17 @@ CarriedWeights carry_from(const Model& from, const Model& model, const Rig& rig,
 }
 
 CarriedWeights mirror_given(const hf::Surface& surface, const Rig& rig, int32_t to, uint32_t influence_count) {
-  auto options = hf::make<hf_weights_mirror_desc>();
+  hf::WeightsMirrorOptions options;
+  options.joints = rig.given.joints;
+  options.weights = rig.given.weights;
+  options.heads = rig.bones.heads;
+  options.names = rig.names;
   options.influence_count = influence_count;
   options.to = to;
   auto info = hf::make<hf_weights_mirror_info>();
-  std::vector<uint32_t> partners, pairings;
   CarriedWeights out;
-  out.weights = taken(
-      hf::mirror_weights(surface, given_of(rig), rig.bones.heads, rig.names, options, &info, &partners, &pairings));
+  auto [found, partners, pairings] = hf::Weights::mirror(surface, options, &info);
+  out.weights = taken(std::move(found));
   const double unit = 100 / rig.diagonal;
   out.report = {{"plane", plane_names[info.plane_from]},
                 {"point", {info.point[0], info.point[1], info.point[2]}},

@@ -65,7 +65,7 @@ void set_pins(hf::Weights& weights, const PinFile& pins) {
 }
 
 RigWeights weights_of(const hf::Weights& weights) {
-  hf::VertexWeights computed = weights.weights();
+  hf::WeightsOut computed = weights.weights();
   return {computed.influence_count, std::move(computed.joints), std::move(computed.weights)};
 }
 

@@ -214,12 +214,11 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
   out["stretch"] = found.stretch;
   out["bare"] = found.bare;
   out["milliseconds"] = {{"surface", surface_ms}, {"weights", weights_ms}, {"bone", bone_ms}, {"pin", pin_ms}};
-  out["found"] = {
-      {"informed", info.informed_count},      {"solved", info.solved_count}, {"pinned", info.pinned_count},
-      {"carried", info.nearest_count},        {"rigid", info.rigid_count},   {"isolated", info.isolated_count},
-      {"pieces", info.nearest_piece_count}, {"blind", info.blind}};
-  std::vector<uint32_t> counts;
-  const std::vector<uint32_t> flags = weights.joints(&counts);
+  out["found"] = {{"informed", info.informed_count},    {"solved", info.solved_count},
+                  {"pinned", info.pinned_count},        {"carried", info.nearest_count},
+                  {"rigid", info.rigid_count},          {"isolated", info.isolated_count},
+                  {"pieces", info.nearest_piece_count}, {"blind", info.blind}};
+  const auto [flags, counts] = weights.joints();
   const std::vector<uint32_t> reasons = weights.helpers(rig.names);
   out["bones"] = nlohmann::json::array();
   for (size_t j = 0; j < rig.joint_count(); ++j)

@@ -73,7 +73,7 @@ nlohmann::json measure(const Mesh& mesh, Family family, const Run& run) {
     const double alone = time_ms([&] { hf::Weights(surface, bones).weights(); });
     hf::Weights weights(surface, bones);
     hf::Joints moved = bones;
-    const size_t turned = 3 * (bones.count() / 2);
+    const size_t turned = 3 * (bones.parents.size() / 2);
     for (size_t c = 0; c < 3; ++c) moved.heads[turned + c] *= 1.001;
     const double bone_ms = time_ms([&] {
       weights.set_joints(moved);
@@ -88,8 +88,11 @@ nlohmann::json measure(const Mesh& mesh, Family family, const Run& run) {
       set_pin(weights, vertex, 0.75f);
       weights.weights();
     });
-    const hf::VertexWeights given = weights.weights();
-    const double carry_ms = time_ms([&] { hf::transfer_weights(surface, given, level); });
+    const hf::WeightsOut given = weights.weights();
+    hf::WeightsTransferOptions carry;
+    carry.joints = given.joints;
+    carry.weights = given.weights;
+    const double carry_ms = time_ms([&] { hf::Weights::transfer(surface, level, carry); });
     if (r == 0) continue;  // the first one warms
     whole.push_back(all);
     made.push_back(alone);
@@ -100,7 +103,7 @@ nlohmann::json measure(const Mesh& mesh, Family family, const Run& run) {
   }
   return {{"name", mesh.name},
           {"n", mesh.vertex_count()},
-          {"bones", bones.count()},
+          {"bones", bones.parents.size()},
           {"surface_to_weights_ms", median(whole)},
           {"weights_ms", median(made)},
           {"bone_ms", median(bone)},

@@ -24,15 +24,15 @@ static class Lifetime
         int calls = 0;
         for (int round = 0; round < count; ++round)
         {
-            using (var quad = Surface.OfFaces(new float[] { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, new uint[] { 0, 4 },
-            new uint[] { 0, 1, 2, 3 }))
+            using (var quad = new Surface(new float[] { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, faceStarts: new uint[] { 0, 4 },
+            corners: new uint[] { 0, 1, 2, 3 }))
         using (var held = new Solver(quad))
         {
             Hit hit = quad.CastRay(new[] { 0.3, 0.6, 1.0 }, new[] { 0.0, 0.0, -1.0 });
             held.AddSites(null, new[] { 2.0 }, corners: hit.Corners, barycentrics: hit.Barycentrics);
             var field = new float[4];
             held.Solve(field);
-            if (hit.Triangle != 0 || quad.Report.polygon_count != 1 || Math.Abs(field[3] - 2) > 1e-6)
+            if (hit.Triangle != 0 || quad.Report.PolygonCount != 1 || Math.Abs(field[3] - 2) > 1e-6)
                 throw new Exception("a hit in a quad is no site");
         }
         var surface = new Surface(positions, triangles);
@@ -54,9 +54,9 @@ static class Lifetime
                         else if (thing is Solver) ((Solver)thing).Solve();
                         else if (thing is Pose) ((Pose)thing).DeformDouble();
                         else if (thing is Transfer) { var info = ((Transfer)thing).Info; }
-                        else if (thing is Geodesics) ((Geodesics)thing).Distance(new uint[] { 0 });
+                        else if (thing is Geodesics) ((Geodesics)thing).Solve(new uint[] { 0 });
                         else if (thing is Direction) ((Direction)thing).Record();
-                        else if (thing is Flow) ((Flow)thing).Trace(new double[positions.Length / 3], 4);
+                        else if (thing is Flow) ((Flow)thing).Trace(new double[positions.Length / 3], wantedCount: 4);
                         else { double f = ((Progress)thing).Fraction; }
                         throw new Exception("a call on a disposed " + thing.GetType().Name + " did not fail");
                     }
@@ -110,7 +110,7 @@ static class Lifetime
         solver.AddSites(new uint[] { 0, 1 }, new double[] { 0, 1 });
         foreach (HfObject thing in new HfObject[] { surface, solver, new Pose(surface), new Geodesics(surface),
             new Direction(surface), new Flow(surface), new Region(surface), new Transfer(surface, surface),
-            new Weights(surface, new Joints { Heads = new double[3], Tails = new double[] { 1, 0, 0 } }),
+            new Weights(surface, new double[3], new double[] { 1, 0, 0 }),
             new Progress() })
         {
             try

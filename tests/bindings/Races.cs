@@ -67,9 +67,9 @@ static class Races
             }
         }
         if (thing is Pose) ((Pose)thing).DeformDouble();
-        else if (thing is Geodesics) ((Geodesics)thing).Distance(new uint[] { 0 });
+        else if (thing is Geodesics) ((Geodesics)thing).Solve(new uint[] { 0 });
         else if (thing is Direction) ((Direction)thing).Record();
-        else if (thing is Flow) ((Flow)thing).Trace(heights, 2);
+        else if (thing is Flow) ((Flow)thing).Trace(heights, wantedCount: 2);
         else if (thing is Region) { var info = ((Region)thing).Info; }
     }
 

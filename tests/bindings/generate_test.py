@@ -47,7 +47,7 @@ class OneDescription(unittest.TestCase):
 
     def test_a_toy_function_is_in_every_raw_layer(self):
         made = generate.files(with_toy(self.folder))
-        for name in ("functions.txt", "api.json", "python/hf/_raw.py", "js/src/raw.js", "csharp/Hf/Raw.cs", "rust/src/raw.rs"):
+        for name in ("functions.txt", "api.json", "python/hf/_raw.py", "js/src/raw.js", "csharp/Hf/Raw.cs", "rust/src/raw.rs", "../include/hf/hf.hpp"):
             self.assertIn("hf_solver_get_mean", made[name], name)
 
     def test_a_toy_function_is_a_method_of_python_that_is_called_with_arrays(self):
@@ -74,6 +74,56 @@ class OneDescription(unittest.TestCase):
         self.assertIn("  shiftSites(sites: Rows, vectors: Rows): void;", types)
         (self.folder / "js/src/call_toy.mjs").write_text(CALL_JS)
         subprocess.run([node, self.folder / "js/src/call_toy.mjs"], check=True)
+
+    def stub(self):
+        """A library of the two functions and of what a solver needs."""
+        compiler = shutil.which("cc")
+        if compiler is None:
+            self.skipTest("no C compiler here")
+        (self.folder / "stub.c").write_text(STUB)
+        subprocess.run([compiler, "-shared", "-fPIC", self.folder / "stub.c", "-o", self.folder / "libhf.so"], check=True)
+
+    def test_a_toy_function_is_a_method_of_csharp_that_is_called_with_arrays(self):
+        if shutil.which("mcs") is None or shutil.which("mono") is None:
+            self.skipTest("no Mono here")
+        self.stub()
+        made = generate.files(with_toy(self.folder))
+        shutil.copytree(ROOT / "bindings/csharp/Hf", self.folder / "csharp/Hf")
+        for name, text in made.items():
+            if name.startswith("csharp/"):
+                (self.folder / name).write_text(text)
+        (self.folder / "Toy.cs").write_text(CALL_CS)
+        subprocess.run(["mcs", "-langversion:latest", "-unsafe", f"-out:{self.folder}/toy.exe", self.folder / "Toy.cs",
+                        *sorted((self.folder / "csharp/Hf").glob("*.cs"))], check=True)
+        subprocess.run(["mono", self.folder / "toy.exe"], check=True, env={"PATH": "/usr/bin:/bin", "HF_LIBRARY": str(self.folder / "libhf.so")})
+
+    def test_a_toy_function_is_a_method_of_rust_that_is_called_with_slices(self):
+        if shutil.which("rustc") is None:
+            self.skipTest("no Rust here")
+        self.stub()
+        made = generate.files(with_toy(self.folder))
+        shutil.copytree(ROOT / "bindings/rust/src", self.folder / "rust/src")
+        for name, text in made.items():
+            if name.startswith("rust/"):
+                (self.folder / name).write_text(text)
+        (self.folder / "toy.rs").write_text(CALL_RS)
+        subprocess.run(["rustc", "--edition=2021", "--crate-type=rlib", "--crate-name=hf", self.folder / "rust/src/lib.rs", "-o",
+                        self.folder / "libhf.rlib"], check=True)
+        subprocess.run(["rustc", "--edition=2021", "--extern", f"hf={self.folder}/libhf.rlib", "-L", self.folder, "-l", "hf", "-C",
+                        "link-args=-Wl,--unresolved-symbols=ignore-all", self.folder / "toy.rs", "-o", self.folder / "toy"], check=True)
+        subprocess.run([self.folder / "toy"], check=True, env={"LD_LIBRARY_PATH": str(self.folder)})
+
+    def test_a_toy_function_is_a_method_of_cpp_that_is_called_with_vectors(self):
+        if shutil.which("c++") is None:
+            self.skipTest("no C++ compiler here")
+        self.stub()
+        made = generate.files(with_toy(self.folder))
+        (self.folder / "include/hf/hf.hpp").write_text(made["../include/hf/hf.hpp"])
+        (self.folder / "toy.cpp").write_text(CALL_CPP)
+        # the inline methods of the other classes call functions that the stub has not
+        subprocess.run(["c++", "-std=c++17", "-I", self.folder / "include", self.folder / "toy.cpp", "-o", self.folder / "toy_cpp",
+                        "-L", self.folder, "-lhf", "-Wl,--unresolved-symbols=ignore-all"], check=True)
+        subprocess.run([self.folder / "toy_cpp"], check=True, env={"LD_LIBRARY_PATH": str(self.folder)})
 
     def test_what_a_comment_leaves_open_is_refused_by_name(self):
         cases = {"hf_solver_get_mean, out_mean: how many?": TOY.replace("out_mean: receives the mean. ", ""),
@@ -149,6 +199,74 @@ assert.equal(solver.mean, 2.5);
 solver.shiftSites([4, 5], [1, 2, 3, 4, 5, 6]);
 assert.deepEqual(got, [2, [4, 5], [1, 2, 3, 4, 5, 6]]);
 assert.throws(() => solver.shiftSites([4, 5], [1, 2, 3, 4]), /vectors must hold 6 numbers, not 4/);
+'''
+
+STUB = '''
+#include <stdint.h>
+#include <string.h>
+uint32_t hf_version_get(void) { return 1000; }
+const char* hf_result_get_name(int32_t result) { return result ? "HF_ERROR_INVALID_ARGUMENT" : "HF_OK"; }
+int32_t hf_error_get_detail(void* detail) { return 0; }
+int32_t hf_surface_create(const void* desc, void** out) { *out = (void*)8; return 0; }
+void hf_surface_destroy(void* surface) {}
+int32_t hf_create(void* surface, const void* desc, void** out) { *out = (void*)16; return 0; }
+void hf_solver_destroy(void* solver) {}
+int32_t hf_solver_get_mean(void* solver, double* out_mean) { *out_mean = 2.5; return 0; }
+int32_t hf_solver_shift_sites(void* solver, uint32_t count, const uint32_t* sites, const double* vectors) {
+  const double wanted[] = {1, 2, 3, 4, 5, 6};
+  return count == 2 && sites[1] == 5 && !memcmp(vectors, wanted, sizeof(wanted)) ? 0 : -1;
+}
+'''
+
+CALL_CS = '''
+using System;
+using Hf;
+static class Toy
+{
+    static void Main()
+    {
+        var solver = new Solver(new Surface(new float[3], new uint[3]));
+        if (solver.Mean != 2.5) throw new Exception("the mean");
+        solver.ShiftSites(new uint[] { 4, 5 }, new double[] { 1, 2, 3, 4, 5, 6 });
+        try { solver.ShiftSites(new uint[] { 4, 5 }, new double[] { 1, 2, 3, 4 }); }
+        catch (HfException error)
+        {
+            if (error.Message.Contains("vectors must hold 6 numbers, not 4")) return;
+            throw;
+        }
+        throw new Exception("two numbers for each were taken for three");
+    }
+}
+'''
+
+CALL_RS = '''
+fn main() -> hf::Result<()> {
+    let surface = hf::Surface::new(&[0f32; 3], &[0u32; 3], &hf::SurfaceOptions::default())?;
+    let mut solver = hf::Solver::new(&surface, &hf::SolverOptions::default())?;
+    assert_eq!(solver.mean()?, 2.5);
+    solver.shift_sites(&[4, 5], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0])?;
+    let refused = solver.shift_sites(&[4, 5], &[1.0, 2.0, 3.0, 4.0]).unwrap_err();
+    assert_eq!(refused.message, "vectors must hold 6 entries, not 4");
+    Ok(())
+}
+'''
+
+CALL_CPP = '''
+#include <string>
+#include "hf/hf.hpp"
+
+int main() {
+  const hf::Surface surface(std::vector<float>(3), std::vector<uint32_t>(3));
+  hf::Solver solver(surface);
+  if (solver.mean() != 2.5) return 1;
+  solver.shift_sites({4, 5}, {1, 2, 3, 4, 5, 6});
+  try {
+    solver.shift_sites({4, 5}, {1, 2, 3, 4});
+  } catch (const std::invalid_argument& error) {
+    return std::string(error.what()) != "vectors must hold 6 numbers, not 4";
+  }
+  return 2;
+}
 '''
 
 if __name__ == "__main__":

@@ -418,7 +418,7 @@ function checkStep(hf, step, meshes, objects, kept) {
     result = runStep(hf, step, meshes, objects, kept);
   } catch (error) {
     if (!(error instanceof hf.HfError)) throw error;
-    // of two arrays that belong together, the library names the one that is missing; other layers refuse the lone one
+    // of two arrays that belong together, the library names the one that is missing; golden.cpp refuses the lone one
     const lone = step.error === 'HF_ERROR_INVALID_ARGUMENT' && error.codeName === 'HF_ERROR_NULL_POINTER' && /is NULL/.test(error.message);
     assert(lone || error.codeName === step.error, `raised ${error.message}`);
     assert(!('index' in step) || error.index === step.index, `index ${error.index}: ${error.message}`);

@@ -320,7 +320,7 @@ class Scene:
         try:
             kind, result = self.run(step)
         except hf.HfError as error:
-            # of two arrays that belong together, the library names the one that is missing; other layers refuse the lone one
+            # of two arrays that belong together, the library names the one that is missing; golden.cpp refuses the lone one
             lone = step.get("error") == "HF_ERROR_INVALID_ARGUMENT" and error.name == "HF_ERROR_NULL_POINTER" and "is NULL" in error.message
             assert lone or error.name == step.get("error"), f"raised {error}"
             assert "index" not in step or error.index == step["index"], f"index {error.index}: {error}"

@@ -186,47 +186,37 @@ impl Scene<'_> {
             }
             bytes
         });
+        let tags = self.integers(step, "tags");
         let mut options = SurfaceOptions::default();
-        let mut links = None;
         for (name, value) in step["options"].as_object().into_iter().flatten() {
             if name == "link_pieces" {
-                links = Some(LinkOptions {
-                    mode: number(value) as i32,
-                    ..Default::default()
-                });
+                let mode = number(value) as i32;
+                let tags = tags.as_deref();
+                options.links = Some(Links { mode, tags, ..Default::default() });
             } else {
                 options.set(name, number(value))?;
             }
         }
-        let tags = self.integers(step, "tags");
-        let extras = Extras {
-            saved_factor: factor.as_deref(),
-            links,
-            tags: tags.as_deref(),
-            ..Default::default()
-        };
+        if tags.is_some() && options.links.is_none() {
+            return Ok(Answer::Impossible); // tags are a field of links
+        }
+        let factor = factor.as_deref().map(|bytes| Factor { bytes: Some(bytes) });
+        options.saved_factor = factor;
         if step["faces"].as_object().is_some() {
             let offsets = self.integers(&step["faces"], "offsets").unwrap();
             let sizes: Vec<u32> = offsets.windows(2).map(|o| o[1] - o[0]).collect();
             let corners = self.integers(&step["faces"], "corners").unwrap();
-            let made = Surface::from_faces(&positions, &sizes, &corners, &options, &extras)?;
+            options.face_sizes = Some(&sizes);
+            options.corners = Some(&corners);
+            let made = Surface::new(&positions, &[0u32; 0], &options)?;
             return self.keep(step, Object::Surface(made));
         }
         let half = step["index_bits"] == 16;
-        options.triangle_stride = step["triangle_stride"].as_u64().unwrap_or(0) as u32;
-        let row = match options.triangle_stride as usize {
-            0 => 3,
-            stride => stride / if half { 2 } else { 4 },
-        };
-        let mut laid = vec![u32::MAX; triangles.len() / 3 * row];
-        for (k, &v) in triangles.iter().enumerate() {
-            laid[k / 3 * row + k % 3] = v;
-        }
         let made = if half {
-            let small: Vec<u16> = laid.iter().map(|&v| v as u16).collect();
-            Surface::with(&positions, &small, &options, &extras)?
+            let small: Vec<u16> = triangles.iter().map(|&v| v as u16).collect();
+            Surface::new(&positions, &small, &options)?
         } else {
-            Surface::with(&positions, &laid, &options, &extras)?
+            Surface::new(&positions, &triangles, &options)?
         };
         self.keep(step, Object::Surface(made))
     }
@@ -256,7 +246,7 @@ impl Scene<'_> {
             .map(|key| self.integers(step, key))
             .collect();
         let (set_values, add_values) = (
-            self.doubles(step, "set_values").unwrap_or_default(),
+            self.doubles(step, "set_values"),
             self.doubles(step, "add_values"),
         );
         let solver = on!(self, step, Solver);
@@ -273,20 +263,14 @@ impl Scene<'_> {
                 )?]));
             }
             "edit" => {
+                let at = |vertices| Sites { vertices: Some(vertices), ..Default::default() };
                 let edit = Edit {
-                    remove: lists[0].as_deref().unwrap_or_default(),
-                    moved: lists[1].as_deref().unwrap_or_default(),
-                    to: lists[2].as_deref().map(|at| Sites {
-                        vertices: Some(at),
-                        ..Default::default()
-                    }),
-                    set: lists[3].as_deref().unwrap_or_default(),
-                    set_values: &set_values,
-                    add: lists[4].as_deref().map(|at| Sites {
-                        vertices: Some(at),
-                        values: add_values.as_deref(),
-                        ..Default::default()
-                    }),
+                    remove_sites: lists[0].as_deref(),
+                    move_sites: lists[1].as_deref(),
+                    move_to: lists[2].as_deref().map(at),
+                    set_sites: lists[3].as_deref(),
+                    set_values: set_values.as_deref(),
+                    add: lists[4].as_deref().map(|vertices| Sites { values: add_values.as_deref(), ..at(vertices) }),
                 };
                 return Ok(Answer::Numbers(solver.edit_sites(&edit)?));
             }
@@ -339,40 +323,42 @@ impl Scene<'_> {
             return Ok(Answer::Impossible);
         }
         let (place, ray) = (place.flatten(), ray.flatten());
-        let edges = self.integers(step, "crease_edges").unwrap_or_default();
-        let guided = self.integers(step, "guide_vertices").unwrap_or_default();
-        let vectors = self.doubles(step, "guide_vectors").unwrap_or_default();
+        let edges = self.integers(step, "crease_edges");
+        let guided = self.integers(step, "guide_vertices");
+        let vectors = self.doubles(step, "guide_vectors");
         let weights: Option<Vec<f32>> = self
             .doubles(step, "guide_weights")
             .map(|list| list.iter().map(|&v| v as f32).collect());
-        let poles = self.integers(step, "irregular_valences").unwrap_or_default();
-        let irregular_points = self.doubles(step, "irregular_points").unwrap_or_default();
+        let valences = self.integers(step, "irregular_valences");
+        let irregular_points = self.doubles(step, "irregular_points");
         let irregular_directions = self.doubles(step, "irregular_directions");
         let plane = self
             .doubles(step, "symmetry_plane")
             .map(|list| <[f64; 4]>::try_from(list).ok());
-        let null = |key| step.get(key).is_some_and(Value::is_null);
-        if plane == Some(None) || null("guide_vectors") || null("irregular_points") {
-            return Ok(Answer::Impossible); // four numbers are four, and a slice is never null
+        if plane == Some(None) {
+            return Ok(Answer::Impossible); // four numbers are four
         }
-        let guides = QuadGuides {
-            crease_edges: &edges,
-            guide_vertices: &guided,
-            guide_vectors: &vectors,
-            guide_weights: weights.as_deref(),
-            irregular_points: &irregular_points,
-            irregular_valences: &poles,
-            irregular_directions: irregular_directions.as_deref(),
-            symmetry_plane: plane.flatten(),
-        };
         let quad_options = || -> std::result::Result<QuadsOptions, Error> {
-            let mut options = options!(step, QuadsOptions);
-            options.edge_length = step.get("edge_length").map_or(0.0, number);
+            let mut options = QuadsOptions {
+                crease_edges: edges.as_deref(),
+                guide_vertices: guided.as_deref(),
+                guide_vectors: vectors.as_deref(),
+                guide_weights: weights.as_deref(),
+                irregular_points: irregular_points.as_deref(),
+                irregular_valences: valences.as_deref(),
+                irregular_directions: irregular_directions.as_deref(),
+                symmetry_plane: plane.flatten(),
+                edge_length: step.get("edge_length").map_or(0.0, number),
+                ..Default::default()
+            };
+            for (name, value) in step["options"].as_object().into_iter().flatten() {
+                options.set(name, number(value))?;
+            }
             Ok(options)
         };
         if what == "update_quads" {
             let quads = on!(self, step, Quads);
-            quads.update(&quad_options()?, &guides)?;
+            quads.update(&quad_options()?)?;
             return Ok(Answer::Array(quads.mesh()?.positions));
         }
         let surface = on!(self, step, Surface);
@@ -389,19 +375,16 @@ impl Scene<'_> {
             "surface_statistics" => return figures!(surface.statistics()),
             "components" => return array(surface.components()?, false),
             "save" => {
-                let bytes = surface.save(step["field_kind"].as_i64().unwrap_or(0) as i32)?;
+                let bytes = surface.save(step["field_kind"].as_i64().unwrap_or(0) as i32, None)?;
                 self.saved
                     .insert(step["as"].as_str().unwrap().into(), bytes);
                 return Ok(Answer::Nothing);
             }
             "cast_ray" => {
                 let (origin, direction) = ray.unwrap();
-                let hit = surface.cast_ray(
-                    origin,
-                    direction,
-                    posed.as_deref(),
-                    step["front_only"].as_i64().unwrap_or(0) as i32,
-                )?;
+                let mut options = PickOptions { positions: posed.as_ref().map(|p| p.into()), ..Default::default() };
+                options.set("front_only", step["front_only"].as_f64().unwrap_or(0.0))?;
+                let hit = surface.cast_ray(&origin, &direction, &options)?;
                 return Ok(Answer::Array(hit.map_or(vec![0.0], |hit| {
                     let mut row = vec![1.0, f64::from(hit.triangle), f64::from(hit.vertex)];
                     row.extend(hit.barycentrics);
@@ -411,7 +394,7 @@ impl Scene<'_> {
                 })));
             }
             "find_vertex" => {
-                let (vertex, distance) = surface.find_vertex(place.unwrap(), posed.as_deref())?;
+                let (vertex, distance) = surface.find_vertex(&place.unwrap(), &PickOptions { positions: posed.as_ref().map(|p| p.into()), ..Default::default() })?;
                 return Ok(Answer::Array(vec![f64::from(vertex), distance]));
             }
             "levels" => {
@@ -424,9 +407,9 @@ impl Scene<'_> {
             "isolines" => {
                 let lines = surface.trace_isolines(&field, &levels)?;
                 if let Some(wanted) = step["lines"].as_u64() {
-                    assert_eq!(lines.closed.len() as u64, wanted, "lines");
+                    assert_eq!(lines.line_closed.len() as u64, wanted, "lines");
                     assert_eq!(
-                        lines.closed.iter().sum::<i32>() as u64,
+                        lines.line_closed.iter().sum::<i32>() as u64,
                         step["closed"].as_u64().unwrap(),
                         "closed lines"
                     );
@@ -434,7 +417,7 @@ impl Scene<'_> {
                 return Ok(Answer::Array(lines.positions));
             }
             "critical" => {
-                let found = surface.find_critical_points(&field)?;
+                let (found, _) = surface.find_critical_points(&field)?;
                 return Ok(Answer::Array(
                     found.iter().map(|p| f64::from(p.index)).collect(),
                 ));
@@ -442,7 +425,7 @@ impl Scene<'_> {
             "extremities" => {
                 return array(
                     surface
-                        .find_extremities()?
+                        .find_extremities(None, &ExtremitiesOptions::default())?
                         .iter()
                         .map(|e| e.vertex)
                         .collect(),
@@ -452,7 +435,7 @@ impl Scene<'_> {
             "propose" => {
                 return array(
                     surface
-                        .propose_handles()?
+                        .propose_handles(&HandleProposalsOptions::default())?
                         .iter()
                         .map(|p| p.vertex)
                         .collect(),
@@ -468,12 +451,11 @@ impl Scene<'_> {
             }
             "flow" => Object::Flow(Flow::new(surface)?),
             "pose" => Object::Pose(Pose::new(surface, &options!(step, PoseOptions))?),
-            "region" => Object::Region(Region::new(
-                surface,
-                posed.as_deref(),
-                &options!(step, RegionOptions),
-            )?),
-            "quads" => Object::Quads(Quads::new(surface, &quad_options()?, &guides)?),
+            "region" => {
+                let positions = posed.as_ref().map(|p| p.into());
+                Object::Region(Region::new(surface, &RegionOptions { positions, ..options!(step, RegionOptions) })?)
+            }
+            "quads" => Object::Quads(Quads::new(surface, &quad_options()?)?),
             _ => unreachable!(),
         };
         self.keep(step, made)
@@ -519,22 +501,11 @@ impl Scene<'_> {
     }
 
     fn pose_step(&mut self, what: &str, step: &Value) -> Outcome {
-        let (points, radii) = (
-            self.doubles(step, "points"),
-            self.doubles(step, "radii").unwrap_or_default(),
-        );
+        let (points, radii) = (self.doubles(step, "points"), self.doubles(step, "radii"));
         let (handles, layer) = (
             self.integers(step, "handles").unwrap_or_default(),
             step["layer"].as_u64().unwrap_or(0) as u32,
         );
-        // a transform of the type has four and three numbers; none if the step has others
-        let transform = |rotation: Option<&[f64]>, translation: Option<&[f64]>| {
-            let rest = Transform::default();
-            Some(Transform {
-                rotation: rotation.map_or(Some(rest.rotation), |r| r.try_into().ok())?,
-                translation: translation.map_or(Some(rest.translation), |t| t.try_into().ok())?,
-            })
-        };
         let (turns, shifts) = (
             self.doubles(step, "rotations"),
             self.doubles(step, "translations"),
@@ -548,77 +519,50 @@ impl Scene<'_> {
         let n = pose.info()?.vertex_count as usize;
         match what {
             "add_handles" => {
-                let in_place = match step["in_place"].as_u64().unwrap_or(0) {
-                    0 => false,
-                    1 => true,
-                    _ => return Ok(Answer::Impossible), // a method of its own is no flag
-                };
-                if let Some(points) = points {
-                    return Ok(Answer::Numbers(if in_place {
-                        pose.add_handles_in_place_at(&points, &radii)?
-                    } else {
-                        pose.add_handles_at(&points, &radii, layer)?
-                    }));
+                let mut options = HandlesOptions { points: points.as_deref(), radii: radii.as_deref(), layer, ..Default::default() };
+                options.set("in_place", step["in_place"].as_f64().unwrap_or(0.0))?;
+                if lists.is_none() && points.is_none() {
+                    return Ok(Answer::Impossible); // a slice is never null
                 }
-                let Some(lists) = lists else {
-                    return Ok(Answer::Impossible);
-                };
-                let regions: Vec<&[u32]> = lists.iter().map(|list| &list[..]).collect();
-                return Ok(Answer::Numbers(if in_place {
-                    pose.add_handles_in_place(&regions, None)?
-                } else {
-                    pose.add_handles(&regions, layer, None)?
-                }));
+                let regions: Option<Vec<&[u32]>> = lists.as_ref().map(|lists| lists.iter().map(|list| &list[..]).collect());
+                return Ok(Answer::Numbers(pose.add_handles(regions.as_deref(), &options)?));
             }
             "add_handle_at" => {
                 let Some(point) = narrow(point.unwrap()) else {
                     return Ok(Answer::Impossible);
                 };
                 return Ok(Answer::Numbers(vec![
-                    pose.add_handle_at(point, number(&step["radius"]))?
+                    pose.add_handle_at(&point, number(&step["radius"]))?
                 ]));
             }
             "remove_handles" => pose.remove_handles(&handles)?,
-            "set_transforms" => {
-                let row = |i: usize| {
-                    let turn = turns
-                        .as_ref()
-                        .map(|r| r.chunks(4).nth(i).unwrap_or_default());
-                    transform(
-                        turn,
-                        shifts
-                            .as_ref()
-                            .map(|t| t.chunks(3).nth(i).unwrap_or_default()),
-                    )
-                };
-                let Some(rows) = (0..handles.len()).map(row).collect::<Option<Vec<_>>>() else {
-                    return Ok(Answer::Impossible);
-                };
-                pose.set_transforms(&handles, &rows)?;
-            }
+            "set_transforms" => pose.set_transforms(&handles, turns.as_deref(), shifts.as_deref())?,
             "set_transform" => {
-                let Some(moved) = transform(turn.as_deref(), shift.as_deref()) else {
+                // a transform has four and three numbers; a step with others does not compile
+                let turn = turn.map(<[f64; 4]>::try_from).transpose();
+                let shift = shift.map(<[f64; 3]>::try_from).transpose();
+                let (Ok(turn), Ok(shift)) = (turn, shift) else {
                     return Ok(Answer::Impossible);
                 };
-                pose.set_transform(whole(&step["handle"]), moved)?;
+                pose.set_transform(whole(&step["handle"]), turn, shift)?;
             }
             "deform" => return Ok(Answer::Array(pose.deform(&options!(step, DeformOptions))?)),
             "deform_f32" => {
                 let mut out = vec![0f32; 3 * n];
-                pose.deform_into(&mut out, &DeformOptions::default())?;
+                pose.deform_into(&mut out, None, &DeformOptions::default())?;
                 return Ok(Answer::Array(out.iter().map(|&v| f64::from(v)).collect()));
             }
             "handle_field" => {
                 return Ok(Answer::Array(
-                    pose.handle_field(whole(&step["handle"]))?
+                    pose.field(whole(&step["handle"]))?
                         .iter()
                         .map(|&v| f64::from(v))
                         .collect(),
                 ))
             }
-            "handle_info" => return figures!(pose.handle_info(whole(&step["handle"]))),
+            "handle_info" => return figures!(pose.handle(whole(&step["handle"]))),
             "handle_place" => {
-                let info = pose.handle_info(whole(&step["handle"]))?;
+                let info = pose.handle(whole(&step["handle"]))?;
                 return Ok(Answer::Array(
                     [&info.rotation[..], &info.translation[..]].concat(),
                 ));
@@ -626,8 +570,7 @@ impl Scene<'_> {
             "pose_info" => return figures!(pose.info()),
             "skin" => {
                 return Ok(Answer::Array(
-                    pose.skin(whole(&step["influence_count"]))?
-                        .weights
+                    pose.skin(whole(&step["influence_count"]), false)?.vertex_weights
                         .iter()
                         .map(|&v| f64::from(v))
                         .collect(),
@@ -649,12 +592,15 @@ impl Scene<'_> {
         }
         let region = on!(self, step, Region);
         match what {
-            "region_edit" => region.edit(&RegionEdit {
-                curve: curve.as_deref(),
-                curve_kind: step["curve_kind"].as_i64().unwrap_or(0) as i32,
-                rings: step["rings"].as_i64().unwrap_or(0) as i32,
-                add: add.as_deref().unwrap_or_default(),
-                remove: remove.as_deref().unwrap_or_default(),
+            "region_edit" => region.edit(&RegionEditOptions {
+                curve: curve.as_deref().map(|vertices| Curve {
+                    vertices: Some(vertices),
+                    kind: step["curve_kind"].as_i64().unwrap_or(0) as i32,
+                    ..Default::default()
+                }),
+                ring_count: step["rings"].as_i64().unwrap_or(0) as i32,
+                add_vertices: add.as_deref(),
+                remove_vertices: remove.as_deref(),
                 ..Default::default()
             })?,
             "record_region" => past!(self, step, region_pasts).record(region)?,
@@ -685,12 +631,12 @@ impl Scene<'_> {
             .doubles(step, "deforms")
             .map(|list| list.iter().map(|&v| v as i32).collect());
         let skeleton = Joints {
-            heads: rows[0].as_deref().unwrap_or_default(),
+            heads: rows[0].as_deref(),
             tails: rows[1].as_deref(),
             axes: rows[2].as_deref(),
             parents: parents.as_deref(),
             deforms: deforms.as_deref(),
-            sources: sources.as_deref(),
+            sources: sources.as_deref(), ..Default::default()
         };
         let vertices = self.integers(step, "vertices").unwrap_or_default();
         let joints = self.integers(step, "joints").unwrap_or_default();
@@ -704,8 +650,8 @@ impl Scene<'_> {
             .as_array()
             .map(|names| names.iter().map(|name| name.as_str().unwrap()).collect());
         let joint = step.get("joint").map(whole);
-        let column = |found: &VertexWeights| -> Outcome {
-            let row = |v: usize| v * found.influence_count..(v + 1) * found.influence_count;
+        let column = |found: &WeightsOut| -> Outcome {
+            let row = |v: usize| v * found.influence_count as usize..(v + 1) * found.influence_count as usize;
             let of_joint = |&k: &usize| Some(found.joints[k]) == joint;
             let weight = |v| {
                 row(v)
@@ -729,22 +675,22 @@ impl Scene<'_> {
                     named!(self, step, "on", Surface),
                 );
                 return column(
-                    &transfer_weights(source, &joints, &shares, target, &Default::default())?.0,
+                    &Weights::transfer(source, target, &WeightsTransferOptions { joints: Some(&joints), weights: Some(&shares), ..Default::default() })?.0,
                 );
             }
             "mirror" => {
-                let plane = self
-                    .doubles(step, "plane")
-                    .map(|list| <[f64; 6]>::try_from(list).unwrap());
-                let mirror = Mirror {
+                let plane = self.doubles(step, "plane");
+                let mirror = WeightsMirrorOptions {
                     heads: skeleton.heads,
                     names: list.as_deref(),
-                    plane,
+                    plane: plane.as_deref(),
+                    joints: Some(&joints),
+                    weights: Some(&shares),
                     to: step.get("to").map_or(0, |to| number(to) as i32),
                     ..Default::default()
                 };
                 let surface = named!(self, step, "on", Surface);
-                return column(&mirror_weights(surface, &joints, &shares, &mirror)?.weights);
+                return column(&Weights::mirror(surface, &mirror)?.0);
             }
             _ => {}
         }
@@ -758,10 +704,9 @@ impl Scene<'_> {
         match what {
             "set_joints" => weights.set_joints(&skeleton)?,
             "set_pins" => {
-                let each = joints.len() / vertices.len().max(1);
-                weights.set_pins(&vertices, each as u32, &joints, &shares)?;
+                weights.set_pins(Some(&vertices), &Pins { joints: Some(&joints), weights: Some(&shares), ..Default::default() })?;
             }
-            "set_locks" => weights.set_locks(&locked)?,
+            "set_locks" => weights.set_locks(&locked, None)?,
             "record_weights" => past!(self, step, weights_pasts).record(weights)?,
             "undo_weights" => past!(self, step, weights_pasts).undo(weights)?,
             "redo_weights" => past!(self, step, weights_pasts).redo(weights)?,
@@ -770,7 +715,7 @@ impl Scene<'_> {
                 return self.keep(step, Object::Weights(copy));
             }
             "weights_info" => return figures!(weights.info()),
-            "joint_flags" => return numbers(weights.joint_flags()?),
+            "joint_flags" => return numbers(weights.joints()?.0),
             "helpers" => return numbers(weights.helpers(list.as_deref())?),
             "skin_weights" => return column(&weights.get()?),
             _ => unreachable!(),
@@ -786,19 +731,17 @@ impl Scene<'_> {
         match what {
             "surface" => self.surface(step),
             "graph" => {
-                let options = options!(step, GraphOptions);
+                let mut options = options!(step, GraphOptions);
                 let (edges, weights) = (
                     self.integers(step, "edges").unwrap(),
                     self.doubles(step, "weights").unwrap(),
                 );
                 let masses = self.doubles(step, "masses");
-                let made = Surface::from_graph(
-                    whole(&step["vertex_count"]),
-                    &edges,
-                    &weights,
-                    masses.as_deref(),
-                    &options,
-                )?;
+                let made = {
+                    options.vertex_count = whole(&step["vertex_count"]);
+                    options.masses = masses.as_deref();
+                    Surface::from_graph(&edges, &weights, &options)?
+                };
                 self.keep(step, Object::Surface(made))
             }
             "dispose" => {
@@ -819,30 +762,24 @@ impl Scene<'_> {
                     named!(self, step, "source", Region),
                     named!(self, step, "target", Region),
                 );
-                let made = Detail::new(
-                    source,
-                    target,
-                    step["options"].get("scale").map_or(0.0, number),
-                    &[],
-                    &[],
-                )?;
+                let made = Detail::new(source, target, &options!(step, DetailOptions))?;
                 self.keep(step, Object::Detail(made))
             }
             "distance" => {
                 let sources = self.integers(step, "sources").unwrap();
                 Ok(Answer::Array(
-                    on!(self, step, Geodesics).distance(&sources)?,
+                    on!(self, step, Geodesics).solve(&sources)?,
                 ))
             }
             "path" => {
                 let (from, to) = (self.place(step, "from"), self.place(step, "to"));
-                Ok(Answer::Array(on!(self, step, Geodesics).path(&from, &to)?))
+                Ok(Answer::Array(on!(self, step, Geodesics).find_path(&from, &to)?.positions))
             }
             "map" => {
                 let centre = self.place(step, "centre");
                 let radius = step["radius"].as_f64().unwrap_or(0.0);
                 Ok(Answer::Array(
-                    on!(self, step, Geodesics).map(&centre, radius)?,
+                    on!(self, step, Geodesics).map(&centre, radius)?.0,
                 ))
             }
             "quads_info" => {
@@ -859,12 +796,10 @@ impl Scene<'_> {
                 );
                 let flow = on!(self, step, Flow);
                 let lines = flow.trace(
-                    &field,
-                    step["count"].as_u64().unwrap_or(0) as u32,
-                    seeds.as_deref(),
+                    &field, seeds.as_deref(), step["count"].as_u64().unwrap_or(0) as u32,
                 )?;
                 if let Some(wanted) = step["lines"].as_u64() {
-                    assert_eq!(lines.starts.len() as u64 - 1, wanted, "lines");
+                    assert_eq!(lines.line_starts.len() as u64 - 1, wanted, "lines");
                 }
                 Ok(Answer::Array(lines.positions))
             }
@@ -878,11 +813,7 @@ impl Scene<'_> {
                     target.iter().map(|l| &l[..]).collect(),
                 );
                 let flags = self.integers(step, "flags");
-                Ok(Answer::Numbers(on!(self, step, Transfer).add_pairs(
-                    &from,
-                    &to,
-                    flags.as_deref(),
-                )?))
+                Ok(Answer::Numbers(on!(self, step, Transfer).add_pairs(&from, &to, flags.as_deref(), &Pairs::default())?))
             }
             "remove_pairs" => {
                 let pairs = self.integers(step, "pairs").unwrap();
@@ -898,7 +829,7 @@ impl Scene<'_> {
             "transfer_info" => figures!(on!(self, step, Transfer).info()),
             "apply" => {
                 let posed = self.doubles(step, "positions").unwrap();
-                Ok(Answer::Array(on!(self, step, Transfer).apply(&posed)?))
+                Ok(Answer::Array(on!(self, step, Transfer).apply(&posed, &TransferFrame::default())?))
             }
             "add_sites" | "add_site" | "remove_sites" | "move_sites" | "set_values" | "edit"
             | "record" | "undo" | "redo" | "solve" | "solve_f32" | "preview" | "solve_at"
@@ -937,6 +868,12 @@ impl Scene<'_> {
                 } else {
                     Err(format!("index {:?}", error.index))
                 };
+            }
+            // of two arrays that belong together, the library names the one that is missing; golden.cpp refuses the lone one
+            (Err(error), Some("HF_ERROR_INVALID_ARGUMENT"))
+                if error.name() == "HF_ERROR_NULL_POINTER" && error.message.contains("is NULL") =>
+            {
+                return Ok(true)
             }
             (Err(error), _) => return Err(format!("failed: {error}")),
             (Ok(_), Some(name)) => return Err(format!("did not fail with {name}")),
@@ -1131,23 +1068,23 @@ fn lengths_are_checked() {
         solver.solve_into(&mut [0f32; 2]).is_err() && solver.solve_into(&mut [0f64; 3]).is_ok()
     );
     let mut pose = Pose::new(&surface, &PoseOptions::default()).unwrap();
-    pose.add_handles(&[&[0]], 0, None).unwrap();
+    pose.add_handles(Some(&[&[0]]), &HandlesOptions::default()).unwrap();
     assert!(
-        pose.set_transforms(&[0], &[]).is_err()
+        pose.set_transforms(&[0], Some(&[]), None).is_err()
             && pose
-                .deform_into(&mut [0f32; 3], &DeformOptions::default())
+                .deform_into(&mut [0f32; 3], None, &DeformOptions::default())
                 .is_err()
     );
     let (mut posed, mut normals) = ([0f32; 9], [0f32; 9]);
     let options = DeformOptions::default();
     assert!(pose
-        .deform_with_normals_into(&mut posed, &mut normals[..3], &options)
+        .deform_into(&mut posed, Some(&mut normals[..3]), &options)
         .is_err());
-    pose.deform_with_normals_into(&mut posed, &mut normals, &options)
+    pose.deform_into(&mut posed, Some(&mut normals), &options)
         .unwrap();
     assert_eq!(posed, strip.map(|x| x as f32));
     assert_eq!(normals, [0.0, 0.0, -1.0].repeat(3)[..]);
-    assert!(pose.skin(0).map_or(true, |skin| skin.weights.len() >= 3));
+    assert!(pose.skin(0, false).map_or(true, |skin| skin.vertex_weights.len() >= 3));
 }
 
 #[test]
@@ -1196,12 +1133,8 @@ fn a_cancelled_call_says_so() {
     let strip = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0];
     let progress = Progress::new().unwrap();
     progress.cancel().unwrap();
-    let extras = Extras {
-        progress: Some(&progress),
-        ..Default::default()
-    };
-    let refused =
-        Surface::with(&strip, &[0u32, 1, 2], &SurfaceOptions::default(), &extras).unwrap_err();
+    let options = SurfaceOptions { progress: Some(&progress), ..Default::default() };
+    let refused = Surface::new(&strip, &[0u32, 1, 2], &options).unwrap_err();
     assert_eq!(refused.name(), "HF_ERROR_CANCELLED");
 }
 
@@ -1241,16 +1174,16 @@ fn weights_of_a_bar() {
     let middle: Vec<f64> = (0..3).map(|k| 0.5 * (low[k] + high[k])).collect();
     let (heads, tails) = ([low, middle.clone()].concat(), [middle, high].concat());
     let skeleton = Joints {
-        heads: &heads,
+        heads: Some(&heads),
         tails: Some(&tails),
         ..Default::default()
     };
     let mut weights = Weights::new(&surface, &skeleton, 4).unwrap();
     let found = weights.get().unwrap();
-    for row in found.weights.chunks(found.influence_count) {
+    for row in found.weights.chunks(found.influence_count as usize) {
         assert_eq!(row.iter().sum::<f32>(), 1.0);
     }
-    weights.set_pins(&[0], 1, &[1], &[1.0]).unwrap();
+    weights.set_pins(Some(&[0]), &Pins { joints: Some(&[1]), weights: Some(&[1.0]), ..Default::default() }).unwrap();
     let pinned = weights.get().unwrap();
     assert_eq!((pinned.joints[0], pinned.weights[0]), (1, 1.0));
 }

@@ -62,7 +62,7 @@ void check_lifetime(const Json& mesh, int rounds) {
       if (clone) expect(clone->solve().size() == last + 1, "a clone goes on");
       if (pose) expect(pose->deform().size() == positions.size(), "a pose goes on");
       if (direction) expect(direction->solve().size() == positions.size(), "a direction field goes on");
-      if (geodesics) expect(geodesics->distance({0}).size() == last + 1, "distances go on");
+      if (geodesics) expect(geodesics->solve_f64({0}).size() == last + 1, "distances go on");
     }
     expect(held == 0 && blocks == 0, std::to_string(held) + " bytes have not come back");
   }

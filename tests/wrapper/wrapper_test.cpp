@@ -63,13 +63,15 @@ TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
 }
 
 TEST(Wrapper, solves_on_a_graph_and_says_what_needs_triangles) {
-  const hf::Surface surface = hf::Surface::from_graph(4, {0, 1, 1, 2, 2, 3}, {1, 1, 2});
+  hf::GraphOptions graph;
+  graph.vertex_count = 4;
+  const hf::Surface surface = hf::Surface::from_graph({0, 1, 1, 2, 2, 3}, {1, 1, 2}, graph);
   hf::Solver solver(surface);
   solver.add_sites({0, 3}, {0, 5});
   EXPECT_NEAR(solver.solve_f64()[2], 4, 1e-12);
   EXPECT_EQ(surface.info().operator_kind, HF_OPERATOR_GRAPH);
   EXPECT_EQ(surface.report().component_count, 1u);
-  EXPECT_THROW(hf::Surface::from_graph(4, {0, 1, 1}, {1, 1}), std::invalid_argument);
+  EXPECT_THROW(hf::Surface::from_graph({0, 1, 1}, {1, 1}, graph), std::invalid_argument);
   try {
     const hf::Pose pose(surface);
     FAIL();
@@ -87,8 +89,8 @@ TEST(Wrapper, directions_follow_their_constraints) {
   EXPECT_NEAR(field[3 * 15], 1, 1e-6);
   EXPECT_NEAR(field[3 * 15 + 1], 2, 1e-6);
   EXPECT_TRUE(direction.singularities().empty());
-  direction.rotate_site(sites[0], std::acos(0.0));
-  direction.move_site(sites[0], 9);
+  direction.rotate_sites({sites[0]}, {std::acos(0.0)});
+  direction.move_sites({sites[0]}, {9});
   field = direction.solve();
   EXPECT_NEAR(field[3 * 15], -2, 1e-6);
   direction.set_vectors(sites, {3, 0, 0});
@@ -108,7 +110,7 @@ TEST(Wrapper, picks_and_reports) {
   EXPECT_EQ(hit.vertex, 6u);
   EXPECT_NEAR(hit.distance, 5, 1e-9);
   EXPECT_EQ(surface.cast_ray({3.1, 2, 5}, {0, 0, -1}).found, 0);
-  EXPECT_EQ(surface.find_vertex({8.2, 1.1, 0.3}), 17u);
+  EXPECT_EQ(std::get<0>(surface.find_vertex({8.2, 1.1, 0.3})), 17u);
 }
 
 TEST(Wrapper, throws_with_code_and_index) {
@@ -123,7 +125,7 @@ TEST(Wrapper, throws_with_code_and_index) {
     EXPECT_EQ(error.index(), 1u);
     EXPECT_NE(std::string(error.what()).find("hf_add_sites"), std::string::npos);
   }
-  EXPECT_THROW(solver.add_sites({0}, {}), std::invalid_argument);
+  EXPECT_THROW(solver.add_sites({0}, {0, 1}), std::invalid_argument);
   EXPECT_EQ(solver.site_count(), 0u);
 }
 
@@ -143,19 +145,21 @@ TEST(Wrapper, handles_move_and_children_outlive_parents) {
   const auto handles = pose.add_handles({{0, 1}, {16, 17}});
   const auto rest = pose.deform();
   for (size_t i = 0; i < rest.size(); ++i) EXPECT_NEAR(rest[i], strip.positions[i], 1e-6);
-  pose.set_transform(handles[1], {{0, 0, 0, 1}, {0, 0, 2}});
+  pose.set_transform(handles[1], {}, {{0, 0, 2}});
   EXPECT_NEAR(pose.clone().deform()[3 * 17 + 2], 2, 1e-6);
 
-  pose.set_transform(handles[0], {{0, 0, 0, 1}, {0, 0, 2}});
+  pose.set_transform(handles[0], {}, {{0, 0, 2}});
   pose.deform();
-  const auto still = pose.add_handles({{8, 9}}, 0, true);
+  hf::HandlesOptions in_place;
+  in_place.in_place = true;
+  const auto still = pose.add_handles({{8, 9}}, in_place);
   EXPECT_NEAR(pose.handle(still[0]).translation[2], 2, 1e-6);
-  const double point[3] = {6, 0.5, 0};
-  EXPECT_NEAR(pose.handle(pose.add_handle(point, 0.6, 0, true)).translation[2], 2, 1e-6);
+  in_place.points = {6, 0.5, 0};
+  in_place.radii = {0.6};
+  EXPECT_NEAR(pose.handle(pose.add_handles({}, in_place)[0]).translation[2], 2, 1e-6);
   EXPECT_NEAR(pose.deform()[3 * 8 + 2], 2, 1e-6);
 
-  transfer.add_pair({0, 1}, {0, 1});
-  transfer.add_pair({16, 17}, {16, 17});
+  transfer.add_pairs({{0, 1}, {16, 17}}, {{0, 1}, {16, 17}});
   const auto played = transfer.apply(strip.positions);
   for (size_t i = 0; i < played.size(); ++i) EXPECT_NEAR(played[i], strip.positions[i], 1e-5);
 }
@@ -166,20 +170,20 @@ TEST(Wrapper, reads_lines_points_distances_and_tips_of_a_strip) {
   hf::Solver solver(surface);
   solver.add_sites({0, 1, 16, 17}, {0, 0, 1, 1});
   const auto field = solver.solve_f64();
-  const auto levels = hf::space_levels(surface, field, HF_LEVELS_LENGTH, 3);
+  const auto levels = surface.space_levels(field, 3, HF_LEVELS_LENGTH);
   ASSERT_EQ(levels.size(), 3u);
   EXPECT_NEAR(levels[1], 0.5, 1e-9);
-  const auto lines = hf::trace_isolines(surface, field, levels);
+  const auto lines = surface.trace_isolines(field, levels);
   EXPECT_EQ(lines.line_levels, (std::vector<uint32_t>{0, 1, 2}));
   EXPECT_EQ(lines.line_closed, (std::vector<int32_t>{0, 0, 0}));
   EXPECT_EQ(lines.positions.size(), 3 * lines.parameters.size());
   int index = 0;
-  for (const auto& point : hf::find_critical_points(surface, field)) index += point.index;
+  for (const auto& point : surface.find_critical_points(field)) index += point.index;
   EXPECT_EQ(index, 1);  // a disk
   const hf::Geodesics geodesics(surface);
-  const auto distance = geodesics.distance({0, 1});
+  const auto distance = geodesics.solve_f64({0, 1});
   EXPECT_NEAR(distance[16], 8, 0.8);
-  const auto tips = hf::find_extremities(surface);
+  const auto tips = surface.find_extremities();
   ASSERT_EQ(tips.size(), 2u);
   EXPECT_NEAR(std::fabs(tips[0].position[0] - tips[1].position[0]), 8, 0.01);
 }
@@ -205,9 +209,9 @@ TEST(Wrapper, quads_are_made_again_along_a_stroke_and_around_a_pole) {
   const hf::Surface surface(sheet.positions, sheet.triangles);
   auto desc = hf::make<hf_quads_desc>();
   desc.face_count = 100;
-  hf::Quads quads(surface, &desc);
-  const hf::QuadMesh plain = quads.mesh();
-  EXPECT_EQ(plain.positions, hf::make_quads(surface, &desc).positions);
+  hf::Quads quads(surface, desc);
+  const hf::QuadsMesh plain = quads.mesh();
+  EXPECT_EQ(plain.positions, hf::Quads(surface, desc).mesh().positions);
   const uint32_t place = 13 * 2 + 6;
   const double along[3] = {1, 1, 0};
   auto stroke = desc;
@@ -220,8 +224,8 @@ TEST(Wrapper, quads_are_made_again_along_a_stroke_and_around_a_pole) {
   EXPECT_EQ(quads.mesh().faces.size(), size_t{4} * quads.info().face_count);
   stroke.relax_count = 0;
   quads.update(stroke);
-  const hf::QuadMesh guided = quads.mesh();
-  EXPECT_EQ(guided.positions, hf::make_quads(surface, &stroke).positions);
+  const hf::QuadsMesh guided = quads.mesh();
+  EXPECT_EQ(guided.positions, hf::Quads(surface, stroke).mesh().positions);
   stroke.relax_count = 1001;
   EXPECT_THROW(quads.update(stroke), hf::Error);
   EXPECT_EQ(quads.mesh().positions, guided.positions);
@@ -232,7 +236,7 @@ TEST(Wrapper, quads_are_made_again_along_a_stroke_and_around_a_pole) {
   pole.irregular_points = at;
   pole.irregular_valences = &three;
   quads.update(pole);
-  EXPECT_EQ(quads.mesh().positions, hf::make_quads(surface, &pole).positions);
+  EXPECT_EQ(quads.mesh().positions, hf::Quads(surface, pole).mesh().positions);
   EXPECT_NE(quads.mesh().positions, plain.positions);
   pole.irregular_valences = &four;
   EXPECT_THROW(quads.update(pole), hf::Error);
@@ -244,8 +248,13 @@ TEST(Wrapper, regions_morph_and_hand_their_detail_on) {
   const Sheet sheet;
   const std::vector<float>& positions = sheet.positions;
   const hf::Surface surface(positions, sheet.triangles);
-  hf::Region region(surface, positions, HF_BASE_MEMBRANE);
-  region.enclose({13 * 3 + 3, 13 * 3 + 9, 13 * 9 + 9, 13 * 9 + 3});
+  hf::RegionOptions membrane;
+  membrane.positions = positions;
+  membrane.base = HF_BASE_MEMBRANE;
+  hf::Region region(surface, membrane);
+  hf::RegionEditOptions enclose;
+  enclose.curve = hf::Curve{{13 * 3 + 3, 13 * 3 + 9, 13 * 9 + 9, 13 * 9 + 3}};
+  region.edit(enclose);
   EXPECT_EQ(region.info().vertex_count, 25u);
   EXPECT_GT(region.curve().size(), 3u * 4u);
   EXPECT_EQ(region.vertices(HF_REGION_RIM).size(), region.info().rim_count);
@@ -260,16 +269,22 @@ TEST(Wrapper, regions_morph_and_hand_their_detail_on) {
   for (size_t i = 0; i < back.size(); ++i) EXPECT_NEAR(back[i], positions[i], 1e-5f);
   hf::History<hf::Region> edits;
   edits.record(region.clone());
-  region.grow(1);
+  hf::RegionEditOptions grow;
+  grow.ring_count = 1;
+  region.edit(grow);
   EXPECT_EQ(region.info().factorisation_count, 0u);
   const hf::Region grown = region.clone();
   edits.undo(region);
   EXPECT_LT(region.info().vertex_count, grown.info().vertex_count);
   edits.redo(region);
-  region.remove_vertices({13 * 6 + 6});
-  region.add_vertices({13 * 6 + 6});
+  hf::RegionEditOptions remove, add;
+  remove.remove_vertices = {13 * 6 + 6};
+  region.edit(remove);
+  add.add_vertices = {13 * 6 + 6};
+  region.edit(add);
   EXPECT_EQ(region.info().vertex_count, grown.info().vertex_count);
-  EXPECT_THROW(region.enclose({0, 1}), hf::Error);
+  enclose.curve = hf::Curve{{0, 1}};
+  EXPECT_THROW(region.edit(enclose), hf::Error);
 }
 
 }  // namespace

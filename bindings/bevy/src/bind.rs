@@ -45,8 +45,8 @@ pub(crate) fn bind(
     for (root, deformer) in &new {
         let made = below.collect(root, &meshes).and_then(|soup| match soup {
             Some(soup) => {
-                let extras = hf::Extras { links: deformer.links, ..default() };
-                let surface = hf::Surface::with(&soup.positions, &soup.triangles, &deformer.surface, &extras)?;
+                let options = hf::SurfaceOptions { links: deformer.links, ..deformer.surface };
+                let surface = hf::Surface::new(&soup.positions, &soup.triangles, &options)?;
                 let pose = hf::Pose::new(&surface, &deformer.pose)?;
                 Ok(Some((surface, pose, soup)))
             }

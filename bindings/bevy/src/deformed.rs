@@ -32,13 +32,17 @@ pub(crate) struct Part {
     pub(crate) rest_tangents: Option<Vec<[f32; 4]>>,
 }
 
+/// A rotation (a unit quaternion x, y, z, w) and a translation.
+type Motion = ([f64; 4], [f64; 3]);
+const AT_REST: Motion = ([0.0, 0.0, 0.0, 1.0], [0.0; 3]);
+
 /// A handle that the pose has, or that it refused.
 struct Grip {
     handle: DeformHandle,
     /// its number in the pose; `None`: refused
     number: Option<u32>,
     centroid: DVec3,
-    transform: hf::Transform,
+    transform: Motion,
     /// the place of its entity was refused
     failed: bool,
 }
@@ -129,12 +133,13 @@ impl DeformedMesh {
 
     /// Places for handles, those that hold the body first (`pinned` is 1). Y points up.
     pub fn propose_handles(&self) -> hf::Result<Vec<hf_handle_proposal>> {
-        self.surface.propose_handles()
+        self.surface.propose_handles(&default())
     }
 
     /// The first triangle of the posed surface on a ray; `None` when the ray misses. The ray is one of the deformer's space.
     pub fn pick(&self, origin: Vec3, direction: Vec3) -> hf::Result<Option<hf_hit>> {
-        self.surface.cast_ray(origin.as_dvec3().to_array(), direction.as_dvec3().to_array(), Some(&self.posed), 0)
+        let options = hf::PickOptions { positions: Some((&self.posed).into()), ..default() };
+        self.surface.cast_ray(&origin.as_dvec3().to_array(), &direction.as_dvec3().to_array(), &options)
     }
 
     /// How long the last frame that moved a vertex took: all, with meshes written, and the part of it that solved the pose.
@@ -149,7 +154,7 @@ impl DeformedMesh {
         moved |= self.add(wanted);
         if self.pose.handle_count() > 0 && !self.shading.begun() {
             // no handle has moved yet: these are the normals at rest
-            if self.pose.deform_with_normals_into(&mut self.posed, &mut self.normals, options).is_ok() {
+            if self.pose.deform_into(&mut self.posed, Some(&mut self.normals), options).is_ok() {
                 self.shading.begin(self.rest.as_chunks().0, self.normals.as_chunks().0);
             }
         }
@@ -161,7 +166,7 @@ impl DeformedMesh {
             self.posed.copy_from_slice(&self.rest);
             (self.shows, self.behind, self.settled) = (Shows::Rest, true, true);
         } else if moved || !self.settled {
-            match self.pose.deform_with_normals_into(&mut self.posed, &mut self.normals, options) {
+            match self.pose.deform_into(&mut self.posed, Some(&mut self.normals), options) {
                 Ok(info) => {
                     (self.shows, self.behind, self.settled) = (Shows::Pose, true, info.last_change < SETTLED);
                 }
@@ -220,9 +225,10 @@ impl DeformedMesh {
     fn add_batch(&mut self, batch: &[&Wanted]) -> hf::Result<()> {
         let points: Vec<f64> = batch.iter().flat_map(|wanted| wanted.handle.point.as_dvec3().to_array()).collect();
         let radii: Vec<f64> = batch.iter().map(|wanted| wanted.handle.radius as f64).collect();
-        let numbers = self.pose.add_handles_at(&points, &radii, batch[0].handle.layer)?;
+        let options = hf::HandlesOptions { points: Some(&points), radii: Some(&radii), layer: batch[0].handle.layer, ..default() };
+        let numbers = self.pose.add_handles(None, &options)?;
         for (wanted, number) in batch.iter().zip(numbers) {
-            let centroid = DVec3::from_array(self.pose.handle_info(number)?.centroid);
+            let centroid = DVec3::from_array(self.pose.handle(number)?.centroid);
             self.keep(wanted, Some(number), centroid);
             self.said.push((wanted.entity, None));
         }
@@ -230,7 +236,7 @@ impl DeformedMesh {
     }
 
     fn keep(&mut self, wanted: &Wanted, number: Option<u32>, centroid: DVec3) {
-        let grip = Grip { handle: wanted.handle, number, centroid, transform: default(), failed: false };
+        let grip = Grip { handle: wanted.handle, number, centroid, transform: AT_REST, failed: false };
         self.grips.insert(wanted.entity, grip);
     }
 
@@ -242,7 +248,7 @@ impl DeformedMesh {
             let Some(number) = grip.number else { continue };
             let placed = motion(wanted, grip.centroid).and_then(|transform| {
                 if grip.transform != transform {
-                    self.pose.set_transform(number, transform)?;
+                    self.pose.set_transform(number, Some(transform.0), Some(transform.1))?;
                     (grip.transform, moved) = (transform, true);
                 }
                 Ok(())
@@ -309,7 +315,7 @@ impl DeformedMesh {
 }
 
 /// The motion of a handle's region about its centroid.
-fn motion(wanted: &Wanted, centroid: DVec3) -> hf::Result<hf::Transform> {
+fn motion(wanted: &Wanted, centroid: DVec3) -> hf::Result<Motion> {
     let (_, turn, place) = wanted.place.to_scale_rotation_translation();
     if !(turn.is_finite() && place.is_finite()) {
         let message = "the transform of a handle's entity must be finite and have a scale other than 0".into();
@@ -317,5 +323,5 @@ fn motion(wanted: &Wanted, centroid: DVec3) -> hf::Result<hf::Transform> {
     }
     let turn = DQuat::from_xyzw(turn.x.into(), turn.y.into(), turn.z.into(), turn.w.into()).normalize();
     let translation = place.as_dvec3() + turn * (centroid - wanted.handle.point.as_dvec3()) - centroid;
-    Ok(hf::Transform { rotation: turn.to_array(), translation: translation.to_array() })
+    Ok((turn.to_array(), translation.to_array()))
 }

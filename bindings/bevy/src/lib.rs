@@ -44,9 +44,9 @@ impl Plugin for DeformPlugin {
 #[require(Transform)]
 pub struct Deformer {
     /// how the surface is made
-    pub surface: hf::SurfaceOptions,
+    pub surface: hf::SurfaceOptions<'static>,
     /// how pieces that are not connected are linked, such as eyes and clothes: by default all that are near; `None`: they are not
-    pub links: Option<hf::LinkOptions>,
+    pub links: Option<hf::Links<'static>>,
     /// how the pose is made
     pub pose: hf::PoseOptions,
     /// how a frame is deformed
@@ -55,7 +55,7 @@ pub struct Deformer {
 
 impl Default for Deformer {
     fn default() -> Self {
-        let links = Some(hf::LinkOptions { mode: hf::raw::HF_LINK_PIECES, ..default() });
+        let links = Some(hf::Links { mode: hf::raw::HF_LINK_PIECES, ..default() });
         Deformer { surface: default(), links, pose: default(), deform: default() }
     }
 }

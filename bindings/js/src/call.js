@@ -5,11 +5,18 @@ import { Struct, doubles, fail, integers, read, rows, scalar, written } from './
 const types = { f4: Float32Array, f8: Float64Array, u4: Uint32Array, u2: Uint16Array, u1: Uint8Array, i4: Int32Array };
 const suffix = { f8: '_f64', u2: '_u16' }; // the field that takes the other type of array
 
+const split = new Map(); // 'f4 f8' -> its parts, read once
+function parts(text, separator) {
+  let found = split.get(text);
+  if (!found) split.set(text, (found = text.split(separator)));
+  return found;
+}
+
 /** An array of a type that the library takes ('f4 f8'), as given when it is one. */
 function converted(values, name, kinds) {
-  const [first, second] = kinds.split(' ');
+  const [first, second] = parts(kinds, ' ');
   if (values instanceof types[first] || (second && values instanceof types[second])) return values;
-  if (kinds.startsWith('f')) {
+  if (kinds[0] === 'f') {
     const array = doubles(values, name);
     return kinds === 'f4' ? Float32Array.from(array) : array;
   }
@@ -26,15 +33,16 @@ export function callClass(backend) {
       return told.get(owner)?.[type]?.toObject() ?? make(type).toObject();
     }
 
-    constructor(owner, named = {}) {
+    constructor(owner, named) {
       this.n = { ...owner?._n };
-      for (const [name, thing] of Object.entries(named))
-        for (const [key, value] of Object.entries(thing?._n ?? {})) this.n[`${name}.${key}`] = this.n[key] = value;
+      for (const name in named)
+        for (const [key, value] of Object.entries(named[name]?._n ?? {})) this.n[`${name}.${key}`] = this.n[key] = value;
     }
 
     told(owner, type) {
-      if (!told.has(owner)) told.set(owner, {});
-      return (told.get(owner)[type] = make(type));
+      let structs = told.get(owner);
+      if (!structs) told.set(owner, (structs = {}));
+      return (structs[type] ??= make(type));
     }
 
     known(key, value) {
@@ -43,7 +51,9 @@ export function callClass(backend) {
 
     struct(type, fields) {
       const made = make(type);
-      for (const [name, value] of Object.entries(fields)) {
+      for (const name in fields) {
+        const value = fields[name];
+        if (value === 0 || value === false) continue; // the default of every field
         const shown = name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
         if (value === null || value === undefined) fail(`option '${shown}' must be a number, not ${value}`);
         made.set(name, value, `option '${shown}'`);
@@ -53,19 +63,28 @@ export function callClass(backend) {
 
     size(dim) {
       if (typeof dim === 'number') return dim;
-      const [base, more] = dim.split(' + ');
+      const known = this.n[dim];
+      if (known !== undefined) return known;
+      const [base, more] = parts(dim, ' + ');
       return base in this.n ? this.n[base] + Number(more ?? 0) : null;
     }
 
     /** Checks how many numbers there are; a dimension that is not known yet becomes known. */
     fit(length, name, dims) {
-      const loose = dims.filter((dim) => this.size(dim) === null);
-      const known = dims.reduce((product, dim) => product * (this.size(dim) ?? 1), 1);
-      if (!loose.length && length !== known) fail(`${name} must hold ${known} numbers, not ${length}`);
-      if (loose.length > 1) fail(`${name} cannot be read without what it belongs to`);
-      if (!loose.length) return;
+      let known = 1;
+      let loose = null;
+      for (const dim of dims) {
+        const size = this.size(dim);
+        if (size !== null) known *= size;
+        else if (loose === null) loose = dim;
+        else fail(`${name} cannot be read without what it belongs to`);
+      }
+      if (loose === null) {
+        if (length !== known) fail(`${name} must hold ${known} numbers, not ${length}`);
+        return;
+      }
       if (known ? length % known : length) fail(`${name} must hold ${known} numbers for each, not ${length}`);
-      const [base, more] = loose[0].split(' + ');
+      const [base, more] = parts(loose, ' + ');
       this.n[base] = known ? Math.max(length / known - Number(more ?? 0), 0) : 0;
     }
 
@@ -82,12 +101,12 @@ export function callClass(backend) {
       if (values === null || values === undefined) return;
       const array = converted(values, name, kinds);
       this.fit(array.length, name, dims);
-      const [, second] = kinds.split(' ');
+      const [, second] = parts(kinds, ' ');
       struct.set(second && array instanceof types[second] ? field + suffix[second] : field, read(array));
     }
 
     counts(struct, fields) {
-      for (const [field, [key, least]] of Object.entries(fields)) struct.set(field, (this.n[key] ??= least));
+      for (const field in fields) struct.set(field, (this.n[fields[field][0]] ??= fields[field][1]));
     }
 
     /** Lists of different lengths, one after the other. */
@@ -177,10 +196,12 @@ export function callClass(backend) {
 
     /** The caller's array, or a new one. */
     out(given, kinds, dims, Type, name = 'out') {
-      const count = dims.reduce((product, dim) => product * (this.size(dim) ?? 0), 1);
-      const allowed = kinds.split(' ').map((kind) => types[kind]);
-      if (given === null || given === undefined) return new (Type ?? allowed[0])(count);
-      if (!allowed.some((Kind) => given instanceof Kind)) fail(`${name} must be a ${allowed.map((Kind) => Kind.name).join(' or ')}`);
+      let count = 1;
+      for (const dim of dims) count *= this.size(dim) ?? 0;
+      const allowed = parts(kinds, ' ');
+      if (given === null || given === undefined) return new (Type ?? types[allowed[0]])(count);
+      if (!allowed.some((kind) => given instanceof types[kind]))
+        fail(`${name} must be a ${allowed.map((kind) => types[kind].name).join(' or ')}`);
       if (given.length !== count) fail(`${name} must hold ${count} numbers, not ${given.length}`, 'HF_ERROR_TOO_SMALL');
       return given;
     }

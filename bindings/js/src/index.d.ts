@@ -358,6 +358,66 @@ export interface SolverStatistics {
 }
 
 /**
+ * The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints, 0 where there is
+ * no such part; those of legs are of the hindmost pair that stands.
+ */
+export interface SkeletonInfo {
+  jointCount: number;
+  chainCount: number;
+  /** unit axes in the space of the joints */
+  up: number[];
+  forward: number[];
+  /** up x forward */
+  left: number[];
+  /** a point on the ground in the plane of symmetry */
+  middle: number[];
+  upConfidence: number;
+  forwardConfidence: number;
+  leftConfidence: number;
+  roleConfidence: number;
+  /** along up, over the ground */
+  height: number;
+  /** hip to knee to foot, and the height of the foot */
+  legLength: number;
+  /** of the joint of the thigh, over the ground */
+  hipHeight: number;
+  /** upper arm to hand */
+  armLength: number;
+}
+
+/** What a joint was found to be. */
+export interface JointInfo {
+  /** HF_JOINT_KIND_* */
+  kind: number;
+  /** HF_ROLE_*; of a twist joint, the role of its bone */
+  role: number;
+  /** HF_SIDE_* */
+  side: number;
+  /** number of its chain, constants.HF_NO_INDEX: none */
+  chain: number;
+  /** the joint that mirrors it, constants.HF_NO_INDEX: none */
+  mate: number;
+}
+
+/** Joints of one role and side, from root to tip. */
+export interface Chain {
+  /** HF_ROLE_* */
+  role: number;
+  /** HF_SIDE_* */
+  side: number;
+  /** counts the chains of one role and side: legs from the front, others as their joints come */
+  number: number;
+  /** the chain it hangs on, constants.HF_NO_INDEX: none */
+  parent: number;
+  /** its first entry in Skeleton.chainJoints */
+  first: number;
+  /** entries there, from root to tip */
+  jointCount: number;
+  /** along the joints, up to the first joint of the chain at its tip */
+  length: number;
+}
+
+/**
  * Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 -
  * parameter) a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours: each
  * is null or as large as its capacity.
@@ -711,66 +771,6 @@ export interface ChainMatch {
   worstAngle: number;
 }
 
-/**
- * The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints, 0 where there is
- * no such part; those of legs are of the hindmost pair that stands.
- */
-export interface SkeletonInfo {
-  jointCount: number;
-  chainCount: number;
-  /** unit axes in the space of the joints */
-  up: number[];
-  forward: number[];
-  /** up x forward */
-  left: number[];
-  /** a point on the ground in the plane of symmetry */
-  middle: number[];
-  upConfidence: number;
-  forwardConfidence: number;
-  leftConfidence: number;
-  roleConfidence: number;
-  /** along up, over the ground */
-  height: number;
-  /** hip to knee to foot, and the height of the foot */
-  legLength: number;
-  /** of the joint of the thigh, over the ground */
-  hipHeight: number;
-  /** upper arm to hand */
-  armLength: number;
-}
-
-/** What a joint was found to be. */
-export interface JointInfo {
-  /** HF_JOINT_KIND_* */
-  kind: number;
-  /** HF_ROLE_*; of a twist joint, the role of its bone */
-  role: number;
-  /** HF_SIDE_* */
-  side: number;
-  /** number of its chain, constants.HF_NO_INDEX: none */
-  chain: number;
-  /** the joint that mirrors it, constants.HF_NO_INDEX: none */
-  mate: number;
-}
-
-/** Joints of one role and side, from root to tip. */
-export interface Chain {
-  /** HF_ROLE_* */
-  role: number;
-  /** HF_SIDE_* */
-  side: number;
-  /** counts the chains of one role and side: legs from the front, others as their joints come */
-  number: number;
-  /** the chain it hangs on, constants.HF_NO_INDEX: none */
-  parent: number;
-  /** its first entry in Skeleton.chainJoints */
-  first: number;
-  /** entries there, from root to tip */
-  jointCount: number;
-  /** along the joints, up to the first joint of the chain at its tip */
-  length: number;
-}
-
 export interface PairInfo {
   flags: number;
   /** of the pair's fields, see HandleInfo */
@@ -966,11 +966,6 @@ export interface CurveDescGiven {
 export interface FactorDescGiven {
   /** all of them, as saved */
   bytes?: Uint8Array | null;
-  /**
-   * 0: the bytes are copied. 1: numbers are read in place (a mapped file, say). Then the bytes stay unchanged
-   *     until the surface and everything made on it are destroyed, and are aligned to HF_FACTOR_ALIGNMENT
-   */
-  borrow?: boolean | number;
 }
 
 /**
@@ -1084,25 +1079,25 @@ export interface ProgressClass {
  *
  * positions: vertexCount x 3 numbers, any unit, any offset
  * triangles: triangleCount x 3 numbers, counter-clockwise seen from outside
- * face_starts: faceCount numbers first corner of each face. null: the faces follow one another. Without face_sizes
+ * faceStarts: faceCount numbers first corner of each face. null: the faces follow one another. Without face_sizes
  *     faceCount + 1 numbers: the corners of face f end where those of f + 1 start
- * face_sizes: faceCount numbers corners of each face, 3 to 65,535. null: face_starts is enough
+ * faceSizes: faceCount numbers corners of each face, 3 to 65,535. null: face_starts is enough
  * corners: cornerCount numbers vertices, counter-clockwise seen from outside
  * weld: HF_WELD_*
- * weld_tolerance: for HF_WELD_TOLERANCE, in the unit of the positions, > 0
- * operator_kind: HF_OPERATOR_*
- * field_kind: HF_FIELD_*: the factor made now. Others are made when a solver or region asks
+ * weldTolerance: for HF_WELD_TOLERANCE, in the unit of the positions, > 0
+ * operatorKind: HF_OPERATOR_*
+ * fieldKind: HF_FIELD_*: the factor made now. Others are made when a solver or region asks
  * ordering: HF_ORDERING_*
- * thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
- * vertex_limit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles
+ * threadCount: threads the library may use, yours included, 1 to 256; 0 = 1
+ * vertexLimit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles
  *     or edges are always refused
- * triangle_limit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the vertex
+ * triangleLimit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the vertex
  *     limit
- * memory_limit_mb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
- * work_limit_gflop: refuse a factorisation of more than this many 10^9 operations. They are counted before it
+ * memoryLimitMb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
+ * workLimitGflop: refuse a factorisation of more than this many 10^9 operations. They are counted before it
  *     begins; 0 = 100,000, about an hour of one core
  * progress: an object to poll and cancel through
- * saved_factor: the saved factor of this mesh; ordering is then 0 or the factor's
+ * savedFactor: the saved factor of this mesh; ordering is then 0 or the factor's
  * links: null: HF_LINK_NONE. A saved factor needs the links it was made with
  */
 export interface Surface extends Handle {
@@ -1146,12 +1141,12 @@ export interface Surface extends Handle {
    * tags: vertexCount numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of
    *     a piece counts
    * links: linkCount numbers
-   * light_vertices: lightCount numbers: their pieces are light
-   * heavy_vertices: heavyCount numbers: their pieces are not, as one that gets a site or handle
+   * lightVertices: lightCount numbers: their pieces are light
+   * heavyVertices: heavyCount numbers: their pieces are not, as one that gets a site or handle
    * mode: HF_LINK_*
    * distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
    * stiffness: of all links, times each one's weight; 0 = 1
-   * overlay_distance: automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of
+   * overlayDistance: automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of
    *     the diagonal, below 0: no piece is light unless light_vertices say so
    * progress: an object to poll and cancel through.
    *
@@ -1166,7 +1161,7 @@ export interface Surface extends Handle {
    * options and library version, whatever the number of threads. The bytes are little-endian and hold a format
    * version, a hash of the matrix and a checksum. They hold no sites.
    *
-   * field_kind: HF_FIELD_*; a factor that does not exist yet is made first.
+   * fieldKind: HF_FIELD_*; a factor that does not exist yet is made first.
    * progress: an object to poll and cancel through.
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_TOO_SMALL.
@@ -1178,7 +1173,7 @@ export interface Surface extends Handle {
    * origin: 3 numbers in the frame of the positions; the direction can have any length above 0.
    * direction: 3 numbers in the frame of the positions; the direction can have any length above 0.
    * positions: vertexCount x 3 numbers posed positions (Pose.deform writes them), or null
-   * front_only: 1: a ray passes triangles seen from behind
+   * frontOnly: 1: a ray passes triangles seen from behind
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
    */
@@ -1189,7 +1184,7 @@ export interface Surface extends Handle {
    *
    * point: 3 numbers in the frame of the positions.
    * positions: vertexCount x 3 numbers posed positions (Pose.deform writes them), or null
-   * front_only: 1: a ray passes triangles seen from behind
+   * frontOnly: 1: a ray passes triangles seen from behind
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
    */
@@ -1206,7 +1201,7 @@ export interface Surface extends Handle {
    * from the pole on a sphere.
    *
    * spacing: HF_LEVELS_*.
-   * level_count: 1 to 1,000,000.
+   * levelCount: 1 to 1,000,000.
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
    */
@@ -1242,8 +1237,8 @@ export interface Surface extends Handle {
    * depend on the order of the vertices. Pose and meshing change it only within the resolution of the mesh.
    *
    * kind: HF_EXTREMITIES_*
-   * least_length_share: tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10
-   * source_count: sources of the mean distance per component, 1 to 1,000; 0 = 40
+   * leastLengthShare: tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10
+   * sourceCount: sources of the mean distance per component, 1 to 1,000; 0 = 40
    * geodesics: for HF_EXTREMITIES_GEODESIC: an object of this surface. If its method is HF_GEODESICS_HEAT its
    *     factor serves; else, and for null, the call makes a factor
    * progress: an object to poll and cancel through
@@ -1261,7 +1256,7 @@ export interface Surface extends Handle {
    * joints: jointCount x 3 numbers their places at rest, in the unit and frame of the mesh
    * parents: jointCount numbers position of each joint's parent in the list; constants.HF_NO_INDEX for a root
    * up: direction away from the ground, of any length; 0 0 0 = 0 1 0
-   * least_length_share: as in hf_extremities_desc; 0 = 0.05
+   * leastLengthShare: as in hf_extremities_desc; 0 = 0.05
    * limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
    * progress: an object to poll and cancel through
    *
@@ -1292,18 +1287,18 @@ export interface SurfaceClass {
    * weights: edgeCount numbers any unit, up to 1e100 in size. An edge of weight 0 is left out
    * masses: vertexCount numbers M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; null: all 1. A mass
    *     below 1e-4 of the mean of its component counts as that
-   * vertex_count: >= 1, also without masses
-   * allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
+   * vertexCount: >= 1, also without masses
+   * allowNegative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
    *     tetrahedra do. A field can then leave the range of its sites. 0: they are refused
-   * field_kind: HF_FIELD_*: the factor made now. Others are made when a solver asks
+   * fieldKind: HF_FIELD_*: the factor made now. Others are made when a solver asks
    * ordering: HF_ORDERING_*
-   * thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
-   * vertex_limit: refuse larger graphs before allocating; 0 = 20,000,000
-   * edge_limit: refuse more edges; 0 = sixteen per vertex of the vertex limit
-   * memory_limit_mb: refuse to hold more memory than this, in MiB; 0 = no limit
-   * work_limit_gflop: refuse a factorisation of more than this many 10^9 operations; 0 = 100,000
+   * threadCount: threads the library may use, yours included, 1 to 256; 0 = 1
+   * vertexLimit: refuse larger graphs before allocating; 0 = 20,000,000
+   * edgeLimit: refuse more edges; 0 = sixteen per vertex of the vertex limit
+   * memoryLimitMb: refuse to hold more memory than this, in MiB; 0 = no limit
+   * workLimitGflop: refuse a factorisation of more than this many 10^9 operations; 0 = 100,000
    * progress: an object to poll and cancel through
-   * saved_factor: the saved factor of this graph; ordering is then 0 or the factor's
+   * savedFactor: the saved factor of this graph; ordering is then 0 or the factor's
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
    * HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -1317,10 +1312,10 @@ export interface SurfaceClass {
  *
  * Creates a solver without sites.
  *
- * field_kind: HF_FIELD_*; if the surface has no factor of that kind yet, it is made now
+ * fieldKind: HF_FIELD_*; if the surface has no factor of that kind yet, it is made now
  * engine: HF_ENGINE_*
- * channel_count: fields solved at once, 1 to 64; 0 = 1
- * site_limit: at most this many sites; 0 = 100,000
+ * channelCount: fields solved at once, 1 to 64; 0 = 1
+ * siteLimit: at most this many sites; 0 = 100,000
  * penalty: HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
  * progress: an object to poll and cancel through
  */
@@ -1404,11 +1399,11 @@ export interface Solver extends Recorded {
   /**
    * Applies a batch of edits at once.
    *
-   * remove_sites: removeCount numbers
-   * move_sites: moveCount numbers
-   * set_sites: setCount numbers
-   * set_values: setCount x channelCount numbers
-   * move_to: places of moveCount numbers sites
+   * removeSites: removeCount numbers
+   * moveSites: moveCount numbers
+   * setSites: setCount numbers
+   * setValues: setCount x channelCount numbers
+   * moveTo: places of moveCount numbers sites
    * add: the sites to add
    */
   editSites(options?: { removeSites?: Rows | null; moveSites?: Rows | null; setSites?: Rows | null; setValues?: Rows | null; moveTo?: SitesDescGiven | Rows | null; add?: SitesDescGiven | Rows | null }): Uint32Array;
@@ -1478,7 +1473,7 @@ export interface Solver extends Recorded {
    * Engines other than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites.
    * info.exact is then 1.
    *
-   * correction_count: 0 to 8.
+   * correctionCount: 0 to 8.
    * out: vertexCount x channelCount numbers, as Solver.solve.
    * info: filled in when given
    *
@@ -1546,6 +1541,55 @@ export interface SolverClass {
 }
 
 /**
+ * A skeleton at rest and the findings about it. Calls read the object, none changes it.
+ *
+ * Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
+ * feet shall stand on the ground. The object keeps a copy of everything.
+ *
+ * names: one line for each joint in UTF-8, or null: names then say nothing
+ * parents: jointCount numbers number of the parent, constants.HF_NO_INDEX for a root
+ * rest: jointCount x 10 numbers joint transforms
+ * inverseBinds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
+ *     names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`, and all
+ *     joints bend it
+ * up: 3 numbers declared axis, any length, or null: find it
+ * forward: 3 numbers declared axis, any length, or null: find it
+ * roles: jointCount numbers declared HF_ROLE_*, -1 for a joint without; or null
+ * sides: jointCount numbers HF_SIDE_* of joints with a declared role; or null: find the sides
+ * travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells forward; or
+ *     null
+ * skin: null: there is none, and joints are judged by names and places alone
+ * progress: an object to poll and cancel through
+ */
+export interface Skeleton extends Handle {
+  readonly jointCount: number;
+  /** Writes the findings. */
+  readonly info: SkeletonInfo;
+  /** Writes one entry for each joint. */
+  joints(): JointInfo[];
+  /** Writes the chains. */
+  chains(): Chain[];
+  /** Writes the joints of chain after chain. */
+  chainJoints(): Uint32Array;
+  /** Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful. */
+  reasons(): string;
+  /**
+   * Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
+   * It is 0 for a clip that travels.
+   *
+   * poses: frameCount x jointCount x 10 numbers.
+   * seconds: between two frames, above 0.
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
+   */
+  groundVelocity(poses: Rows, seconds: number): Float64Array;
+}
+export interface SkeletonClass {
+  new (names?: string | readonly string[] | null, parents?: Rows | null, rest?: Rows | null,
+          options?: { inverseBinds?: Rows | null; up?: Rows | null; forward?: Rows | null; roles?: Rows | null; sides?: Rows | null; travels?: Rows | null; skin?: SkinDescGiven | Rows | null; progress?: Progress | null }): Skeleton;
+}
+
+/**
  * Computes geodesic distances on one surface: the lengths of shortest paths along it.
  *
  * Creates the object and the tables of its method. FRONT and EXACT take a pass over the triangles. HEAT takes one
@@ -1602,7 +1646,7 @@ export interface GeodesicsClass {
  * and factorises once, with two unknowns per vertex.
  *
  * degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
- * site_limit: most constraints; 0 = 100,000
+ * siteLimit: most constraints; 0 = 100,000
  * progress: an object to poll and cancel through
  */
 export interface Direction extends Recorded {
@@ -1699,10 +1743,10 @@ export interface DirectionClass {
  * Creates a pose without handles.
  *
  * mode: HF_DEFORM_*
- * band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
- * iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
- * rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
- * group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+ * bandCount: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+ * iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+ * rimSiteCount: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
+ * groupCount: rotation groups of the smooth mode, 1 to 2000; 0 = 250
  */
 export interface Pose extends Recorded {
   readonly vertexCount: number;
@@ -1719,13 +1763,13 @@ export interface Pose extends Recorded {
    * HF_DEFORM_PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until
    * you move the handle. Handles of lower layers hold the surface in place for the higher layers.
    *
-   * region_vertices: lists of whole numbers: all regions one after the other; vertices as given
+   * regionVertices: lists of whole numbers: all regions one after the other; null: points are given
    * points: handleCount x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-
    *     connected to it within the radius. null: regions are given
    * radii: handleCount numbers of the regions of points, in the unit of the mesh; null: regions are given. A
    *     radius below 1 % of the box makes regions of 2 vertices or more
    * layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
-   * in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+   * inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
@@ -1806,18 +1850,18 @@ export interface Pose extends Recorded {
   /**
    * Does the same as Pose.deform, with the options of a desc.
    *
-   * iteration_count: 1 to 1000; 0 = the pose's
+   * iterationCount: 1 to 1000; 0 = the pose's
    * restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose with
    *     the same handles, added in the same order, and the same transforms. Without restart a frame continues from
    *     the last one, so it also depends on that
    * refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about
    *     0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
-   * refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the smooth
-   *     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still,
-   *     more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of
-   *     1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
-   * first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-   * vertex_count: positions of a range cost only the range, without higher layers, refine and normals
+   * refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth pose.
+   *     Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still, more
+   *     calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1 or
+   *     more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+   * firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
+   * vertexCount: positions of a range cost only the range, without higher layers, refine and normals
    * out: vertexCount x 3 numbers posed positions, or null
    * normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
    * info: filled in when given
@@ -1836,7 +1880,7 @@ export interface Pose extends Recorded {
    * scales, classic bends, twists and lifts replay within 0.5 per cent of the box. Without scales, bends and
    * twists replay within 1 per cent and stretched surfaces within about 2.5 per cent.
    *
-   * influence_count: joints per vertex, 4 or 8; 0 = 4
+   * influenceCount: joints per vertex, 4 or 8; 0 = 4
    * scales: jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.
@@ -1876,24 +1920,24 @@ export interface PoseClass {
  * place and stays there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to
  * four times the Euler characteristic. On a torus or a knot a single one of 5 is often lost.
  *
- * crease_edges: creaseCount x 2 numbers the two vertices of each edge, as given
- * guide_vertices: guideCount numbers as given; guides of one vertex are averaged
- * guide_vectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector and
+ * creaseEdges: creaseCount x 2 numbers the two vertices of each edge, as given
+ * guideVertices: guideCount numbers as given; guides of one vertex are averaged
+ * guideVectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector and
  *     across it
- * guide_weights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with that
+ * guideWeights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with that
  *     of the curvature, which has the rest of the weight
- * irregular_points: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
- * irregular_valences: irregularCount numbers how many quads meet there: 3 or 5
- * irregular_directions: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along it;
+ * irregularPoints: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
+ * irregularValences: irregularCount numbers how many quads meet there: 3 or 5
+ * irregularDirections: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along it;
  *     0 0 0 = any
- * face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
- * edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
- * crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
+ * faceCount: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+ * edgeLength: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+ * creaseAngle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
  *     none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases nearer
  *     to each other than an edge may be released
- * relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; constants.HF_NO_INDEX = none, and the mesh is
+ * relaxCount: rounds of tangential relaxation, up to 1,000; 0 = 60; constants.HF_NO_INDEX = none, and the mesh is
  *     not fitted to the surface either
- * symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads
+ * symmetryPlane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads
  *     are made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the
  *     other side are not used
  * progress: an object to poll and cancel through
@@ -1908,24 +1952,24 @@ export interface Quads extends Handle {
    * belongs to them is made again. After an error `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until
    * `quads` is destroyed.
    *
-   * crease_edges: creaseCount x 2 numbers the two vertices of each edge, as given
-   * guide_vertices: guideCount numbers as given; guides of one vertex are averaged
-   * guide_vectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector and
+   * creaseEdges: creaseCount x 2 numbers the two vertices of each edge, as given
+   * guideVertices: guideCount numbers as given; guides of one vertex are averaged
+   * guideVectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector and
    *     across it
-   * guide_weights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with
+   * guideWeights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with
    *     that of the curvature, which has the rest of the weight
-   * irregular_points: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
-   * irregular_valences: irregularCount numbers how many quads meet there: 3 or 5
-   * irregular_directions: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along
+   * irregularPoints: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
+   * irregularValences: irregularCount numbers how many quads meet there: 3 or 5
+   * irregularDirections: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along
    *     it; 0 0 0 = any
-   * face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
-   * edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
-   * crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
+   * faceCount: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+   * edgeLength: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+   * creaseAngle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
    *     none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases
    *     nearer to each other than an edge may be released
-   * relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; constants.HF_NO_INDEX = none, and the mesh
+   * relaxCount: rounds of tangential relaxation, up to 1,000; 0 = 60; constants.HF_NO_INDEX = none, and the mesh
    *     is not fitted to the surface either
-   * symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads
+   * symmetryPlane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads
    *     are made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the
    *     other side are not used
    * progress: an object to poll and cancel through
@@ -1961,7 +2005,7 @@ export interface Flow extends Handle {
    * that cross the streamlines.
    *
    * seeds: seedCount numbers vertices as given
-   * wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
+   * wantedCount: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
    */
@@ -1995,9 +2039,9 @@ export interface Region extends Recorded {
    * factor that its vertices need. A region may have several pieces, in several components. Progress covers curve,
    * sites and base; the call can be cancelled between them.
    *
-   * remove_vertices: removeCount numbers vertices that leave the region; others are passed over
-   * add_vertices: addCount numbers vertices that join it; those in it already are passed over
-   * ring_count: rings of vertices by which the region grows; below 0 it shrinks
+   * removeVertices: removeCount numbers vertices that leave the region; others are passed over
+   * addVertices: addCount numbers vertices that join it; those in it already are passed over
+   * ringCount: rings of vertices by which the region grows; below 0 it shrinks
    * curve: the region becomes what this curve encloses
    * progress: an object to poll and cancel through
    *
@@ -2052,8 +2096,8 @@ export interface RegionClass {
  *     offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades
  *     to nothing at the rim. If source and target are the same region, the result is the surface itself. Later
  *     edits of the regions do not change the object.
- * source_vertices: pairCount numbers rim vertices of the source, as given
- * target_vertices: pairCount numbers rim vertices of the target, as given
+ * sourceVertices: pairCount numbers rim vertices of the source, as given
+ * targetVertices: pairCount numbers rim vertices of the target, as given
  * scale: of the detail, > 0; 0 = square root of target base area over source base area
  * progress: an object to poll and cancel through
  */
@@ -2084,13 +2128,13 @@ export interface DetailClass {
  * Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through the
  * allocator of the target.
  *
- * source_rest: source.jointCount x 10 numbers a pose that counts as rest, or null: the rest of the skeleton. Give
+ * sourceRest: source.jointCount x 10 numbers a pose that counts as rest, or null: the rest of the skeleton. Give
  *     poses in which both characters stand alike
- * target_rest: target.jointCount x 10 numbers the same for the target, or null
- * root_motion: HF_ROOT_MOTION_*
- * leave_out: bits of HF_RETARGET_*
+ * targetRest: target.jointCount x 10 numbers the same for the target, or null
+ * rootMotion: HF_ROOT_MOTION_*
+ * leaveOut: bits of HF_RETARGET_*
  * scale: travel of the target over travel of the source; 0: the ratio of leg lengths
- * ground_velocity: of the ground under a clip on the spot, in the space of the source, per second; 0: the ground
+ * groundVelocity: of the ground under a clip on the spot, in the space of the source, per second; 0: the ground
  *     rests. Skeleton.groundVelocity finds it
  * progress: an object to poll and cancel through
  */
@@ -2103,7 +2147,7 @@ export interface Retarget extends Recorded {
    * each is planted, and how far it is moved to keep its place. The state comes from the frames since the last
    * reset and fades within a step.
    *
-   * source_pose: source.jointCount x 10 numbers.
+   * sourcePose: source.jointCount x 10 numbers.
    * seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
@@ -2127,55 +2171,6 @@ export interface RetargetClass {
 }
 
 /**
- * A skeleton at rest and the findings about it. Calls read the object, none changes it.
- *
- * Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
- * feet shall stand on the ground. The object keeps a copy of everything.
- *
- * names: one line for each joint in UTF-8, or null: names then say nothing
- * parents: jointCount numbers number of the parent, constants.HF_NO_INDEX for a root
- * rest: jointCount x 10 numbers joint transforms
- * inverse_binds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
- *     names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`, and all
- *     joints bend it
- * up: 3 numbers declared axis, any length, or null: find it
- * forward: 3 numbers declared axis, any length, or null: find it
- * roles: jointCount numbers declared HF_ROLE_*, -1 for a joint without; or null
- * sides: jointCount numbers HF_SIDE_* of joints with a declared role; or null: find the sides
- * travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells forward; or
- *     null
- * skin: null: there is none, and joints are judged by names and places alone
- * progress: an object to poll and cancel through
- */
-export interface Skeleton extends Handle {
-  readonly jointCount: number;
-  /**
-   * Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
-   * It is 0 for a clip that travels.
-   *
-   * poses: frameCount x jointCount x 10 numbers.
-   * seconds: between two frames, above 0.
-   *
-   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
-   */
-  groundVelocity(poses: Rows, seconds: number): Float64Array;
-  /** Writes the findings. */
-  readonly info: SkeletonInfo;
-  /** Writes one entry for each joint. */
-  joints(): JointInfo[];
-  /** Writes the chains. */
-  chains(): Chain[];
-  /** Writes the joints of chain after chain. */
-  chainJoints(): Uint32Array;
-  /** Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful. */
-  reasons(): string;
-}
-export interface SkeletonClass {
-  new (names?: string | readonly string[] | null, parents?: Rows | null, rest?: Rows | null,
-          options?: { inverseBinds?: Rows | null; up?: Rows | null; forward?: Rows | null; roles?: Rows | null; sides?: Rows | null; travels?: Rows | null; skin?: SkinDescGiven | Rows | null; progress?: Progress | null }): Skeleton;
-}
-
-/**
  * hf/transfer.h - play the motion of one surface on another.
  *
  * You pair regions of the source surface with regions of the target surface. From the pairs both surfaces get the
@@ -2187,20 +2182,20 @@ export interface SkeletonClass {
  *
  * Creates a transfer between two surfaces; both may be the same.
  *
- * source_rest: source.vertexCount x 3 numbers, or null Poses in which the two bodies correspond, in each surface's
+ * sourceRest: source.vertexCount x 3 numbers, or null Poses in which the two bodies correspond, in each surface's
  *     unit, read by the call, or null for the positions of the surface. A character bound in a crouch gets a
  *     standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
- * target_rest: target.vertexCount x 3 numbers, or null
+ * targetRest: target.vertexCount x 3 numbers, or null
  * mode: HF_TRANSFER_*
- * cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
+ * clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
  * ground: HF_GROUND_*
- * kernel_width: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is
+ * kernelWidth: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is
  *     more, up to 0.12
  * scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no
  *     pair is a foot
- * alignment_angle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times
+ * alignmentAngle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times
  *     the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
- * source_axes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward
+ * sourceAxes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward
  *     +z). Lengths, and right x up = forward, must hold within 1e-3. The library takes the nearest rotation.
  */
 export interface Transfer extends Handle {
@@ -2208,9 +2203,9 @@ export interface Transfer extends Handle {
   /**
    * Adds pairs.
    *
-   * source_vertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries
+   * sourceVertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries
    *     per vertex
-   * target_vertices: lists of whole numbers:
+   * targetVertices: lists of whole numbers:
    * flags: pairCount numbers HF_PAIR_*, or null for none
    * progress: an object to poll and cancel through
    *
@@ -2246,16 +2241,16 @@ export interface Transfer extends Handle {
    *
    * stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A
    *     planted foot does not slide. The body travels as much farther
-   * hip_height_share: raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height
+   * hipHeightShare: raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height
    *     at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised
-   * neck_follow: pairs flagged HF_PAIR_NECK, together one limb How far a limb follows the source, -1 to 1. 0 =
+   * neckFollow: pairs flagged HF_PAIR_NECK, together one limb How far a limb follows the source, -1 to 1. 0 =
    *     neutral: it plays the source's motion from its own rest direction. 1: it also takes the rest direction of
    *     the source's limb. -1: it does not move against its root.
-   * tail_follow: pairs flagged HF_PAIR_TAIL, together one limb
-   * arm_space: turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2 radians;
+   * tailFollow: pairs flagged HF_PAIR_TAIL, together one limb
+   * armSpace: turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2 radians;
    *     0 = neutral
-   * long_follow: how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less,
-   *     so that they move as far. 1: they make the whole turn. Between, a part may jump that turns by half a turn
+   * longFollow: how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less, so
+   *     that they move as far. 1: they make the whole turn. Between, a part may jump that turns by half a turn
    *     against the part before it
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
@@ -2279,11 +2274,11 @@ export interface Transfer extends Handle {
    * lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
    * unchanged. All rules of the ground come in continuously. HF_GROUND_OFF switches them off.
    *
-   * source_positions: source.vertexCount x 3 numbers the posed source, its own vertex order
-   * hold_pairs: holdCount numbers each pair at most once
-   * hold_positions: holdCount x 3 numbers in the target's unit and frame
+   * sourcePositions: source.vertexCount x 3 numbers the posed source, its own vertex order
+   * holdPairs: holdCount numbers each pair at most once
+   * holdPositions: holdCount x 3 numbers in the target's unit and frame
    * out: target.vertexCount x 3 numbers, or null
-   * target_normals: target.vertexCount x 3 numbers, or null
+   * targetNormals: target.vertexCount x 3 numbers, or null
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE,
    * HF_ERROR_UNSUPPORTED.
@@ -2300,7 +2295,7 @@ export interface Transfer extends Handle {
    * Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
    * replays Transfer.apply exactly, because that function also uses the four largest weights.
    *
-   * influence_count: joints per vertex, 4 or 8; 0 = 4
+   * influenceCount: joints per vertex, 4 or 8; 0 = 4
    * scales: jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.
@@ -2327,11 +2322,10 @@ export interface TransferClass {
  * sources: jointCount numbers for Weights.setJoints: the number that the joint had before, constants.HF_NO_INDEX
  *     for a new one; null: the same number. Weights: null
  * progress: an object to poll and cancel through
- * influence_count: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has none,
+ * influenceCount: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has none,
  *     it is made now. Sets *weights to null first.
  */
 export interface Weights extends Recorded {
-  readonly jointCount: number;
   readonly vertexCount: number;
   /**
    * Copies the weights with joints, pins and locks. The copy shares the factors and all memory, until one of the
@@ -2423,7 +2417,7 @@ export interface WeightsClass {
    * weights: source.vertexCount x sourceInfluenceCount numbers >= 0; a vertex whose weights are all 0 gives none
    * distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
    * angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
-   * influence_count: joints of each vertex in the result: 4 or 8; 0: 4
+   * influenceCount: joints of each vertex in the result: 4 or 8; 0: 4
    * progress: an object to poll and cancel through
    * info: filled in when given
    *
@@ -2447,7 +2441,7 @@ export interface WeightsClass {
    * to: HF_MIRROR_*
    * distance: as in hf_weights_transfer_desc
    * angle: as in hf_weights_transfer_desc
-   * influence_count: joints of each vertex in the result: 4 or 8; 0: 4
+   * influenceCount: joints of each vertex in the result: 4 or 8; 0: 4
    * progress: an object to poll and cancel through
    * info: filled in when given
    *
@@ -2462,6 +2456,7 @@ export interface Api {
   Progress: ProgressClass;
   Surface: SurfaceClass;
   Solver: SolverClass;
+  Skeleton: SkeletonClass;
   Geodesics: GeodesicsClass;
   Direction: DirectionClass;
   Pose: PoseClass;
@@ -2470,7 +2465,6 @@ export interface Api {
   Region: RegionClass;
   Detail: DetailClass;
   Retarget: RetargetClass;
-  Skeleton: SkeletonClass;
   Transfer: TransferClass;
   Weights: WeightsClass;
   HfError: typeof HfError;

@@ -20,6 +20,7 @@ ArrayLike = Any
 NO_INDEX = _raw.HF_NO_INDEX
 _TYPES = {"f4": np.float32, "f8": np.float64, "u4": np.uint32, "u2": np.uint16, "u1": np.uint8, "i4": np.int32}
 _KINDS: Dict[str, list] = {}
+_FIELDS: Dict[type, dict] = {}
 _SUFFIX = {"f8": "_f64", "u2": "_u16"}  # the field that takes the other type of array
 
 
@@ -133,9 +134,13 @@ def _whole(array: np.ndarray, name: str, dtype: Any, sentinel: bool) -> np.ndarr
     return (array & limits.max if sentinel and array.size else array).astype(dtype)
 
 
+def _types(kinds: str) -> list:
+    return _KINDS.get(kinds) or _KINDS.setdefault(kinds, [np.dtype(_TYPES[kind]) for kind in kinds.split()])
+
+
 def converted(values: ArrayLike, name: str, kinds: str, sentinel: bool = False) -> np.ndarray:
     """An array of one of the types that the library takes ('f4 f8'), as given when it is one."""
-    types = _KINDS.get(kinds) or _KINDS.setdefault(kinds, [np.dtype(_TYPES[kind]) for kind in kinds.split()])
+    types = _types(kinds)
     if type(values) is np.ndarray and values.dtype in types:
         return values
     array = numbers(values, name)
@@ -261,9 +266,12 @@ class Call:
 
     def struct(self, kind: type, options: Dict[str, Any], prefix: str = "") -> Any:
         """A struct with its size and the scalars among its fields set."""
-        made, types = kind(), dict(field[:2] for field in kind._fields_)  # type: ignore[attr-defined]
-        for key, value in options.items():
-            setattr(made, key, number(value, key, types[key]))
+        made: Any = kind()
+        if options:
+            types = _FIELDS.get(kind) or _FIELDS.setdefault(kind, dict(f[:2] for f in kind._fields_))  # type: ignore[attr-defined]
+            for key, value in options.items():
+                if value.__class__ is not int or value:  # a whole 0 is the default of every field
+                    setattr(made, key, number(value, key, types[key]))
         self.keep.append(made)
         return made
 
@@ -360,8 +368,8 @@ class Call:
 
     def out(self, out: Optional[np.ndarray], kinds: str, dims: tuple, dtype: Any = None, name: str = "out") -> tuple:
         """The caller's array, or a new one. Rows may have a stride. Returns (array, stride)."""
-        shape, wanted = self.shape(dims), [np.dtype(_TYPES[kind]) for kind in kinds.split()]
-        if out is None and np.dtype(dtype or wanted[0]) not in wanted:
+        shape, wanted = self.shape(dims), _types(kinds)
+        if out is None and dtype is not None and np.dtype(dtype) not in wanted:
             raise InvalidArgumentError(f"dtype must be {' or '.join(map(str, wanted))}, not {dtype}")
         if out is None:
             return np.empty(shape, dtype or wanted[0]), 0

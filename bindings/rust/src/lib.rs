@@ -17,25 +17,16 @@
 //! # }
 //! ```
 #![warn(missing_docs)]
+#[rustfmt::skip] // generated
+mod api;
+mod call;
 mod core;
-mod fields;
-mod pose;
 #[rustfmt::skip] // generated
 pub mod raw;
-mod region;
-mod solver;
-mod surface;
-mod weights;
 
-pub use crate::core::{Corner, Error, History, Progress, Real, Result, TryClone};
-pub use crate::fields::{
-    Direction, DirectionOptions, Flow, Streamlines, Geodesics, GeodesicsOptions, QuadGuides, QuadMesh, Quads, QuadsOptions,
-};
-pub use crate::pose::{DeformOptions, Pose, PoseOptions, Skin, Transfer, TransferDials, TransferOptions, Transform};
-pub use crate::region::{Detail, Region, RegionEdit, RegionOptions};
-pub use crate::solver::{Edit, Sites, Solver, SolverOptions};
-pub use crate::surface::{Extras, GraphOptions, Isolines, LinkOptions, Surface, SurfaceOptions};
-pub use crate::weights::{transfer_weights, mirror_weights, Joints, WeightTransferOptions, Mirror, Mirrored, VertexWeights, Weights};
+pub use crate::api::*;
+pub use crate::call::{Indices, Reals};
+pub use crate::core::{Error, History, Real, Result, TryClone};
 
 /// The version of the loaded library: major * 1,000,000 + minor * 1,000 + patch.
 pub fn version() -> u32 {

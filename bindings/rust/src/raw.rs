@@ -55,6 +55,31 @@ pub const HF_ROUTE_NONE: i32 = 0;
 pub const HF_ROUTE_DENSE: i32 = 1;
 pub const HF_ROUTE_FRESH: i32 = 2;
 pub const HF_ROUTE_REBASE: i32 = 3;
+pub const HF_ROLE_OTHER: i32 = 0;
+pub const HF_ROLE_SPINE: i32 = 1;
+pub const HF_ROLE_NECK: i32 = 2;
+pub const HF_ROLE_HEAD: i32 = 3;
+pub const HF_ROLE_JAW: i32 = 4;
+pub const HF_ROLE_SHOULDER: i32 = 5;
+pub const HF_ROLE_ARM: i32 = 6;
+pub const HF_ROLE_HAND: i32 = 7;
+pub const HF_ROLE_FINGER: i32 = 8;
+pub const HF_ROLE_LEG: i32 = 9;
+pub const HF_ROLE_FOOT: i32 = 10;
+pub const HF_ROLE_TOE: i32 = 11;
+pub const HF_ROLE_TAIL: i32 = 12;
+pub const HF_ROLE_WING: i32 = 13;
+pub const HF_ROLE_EAR: i32 = 14;
+pub const HF_ROLE_EYE: i32 = 15;
+pub const HF_ROLE_ANTENNA: i32 = 16;
+pub const HF_ROLE_FIN: i32 = 17;
+pub const HF_SIDE_MIDDLE: i32 = 0;
+pub const HF_SIDE_LEFT: i32 = 1;
+pub const HF_SIDE_RIGHT: i32 = 2;
+pub const HF_JOINT_KIND_BODY: i32 = 0;
+pub const HF_JOINT_KIND_HELPER: i32 = 1;
+pub const HF_JOINT_KIND_END: i32 = 2;
+pub const HF_JOINT_KIND_TWIST: i32 = 3;
 pub const HF_LEVELS_VALUE: i32 = 0;
 pub const HF_LEVELS_AREA: i32 = 1;
 pub const HF_LEVELS_LENGTH: i32 = 2;
@@ -99,31 +124,6 @@ pub const HF_SCALE_GIVEN: i32 = 0;
 pub const HF_SCALE_LEGS: i32 = 1;
 pub const HF_SCALE_HIPS: i32 = 2;
 pub const HF_SCALE_HEIGHT: i32 = 3;
-pub const HF_ROLE_OTHER: i32 = 0;
-pub const HF_ROLE_SPINE: i32 = 1;
-pub const HF_ROLE_NECK: i32 = 2;
-pub const HF_ROLE_HEAD: i32 = 3;
-pub const HF_ROLE_JAW: i32 = 4;
-pub const HF_ROLE_SHOULDER: i32 = 5;
-pub const HF_ROLE_ARM: i32 = 6;
-pub const HF_ROLE_HAND: i32 = 7;
-pub const HF_ROLE_FINGER: i32 = 8;
-pub const HF_ROLE_LEG: i32 = 9;
-pub const HF_ROLE_FOOT: i32 = 10;
-pub const HF_ROLE_TOE: i32 = 11;
-pub const HF_ROLE_TAIL: i32 = 12;
-pub const HF_ROLE_WING: i32 = 13;
-pub const HF_ROLE_EAR: i32 = 14;
-pub const HF_ROLE_EYE: i32 = 15;
-pub const HF_ROLE_ANTENNA: i32 = 16;
-pub const HF_ROLE_FIN: i32 = 17;
-pub const HF_SIDE_MIDDLE: i32 = 0;
-pub const HF_SIDE_LEFT: i32 = 1;
-pub const HF_SIDE_RIGHT: i32 = 2;
-pub const HF_JOINT_KIND_BODY: i32 = 0;
-pub const HF_JOINT_KIND_HELPER: i32 = 1;
-pub const HF_JOINT_KIND_END: i32 = 2;
-pub const HF_JOINT_KIND_TWIST: i32 = 3;
 pub const HF_TRANSFER_FIELDS: i32 = 0;
 pub const HF_TRANSFER_PAPER: i32 = 1;
 pub const HF_TRANSFER_STRETCH: i32 = 2;
@@ -190,6 +190,11 @@ pub struct hf_solver_object {
 }
 pub type hf_solver = *mut hf_solver_object;
 #[repr(C)]
+pub struct hf_skeleton_object {
+    _opaque: [u8; 0],
+}
+pub type hf_skeleton = *mut hf_skeleton_object;
+#[repr(C)]
 pub struct hf_geodesics_object {
     _opaque: [u8; 0],
 }
@@ -230,11 +235,6 @@ pub struct hf_retarget_object {
 }
 pub type hf_retarget = *mut hf_retarget_object;
 #[repr(C)]
-pub struct hf_skeleton_object {
-    _opaque: [u8; 0],
-}
-pub type hf_skeleton = *mut hf_skeleton_object;
-#[repr(C)]
 pub struct hf_transfer_object {
     _opaque: [u8; 0],
 }
@@ -247,7 +247,7 @@ pub type hf_weights = *mut hf_weights_object;
 
 /// Details of the last failed call on this thread.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_error_detail {
     pub code: i32,
     pub index: u32,
@@ -263,7 +263,7 @@ impl Default for hf_error_detail {
 
 /// Your allocator, which serves a surface and everything made from it.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_allocator {
     pub allocate: *const c_void,
     pub release: *const c_void,
@@ -278,7 +278,7 @@ impl Default for hf_allocator {
 
 /// Your job system.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_job_runner {
     pub run: *const c_void,
     pub user: *mut c_void,
@@ -292,7 +292,7 @@ impl Default for hf_job_runner {
 
 /// A factor that hf_surface_save wrote.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_factor_desc {
     pub struct_size: u32,
     pub borrow: i32,
@@ -310,7 +310,7 @@ impl Default for hf_factor_desc {
 
 /// A spring from a vertex to a point of a triangle.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_link {
     pub vertex: u32,
     pub corners: [u32; 3],
@@ -329,7 +329,7 @@ impl Default for hf_link {
 
 /// Says which pieces to link.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_links_desc {
     pub struct_size: u32,
     pub mode: i32,
@@ -358,7 +358,7 @@ impl Default for hf_links_desc {
 
 /// The mesh and the options of a surface.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_desc {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -403,7 +403,7 @@ impl Default for hf_surface_desc {
 
 /// A graph of your own and the options of its surface
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_graph_desc {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -436,7 +436,7 @@ impl Default for hf_graph_desc {
 
 /// The options a surface was made with, defaults filled in.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -492,7 +492,7 @@ impl hf_surface_info {
 
 /// Counts of what the surface found in the mesh.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_report {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -572,7 +572,7 @@ impl hf_surface_report {
 
 /// Posed positions of the mesh, of which gaps are measured.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_gaps_desc {
     pub struct_size: u32,
     pub position_stride: u32,
@@ -590,7 +590,7 @@ impl Default for hf_gaps_desc {
 
 /// How far linked pieces have opened, in the unit of the positions.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_gaps_info {
     pub struct_size: u32,
     pub link_count: u32,
@@ -624,7 +624,7 @@ impl hf_gaps_info {
 
 /// hf_surface_get_statistics writes sizes and times of a surface here.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_statistics {
     pub struct_size: u32,
     pub unknown_count: u32,
@@ -678,7 +678,7 @@ impl hf_surface_statistics {
 
 /// Options of picking
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pick_desc {
     pub struct_size: u32,
     pub position_stride: u32,
@@ -698,7 +698,7 @@ impl Default for hf_pick_desc {
 
 /// hf_surface_cast_ray writes the first triangle that a ray hits here.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_hit {
     pub struct_size: u32,
     pub found: i32,
@@ -720,7 +720,7 @@ impl Default for hf_hit {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_solver_desc {
     pub struct_size: u32,
     pub field_kind: i32,
@@ -742,7 +742,7 @@ impl Default for hf_solver_desc {
 
 /// hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_solver_info {
     pub struct_size: u32,
     pub field_kind: i32,
@@ -782,7 +782,7 @@ impl hf_solver_info {
 
 /// Places and values of sites.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_sites_desc {
     pub struct_size: u32,
     pub site_count: u32,
@@ -805,7 +805,7 @@ impl Default for hf_sites_desc {
 
 /// One batch of edits, applied in the order remove, move, set, add.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_edit_desc {
     pub struct_size: u32,
     pub remove_count: u32,
@@ -829,7 +829,7 @@ impl Default for hf_edit_desc {
 
 /// Places, values and fluxes of the sites.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_sites_info {
     pub struct_size: u32,
     pub capacity: u32,
@@ -854,7 +854,7 @@ impl Default for hf_sites_info {
 
 /// The components that the sites of a solve did not reach.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_solve_info {
     pub struct_size: u32,
     pub unreached_component_count: u32,
@@ -884,7 +884,7 @@ impl hf_solve_info {
 
 /// Counts and errors of a preview.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_preview_info {
     pub struct_size: u32,
     pub exact: i32,
@@ -922,7 +922,7 @@ impl hf_preview_info {
 
 /// The certificate says how accurate a field is.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_certificate {
     pub struct_size: u32,
     pub overshoot_checked: i32,
@@ -964,7 +964,7 @@ impl hf_certificate {
 
 /// Counts, memory and cost estimates of a solver.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_solver_statistics {
     pub struct_size: u32,
     pub site_count: u32,
@@ -1014,9 +1014,160 @@ impl hf_solver_statistics {
     }
 }
 
+/// The skin of a character
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_skin_desc {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub triangle_count: u32,
+    pub influence_count: u32,
+    pub positions: *const f32,
+    pub triangles: *const u32,
+    pub joints: *const u32,
+    pub weights: *const f32,
+}
+impl Default for hf_skin_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The joints of a character at rest.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_skeleton_desc {
+    pub struct_size: u32,
+    pub joint_count: u32,
+    pub names: *const c_char,
+    pub parents: *const u32,
+    pub rest: *const f32,
+    pub inverse_binds: *const f32,
+    pub up: *const f32,
+    pub forward: *const f32,
+    pub roles: *const i32,
+    pub sides: *const i32,
+    pub travel_count: u32,
+    pub reserved: u32,
+    pub travels: *const f32,
+    pub skin: *const hf_skin_desc,
+    pub allocator: hf_allocator,
+    pub progress: hf_progress,
+}
+impl Default for hf_skeleton_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The findings about a character.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_skeleton_info {
+    pub struct_size: u32,
+    pub joint_count: u32,
+    pub chain_count: u32,
+    pub reserved: u32,
+    pub up: [f64; 3],
+    pub forward: [f64; 3],
+    pub left: [f64; 3],
+    pub middle: [f64; 3],
+    pub up_confidence: f64,
+    pub forward_confidence: f64,
+    pub left_confidence: f64,
+    pub role_confidence: f64,
+    pub height: f64,
+    pub leg_length: f64,
+    pub hip_height: f64,
+    pub arm_length: f64,
+}
+impl Default for hf_skeleton_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_skeleton_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "joint_count" => f64::from(self.joint_count),
+            "chain_count" => f64::from(self.chain_count),
+            "reserved" => f64::from(self.reserved),
+            "up_confidence" => self.up_confidence,
+            "forward_confidence" => self.forward_confidence,
+            "left_confidence" => self.left_confidence,
+            "role_confidence" => self.role_confidence,
+            "height" => self.height,
+            "leg_length" => self.leg_length,
+            "hip_height" => self.hip_height,
+            "arm_length" => self.arm_length,
+            _ => return None,
+        })
+    }
+}
+
+/// What a joint was found to be.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_joint_info {
+    pub kind: i32,
+    pub role: i32,
+    pub side: i32,
+    pub chain: u32,
+    pub mate: u32,
+}
+impl Default for hf_joint_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+impl hf_joint_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "kind" => f64::from(self.kind),
+            "role" => f64::from(self.role),
+            "side" => f64::from(self.side),
+            "chain" => f64::from(self.chain),
+            "mate" => f64::from(self.mate),
+            _ => return None,
+        })
+    }
+}
+
+/// Joints of one role and side, from root to tip.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_chain {
+    pub role: i32,
+    pub side: i32,
+    pub number: u32,
+    pub parent: u32,
+    pub first: u32,
+    pub joint_count: u32,
+    pub length: f64,
+}
+impl Default for hf_chain {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
 /// This struct passes a field with one value per vertex of your mesh.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_scalars {
     pub struct_size: u32,
     pub value_stride: u32,
@@ -1034,7 +1185,7 @@ impl Default for hf_scalars {
 
 /// Iso-lines as polylines.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_isolines {
     pub struct_size: u32,
     pub point_capacity: u32,
@@ -1059,7 +1210,7 @@ impl Default for hf_isolines {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_critical_point {
     pub vertex: u32,
     pub kind: i32,
@@ -1075,7 +1226,7 @@ impl Default for hf_critical_point {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_critical_info {
     pub struct_size: u32,
     pub point_count: u32,
@@ -1112,7 +1263,7 @@ impl hf_critical_info {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_geodesics_desc {
     pub struct_size: u32,
     pub method: i32,
@@ -1130,7 +1281,7 @@ impl Default for hf_geodesics_desc {
 
 /// A point of the surface in the form of hf_hit
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_point {
     pub corners: [u32; 3],
     pub reserved: u32,
@@ -1145,7 +1296,7 @@ impl Default for hf_surface_point {
 
 /// A path along the surface, from its first point to its last.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_path {
     pub struct_size: u32,
     pub point_capacity: u32,
@@ -1166,7 +1317,7 @@ impl Default for hf_path {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_extremities_desc {
     pub struct_size: u32,
     pub kind: i32,
@@ -1187,7 +1338,7 @@ impl Default for hf_extremities_desc {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_extremity {
     pub vertex: u32,
     pub component: u32,
@@ -1202,7 +1353,7 @@ impl Default for hf_extremity {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_direction_desc {
     pub struct_size: u32,
     pub degree: u32,
@@ -1221,7 +1372,7 @@ impl Default for hf_direction_desc {
 
 /// A singularity is a triangle, or a face, around which the field makes extra turns.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_singularity {
     pub triangle: u32,
     pub vertex: u32,
@@ -1236,7 +1387,7 @@ impl Default for hf_singularity {
 
 /// The options a direction field was made with, and counts of its constraints and of the work done so far.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_direction_statistics {
     pub struct_size: u32,
     pub degree: u32,
@@ -1287,7 +1438,7 @@ impl hf_direction_statistics {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pose_desc {
     pub struct_size: u32,
     pub mode: i32,
@@ -1307,7 +1458,7 @@ impl Default for hf_pose_desc {
 
 /// hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pose_info {
     pub struct_size: u32,
     pub mode: i32,
@@ -1345,7 +1496,7 @@ impl hf_pose_info {
 
 /// The handles to add.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_handles_desc {
     pub struct_size: u32,
     pub handle_count: u32,
@@ -1368,7 +1519,7 @@ impl Default for hf_handles_desc {
 
 /// A rigid motion of a handle from its rest place.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transform {
     pub rotation: [f64; 4],
     pub translation: [f64; 3],
@@ -1382,7 +1533,7 @@ impl Default for hf_transform {
 
 /// hf_pose_get_handle writes the region of a handle here, its layer, and its motion in the last hf_deform.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_handle_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -1421,7 +1572,7 @@ impl hf_handle_info {
 
 /// Counts and times of a deform.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_deform_info {
     pub struct_size: u32,
     pub iteration_count: u32,
@@ -1461,7 +1612,7 @@ impl hf_deform_info {
 
 /// The options of hf_pose_deform are outputs, strides and a range of vertices.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_deform_desc {
     pub struct_size: u32,
     pub position_stride: u32,
@@ -1488,7 +1639,7 @@ impl Default for hf_deform_desc {
 
 /// This struct receives a pose or a transfer as a skin for linear blend skinning.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_skin_info {
     pub struct_size: u32,
     pub joint_capacity: u32,
@@ -1514,7 +1665,7 @@ impl Default for hf_skin_info {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_handle_proposals_desc {
     pub struct_size: u32,
     pub joint_count: u32,
@@ -1537,7 +1688,7 @@ impl Default for hf_handle_proposals_desc {
 
 /// One proposed handle.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_handle_proposal {
     pub vertex: u32,
     pub component: u32,
@@ -1558,7 +1709,7 @@ impl Default for hf_handle_proposal {
 
 /// Options of a quad mesh.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_quads_desc {
     pub struct_size: u32,
     pub face_count: u32,
@@ -1589,7 +1740,7 @@ impl Default for hf_quads_desc {
 
 /// Counts of a quad mesh.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_quads_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -1621,7 +1772,7 @@ impl hf_quads_info {
 
 /// hf_quads_get_mesh writes the quad mesh to these arrays.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_quads_mesh {
     pub struct_size: u32,
     pub vertex_capacity: u32,
@@ -1645,7 +1796,7 @@ impl Default for hf_quads_mesh {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_streamlines {
     pub struct_size: u32,
     pub wanted_count: u32,
@@ -1671,7 +1822,7 @@ impl Default for hf_streamlines {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_region_desc {
     pub struct_size: u32,
     pub base: i32,
@@ -1692,7 +1843,7 @@ impl Default for hf_region_desc {
 
 /// Describes a closed curve through at least 3 points, on the mesh at rest.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_curve_desc {
     pub struct_size: u32,
     pub point_count: u32,
@@ -1716,7 +1867,7 @@ impl Default for hf_curve_desc {
 
 /// A change of a region.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_region_edit_desc {
     pub struct_size: u32,
     pub ring_count: i32,
@@ -1738,7 +1889,7 @@ impl Default for hf_region_edit_desc {
 
 /// Counts and areas of a region and of its last edit.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_region_info {
     pub struct_size: u32,
     pub field_kind: i32,
@@ -1788,7 +1939,7 @@ impl hf_region_info {
 
 /// Gives hf_region_morph and hf_detail_morph their weight and outputs.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_morph_desc {
     pub struct_size: u32,
     pub position_stride: u32,
@@ -1809,7 +1960,7 @@ impl Default for hf_morph_desc {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_detail_desc {
     pub struct_size: u32,
     pub pair_count: u32,
@@ -1829,7 +1980,7 @@ impl Default for hf_detail_desc {
 
 /// Options of a retarget.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_retarget_desc {
     pub struct_size: u32,
     pub root_motion: i32,
@@ -1852,7 +2003,7 @@ impl Default for hf_retarget_desc {
 
 /// Figures of a retarget.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_retarget_info {
     pub struct_size: u32,
     pub source_joint_count: u32,
@@ -1898,7 +2049,7 @@ impl hf_retarget_info {
 
 /// How a chain of the target follows the source.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_chain_match {
     pub role: i32,
     pub side: i32,
@@ -1914,160 +2065,9 @@ impl Default for hf_chain_match {
     }
 }
 
-/// The skin of a character
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct hf_skin_desc {
-    pub struct_size: u32,
-    pub vertex_count: u32,
-    pub triangle_count: u32,
-    pub influence_count: u32,
-    pub positions: *const f32,
-    pub triangles: *const u32,
-    pub joints: *const u32,
-    pub weights: *const f32,
-}
-impl Default for hf_skin_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-
-/// The joints of a character at rest.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct hf_skeleton_desc {
-    pub struct_size: u32,
-    pub joint_count: u32,
-    pub names: *const c_char,
-    pub parents: *const u32,
-    pub rest: *const f32,
-    pub inverse_binds: *const f32,
-    pub up: *const f32,
-    pub forward: *const f32,
-    pub roles: *const i32,
-    pub sides: *const i32,
-    pub travel_count: u32,
-    pub reserved: u32,
-    pub travels: *const f32,
-    pub skin: *const hf_skin_desc,
-    pub allocator: hf_allocator,
-    pub progress: hf_progress,
-}
-impl Default for hf_skeleton_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-
-/// The findings about a character.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct hf_skeleton_info {
-    pub struct_size: u32,
-    pub joint_count: u32,
-    pub chain_count: u32,
-    pub reserved: u32,
-    pub up: [f64; 3],
-    pub forward: [f64; 3],
-    pub left: [f64; 3],
-    pub middle: [f64; 3],
-    pub up_confidence: f64,
-    pub forward_confidence: f64,
-    pub left_confidence: f64,
-    pub role_confidence: f64,
-    pub height: f64,
-    pub leg_length: f64,
-    pub hip_height: f64,
-    pub arm_length: f64,
-}
-impl Default for hf_skeleton_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_skeleton_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "joint_count" => f64::from(self.joint_count),
-            "chain_count" => f64::from(self.chain_count),
-            "reserved" => f64::from(self.reserved),
-            "up_confidence" => self.up_confidence,
-            "forward_confidence" => self.forward_confidence,
-            "left_confidence" => self.left_confidence,
-            "role_confidence" => self.role_confidence,
-            "height" => self.height,
-            "leg_length" => self.leg_length,
-            "hip_height" => self.hip_height,
-            "arm_length" => self.arm_length,
-            _ => return None,
-        })
-    }
-}
-
-/// What a joint was found to be.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct hf_joint_info {
-    pub kind: i32,
-    pub role: i32,
-    pub side: i32,
-    pub chain: u32,
-    pub mate: u32,
-}
-impl Default for hf_joint_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
-}
-impl hf_joint_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "kind" => f64::from(self.kind),
-            "role" => f64::from(self.role),
-            "side" => f64::from(self.side),
-            "chain" => f64::from(self.chain),
-            "mate" => f64::from(self.mate),
-            _ => return None,
-        })
-    }
-}
-
-/// Joints of one role and side, from root to tip.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct hf_chain {
-    pub role: i32,
-    pub side: i32,
-    pub number: u32,
-    pub parent: u32,
-    pub first: u32,
-    pub joint_count: u32,
-    pub length: f64,
-}
-impl Default for hf_chain {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
-}
-
 /// most pairs of a transfer
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_desc {
     pub struct_size: u32,
     pub mode: i32,
@@ -2092,7 +2092,7 @@ impl Default for hf_transfer_desc {
 
 /// The pairs to add.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pairs_desc {
     pub struct_size: u32,
     pub pair_count: u32,
@@ -2113,7 +2113,7 @@ impl Default for hf_pairs_desc {
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pair_info {
     pub struct_size: u32,
     pub flags: u32,
@@ -2153,7 +2153,7 @@ impl hf_pair_info {
 
 /// hf_transfer_get_info writes counts and the scale of a transfer here.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_info {
     pub struct_size: u32,
     pub pair_count: u32,
@@ -2193,7 +2193,7 @@ impl hf_transfer_info {
 
 /// What an animator turns while a transfer plays.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_dials {
     pub struct_size: u32,
     pub reserved: u32,
@@ -2231,7 +2231,7 @@ impl hf_transfer_dials {
 
 /// Describes one frame
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_frame {
     pub struct_size: u32,
     pub source_stride: u32,
@@ -2258,7 +2258,7 @@ impl Default for hf_transfer_frame {
 
 /// The joints of a skeleton, in the unit and frame of the mesh.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_joints_desc {
     pub struct_size: u32,
     pub joint_count: u32,
@@ -2281,7 +2281,7 @@ impl Default for hf_joints_desc {
 
 /// Places with given weights.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pins_desc {
     pub struct_size: u32,
     pub pin_count: u32,
@@ -2306,7 +2306,7 @@ impl Default for hf_pins_desc {
 
 /// Receives the weights.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_out {
     pub struct_size: u32,
     pub vertex_capacity: u32,
@@ -2328,7 +2328,7 @@ impl Default for hf_weights_out {
 
 /// Counts of the weights.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -2394,7 +2394,7 @@ impl hf_weights_info {
 
 /// Weights to transfer from one surface to another.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_transfer_desc {
     pub struct_size: u32,
     pub source_influence_count: u32,
@@ -2417,7 +2417,7 @@ impl Default for hf_weights_transfer_desc {
 
 /// Counts of transferred weights.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_transfer_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -2455,7 +2455,7 @@ impl hf_weights_transfer_info {
 
 /// Weights to mirror.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_mirror_desc {
     pub struct_size: u32,
     pub joint_count: u32,
@@ -2484,7 +2484,7 @@ impl Default for hf_weights_mirror_desc {
 
 /// The findings of a mirror.
 #[repr(C)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_mirror_info {
     pub struct_size: u32,
     pub vertex_count: u32,
@@ -2594,6 +2594,13 @@ extern "C" {
     pub fn hf_solver_certify(solver: hf_solver, inout_certificate: *mut hf_certificate) -> i32;
     pub fn hf_solver_prepare_rebase(solver: hf_solver) -> i32;
     pub fn hf_solver_get_statistics(solver: hf_solver, out_statistics: *mut hf_solver_statistics) -> i32;
+    pub fn hf_skeleton_create(desc: *const hf_skeleton_desc, out_skeleton: *mut hf_skeleton) -> i32;
+    pub fn hf_skeleton_destroy(skeleton: hf_skeleton);
+    pub fn hf_skeleton_get_info(skeleton: hf_skeleton, out_info: *mut hf_skeleton_info) -> i32;
+    pub fn hf_skeleton_get_joints(skeleton: hf_skeleton, capacity: u32, out_joints: *mut hf_joint_info, out_count: *mut u32) -> i32;
+    pub fn hf_skeleton_get_chains(skeleton: hf_skeleton, capacity: u32, out_chains: *mut hf_chain, out_count: *mut u32) -> i32;
+    pub fn hf_skeleton_get_chain_joints(skeleton: hf_skeleton, capacity: u32, out_joints: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_skeleton_get_reasons(skeleton: hf_skeleton, capacity: usize, out_text: *mut c_char, out_size: *mut usize) -> i32;
     pub fn hf_surface_space_levels(surface: hf_surface, field: *const hf_scalars, spacing: i32, level_count: u32, out_levels: *mut f64) -> i32;
     pub fn hf_surface_trace_isolines(surface: hf_surface, field: *const hf_scalars, level_count: u32, levels: *const f64, inout_lines: *mut hf_isolines) -> i32;
     pub fn hf_surface_find_critical_points(surface: hf_surface, field: *const hf_scalars, capacity: u32, out_points: *mut hf_critical_point, out_info: *mut hf_critical_info) -> i32;
@@ -2663,13 +2670,6 @@ extern "C" {
     pub fn hf_retarget_get_chains(retarget: hf_retarget, capacity: u32, out_chains: *mut hf_chain_match, out_count: *mut u32) -> i32;
     pub fn hf_retarget_get_partners(retarget: hf_retarget, capacity: u32, out_partners: *mut u32, out_count: *mut u32) -> i32;
     pub fn hf_skeleton_get_ground_velocity(skeleton: hf_skeleton, frame_count: u32, poses: *const f32, seconds: f64, out_velocity: *mut f64) -> i32;
-    pub fn hf_skeleton_create(desc: *const hf_skeleton_desc, out_skeleton: *mut hf_skeleton) -> i32;
-    pub fn hf_skeleton_destroy(skeleton: hf_skeleton);
-    pub fn hf_skeleton_get_info(skeleton: hf_skeleton, out_info: *mut hf_skeleton_info) -> i32;
-    pub fn hf_skeleton_get_joints(skeleton: hf_skeleton, capacity: u32, out_joints: *mut hf_joint_info, out_count: *mut u32) -> i32;
-    pub fn hf_skeleton_get_chains(skeleton: hf_skeleton, capacity: u32, out_chains: *mut hf_chain, out_count: *mut u32) -> i32;
-    pub fn hf_skeleton_get_chain_joints(skeleton: hf_skeleton, capacity: u32, out_joints: *mut u32, out_count: *mut u32) -> i32;
-    pub fn hf_skeleton_get_reasons(skeleton: hf_skeleton, capacity: usize, out_text: *mut c_char, out_size: *mut usize) -> i32;
     pub fn hf_transfer_create(source: hf_surface, target: hf_surface, desc: *const hf_transfer_desc, out_transfer: *mut hf_transfer) -> i32;
     pub fn hf_transfer_destroy(transfer: hf_transfer);
     pub fn hf_transfer_add_pairs(transfer: hf_transfer, pairs: *const hf_pairs_desc, out_pairs: *mut u32) -> i32;

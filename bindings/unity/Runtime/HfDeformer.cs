@@ -73,8 +73,8 @@ namespace Hf.Unity
                 triangles[i + 1] = (uint)corners[i + 2];
                 triangles[i + 2] = (uint)corners[i + 1];
             }
-            surface = new Surface(positions, triangles, new SurfaceOptions { ThreadCount = (uint)threads,
-                SavedFactor = savedFactor != null ? savedFactor.bytes : null });
+            surface = new Surface(positions, triangles, threadCount: (uint)threads,
+                savedFactor: savedFactor != null ? savedFactor.bytes : null);
             pose = new Pose(surface);
             posed = Instantiate(rest);
             posed.MarkDynamic();
@@ -98,8 +98,8 @@ namespace Hf.Unity
                 if (handle.bound) continue;
                 handle.restLocal = Rigid(transform.worldToLocalMatrix * handle.transform.localToWorldMatrix);
                 Vector4 at = handle.restLocal.GetColumn(3);
-                handle.number = pose.AddHandles(new double[] { at.x, at.y, at.z }, new double[] { handle.radius },
-                    (uint)handle.layer)[0];
+                handle.number = pose.AddHandles(points: new double[] { at.x, at.y, at.z },
+                    radii: new double[] { handle.radius }, layer: (uint)handle.layer)[0];
                 handle.bound = true;
                 bound.Add(handle);
                 numbers.Add(handle.number);

@@ -10,8 +10,8 @@
 #include "assets/creature.h"
 #include "gltf/animate.h"
 #include "gltf/flat_mesh.h"
-#include "unit/gltf/gltf_support.h"
 #include "hf/hf.hpp"
+#include "unit/gltf/gltf_support.h"
 
 namespace {
 
@@ -48,7 +48,7 @@ hf::Surface surface_of(const Body& body, uint32_t threads = 1) {
   return hf::Surface(desc);
 }
 
-Proposals propose(const Body& body, uint32_t threads = 1) { return hf::propose_handles(surface_of(body, threads)); }
+Proposals propose(const Body& body, uint32_t threads = 1) { return surface_of(body, threads).propose_handles(); }
 
 glm::dvec3 place_of(const hf_handle_proposal& o) { return {o.position[0], o.position[1], o.position[2]}; }
 
@@ -104,7 +104,7 @@ TEST(Proposals, AllCanBeAddedAsHandlesAndTheFeetStayWhenATipIsDragged) {
     SCOPED_TRACE(name);
     const Body body = shared_body(name);
     const hf::Surface surface = surface_of(body);
-    const Proposals list = hf::propose_handles(surface);
+    const Proposals list = surface.propose_handles();
     ASSERT_GE(list.size(), 2u);
     EXPECT_EQ(list[0].pinned, 1);
     hf_pose all = nullptr, some = nullptr;

@@ -114,7 +114,7 @@ class Damage {
   // Bones outside, without length, on each other; heads and axes only, so the library has to find the tails.
   void hole_in_bones() {
     did("bones");
-    const size_t count = made_.bones.count();
+    const size_t count = made_.bones.heads.size() / 3;
     for (size_t b = 0; b < count; ++b) {
       const size_t other = random_() % count;
       const double far = chance(20) ? 1e6 : 1;
@@ -139,13 +139,13 @@ class Damage {
   Variant made_;
 };
 
-size_t faults_of(const hf::VertexWeights& found, const hf::Joints& bones) {
+size_t faults_of(const hf::WeightsOut& found, const hf::Joints& bones) {
   size_t faults = 0;
   for (size_t v = 0; v < found.origins.size(); ++v) {
     float sum = 0;
     bool good = true;
     for (size_t i = v * found.influence_count; i < (v + 1) * found.influence_count; ++i) {
-      good &= found.joints[i] < bones.count() && found.weights[i] >= 0;
+      good &= found.joints[i] < bones.heads.size() / 3 && found.weights[i] >= 0;
       good &= !(found.weights[i] > 0) || bones.deforms[found.joints[i]] == 1;
       sum += found.weights[i];
     }
@@ -189,7 +189,7 @@ TEST(DamagedModels, NoVariantFailsAndNoVertexIsBare) {
       desc.triangles = variant.triangles.data();
       const hf::Surface surface(desc);
       const hf::Weights weights(surface, variant.bones, i % 2 ? 4 : 8);
-      const hf::VertexWeights found = weights.weights();
+      const hf::WeightsOut found = weights.weights();
       const size_t faults = faults_of(found, variant.bones);
       EXPECT_EQ(faults, 0u) << where;
       failed += faults > 0;

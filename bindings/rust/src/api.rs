@@ -1,0 +1,4546 @@
+// Generated from include/hf/*.h by bindings/generate; do not edit.
+//! The objects, their options and results.
+use crate::call::{known, object, unknown, Call, Indices, Number, Reals, Room};
+use crate::core::{check, of_length, start_of, Real, TryClone};
+use crate::{raw, Result};
+
+/// A factor that `Surface::save` wrote. The surface loads it instead of computing it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Factor<'a> {
+    /// all of them, as saved
+    pub bytes: Option<&'a [u8]>,
+}
+impl<'a> Factor<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_factor_desc> {
+        let mut desc = raw::hf_factor_desc { ..Default::default() };
+        desc.bytes = start_of(self.bytes).cast();
+        desc.byte_count = self.bytes.map_or(0, <[u8]>::len);
+        Ok(desc)
+    }
+}
+
+/// Says which pieces to link. Joints and weights or tags help the automatic links; each array may be `None`. A light
+/// piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Links<'a> {
+    /// vertex_count x influence_count numbers of a skin: pieces of the same joint link sooner
+    pub joints: Option<&'a [u16]>,
+    /// vertex_count x influence_count numbers of sum 1; where all are 0, a vertex shares no joint
+    pub weights: Option<&'a [f32]>,
+    /// vertex_count numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
+    /// counts
+    pub tags: Option<&'a [u32]>,
+    /// link_count numbers
+    pub links: Option<&'a [raw::hf_link]>,
+    /// light_count numbers: their pieces are light
+    pub light_vertices: Option<&'a [u32]>,
+    /// heavy_count numbers: their pieces are not, as one that gets a site or handle
+    pub heavy_vertices: Option<&'a [u32]>,
+    /// `HF_LINK_*`
+    pub mode: i32,
+    /// longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
+    pub distance: f64,
+    /// of all links, times each one's weight; 0 = 1
+    pub stiffness: f64,
+    /// automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of the diagonal, below 0:
+    /// no piece is light unless light_vertices say so
+    pub overlay_distance: f64,
+}
+impl<'a> Links<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "mode" => self.mode = Number::fit(name, value)?,
+            "distance" => self.distance = Number::fit(name, value)?,
+            "stiffness" => self.stiffness = Number::fit(name, value)?,
+            "overlay_distance" => self.overlay_distance = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_links_desc> {
+        let mut desc = raw::hf_links_desc { mode: self.mode, distance: self.distance, stiffness: self.stiffness,
+            overlay_distance: self.overlay_distance, ..Default::default() };
+        desc.joints = c.array(self.joints, "joints", &["vertex_count", &format!("{prefix}influence_count")])?;
+        desc.weights = c.array(self.weights, "weights", &["vertex_count", &format!("{prefix}influence_count")])?;
+        desc.tags = c.array(self.tags, "tags", &["vertex_count"])?;
+        desc.links = c.array(self.links, "links", &[&format!("{prefix}link_count")])?;
+        desc.light_vertices = c.array(self.light_vertices, "light_vertices", &[&format!("{prefix}light_count")])?;
+        desc.heavy_vertices = c.array(self.heavy_vertices, "heavy_vertices", &[&format!("{prefix}heavy_count")])?;
+        desc.influence_count = c.count(&format!("{prefix}influence_count"), 0)?;
+        desc.link_count = c.count(&format!("{prefix}link_count"), 0)?;
+        desc.light_count = c.count(&format!("{prefix}light_count"), 0)?;
+        desc.heavy_count = c.count(&format!("{prefix}heavy_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// The mesh and the options of a surface. Set positions or positions_f64, and triangles, triangles_u16 or faces. Strides
+/// are in bytes; 0 means packed.
+///
+/// Faces have any number of corners. Set face_count, corner_count, corners, and what your host stores: face_sizes (Maya,
+/// USD), face_starts and face_sizes (Blender's loops), or face_starts as offsets (newer Blender). No field depends on how
+/// you would cut a face into triangles. [`raw::HF_OPERATOR_INTRINSIC_DELAUNAY`] takes the mean of both cuts of a bent
+/// quad, and moves it towards the polygon Laplacian of Bunge and others 2020 until a weight would become negative.
+/// docs/studies/polygons.md compares errors. [`raw::HF_OPERATOR_COTANGENT`] and [`raw::HF_OPERATOR_CLAMPED`] take that
+/// polygon Laplacian, [`raw::HF_OPERATOR_UNIFORM`] the sides of the faces. Directions, distances, iso-lines, streamlines
+/// and quads work on a cut of the library. It does not depend on the order of the corners. Where this interface names a
+/// triangle, it names the face then. Normals of poses are sums of the area vectors of faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurfaceOptions<'a> {
+    /// face_count numbers first corner of each face. `None`: the faces follow one another. Without face_sizes face_count
+    /// + 1 numbers: the corners of face f end where those of f + 1 start
+    pub face_starts: Option<&'a [u32]>,
+    /// face_count numbers corners of each face, 3 to 65,535. `None`: face_starts is enough
+    pub face_sizes: Option<&'a [u32]>,
+    /// corner_count numbers vertices, counter-clockwise seen from outside
+    pub corners: Option<&'a [u32]>,
+    /// `HF_WELD_*`
+    pub weld: i32,
+    /// for [`raw::HF_WELD_TOLERANCE`], in the unit of the positions, > 0
+    pub weld_tolerance: f64,
+    /// `HF_OPERATOR_*`
+    pub operator_kind: i32,
+    /// `HF_FIELD_*`: the factor made now. Others are made when a solver or region asks
+    pub field_kind: i32,
+    /// `HF_ORDERING_*`
+    pub ordering: i32,
+    /// threads the library may use, yours included, 1 to 256; 0 = 1
+    pub thread_count: u32,
+    /// refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles or edges are
+    /// always refused
+    pub vertex_limit: u32,
+    /// refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the vertex limit
+    pub triangle_limit: u32,
+    /// refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
+    pub memory_limit_mb: u32,
+    /// refuse a factorisation of more than this many 10^9 operations. They are counted before it begins; 0 = 100,000,
+    /// about an hour of one core
+    pub work_limit_gflop: u32,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+    /// `None`, or the saved factor of this mesh; ordering is then 0 or the factor's
+    pub saved_factor: Option<Factor<'a>>,
+    /// `None`: [`raw::HF_LINK_NONE`]. A saved factor needs the links it was made with
+    pub links: Option<Links<'a>>,
+}
+impl<'a> SurfaceOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "weld" => self.weld = Number::fit(name, value)?,
+            "weld_tolerance" => self.weld_tolerance = Number::fit(name, value)?,
+            "operator_kind" => self.operator_kind = Number::fit(name, value)?,
+            "field_kind" => self.field_kind = Number::fit(name, value)?,
+            "ordering" => self.ordering = Number::fit(name, value)?,
+            "thread_count" => self.thread_count = Number::fit(name, value)?,
+            "vertex_limit" => self.vertex_limit = Number::fit(name, value)?,
+            "triangle_limit" => self.triangle_limit = Number::fit(name, value)?,
+            "memory_limit_mb" => self.memory_limit_mb = Number::fit(name, value)?,
+            "work_limit_gflop" => self.work_limit_gflop = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, positions: Option<Reals<'_>>,
+            triangles: Option<Indices<'_>>) -> Result<raw::hf_surface_desc> {
+        let mut desc = raw::hf_surface_desc { weld: self.weld, weld_tolerance: self.weld_tolerance,
+            operator_kind: self.operator_kind, field_kind: self.field_kind, ordering: self.ordering,
+            thread_count: self.thread_count, vertex_limit: self.vertex_limit, triangle_limit: self.triangle_limit,
+            memory_limit_mb: self.memory_limit_mb, work_limit_gflop: self.work_limit_gflop, ..Default::default() };
+        (desc.positions, desc.positions_f64) = c.reals(positions, "positions", &[&format!("{prefix}vertex_count"),
+            "3"])?;
+        (desc.triangles, desc.triangles_u16) = c.indices(triangles, "triangles", &[&format!("{prefix}triangle_count"),
+            "3"])?;
+        desc.face_starts = if self.face_sizes.is_none() { c.array(self.face_starts, "face_starts",
+            &[&format!("{prefix}face_count + 1")])? } else { c.array(self.face_starts, "face_starts",
+            &[&format!("{prefix}face_count")])? };
+        desc.face_sizes = c.array(self.face_sizes, "face_sizes", &[&format!("{prefix}face_count")])?;
+        desc.corners = c.array(self.corners, "corners", &[&format!("{prefix}corner_count")])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        if let Some(inner) = &self.saved_factor {
+            let inner = inner.fill(c, "saved_factor.")?;
+            desc.saved_factor = c.keep(inner);
+        }
+        if let Some(inner) = &self.links {
+            let inner = inner.fill(c, "links.")?;
+            desc.links = c.keep(inner);
+        }
+        desc.vertex_count = c.count(&format!("{prefix}vertex_count"), 1)?;
+        desc.triangle_count = c.count(&format!("{prefix}triangle_count"), 0)?;
+        desc.face_count = c.count(&format!("{prefix}face_count"), 0)?;
+        desc.corner_count = c.count(&format!("{prefix}corner_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
+/// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of [`SurfaceOptions`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GraphOptions<'a> {
+    /// vertex_count numbers M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100; `None`: all 1. A mass
+    /// below 1e-4 of the mean of its component counts as that
+    pub masses: Option<&'a [f64]>,
+    /// >= 1, also without masses
+    pub vertex_count: u32,
+    /// 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of tetrahedra do. A field can
+    /// then leave the range of its sites. 0: they are refused
+    pub allow_negative: bool,
+    /// `HF_FIELD_*`: the factor made now. Others are made when a solver asks
+    pub field_kind: i32,
+    /// `HF_ORDERING_*`
+    pub ordering: i32,
+    /// threads the library may use, yours included, 1 to 256; 0 = 1
+    pub thread_count: u32,
+    /// refuse larger graphs before allocating; 0 = 20,000,000
+    pub vertex_limit: u32,
+    /// refuse more edges; 0 = sixteen per vertex of the vertex limit
+    pub edge_limit: u32,
+    /// refuse to hold more memory than this, in MiB; 0 = no limit
+    pub memory_limit_mb: u32,
+    /// refuse a factorisation of more than this many 10^9 operations; 0 = 100,000
+    pub work_limit_gflop: u32,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+    /// `None`, or the saved factor of this graph; ordering is then 0 or the factor's
+    pub saved_factor: Option<Factor<'a>>,
+}
+impl<'a> GraphOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "vertex_count" => self.vertex_count = Number::fit(name, value)?,
+            "allow_negative" => self.allow_negative = Number::fit(name, value)?,
+            "field_kind" => self.field_kind = Number::fit(name, value)?,
+            "ordering" => self.ordering = Number::fit(name, value)?,
+            "thread_count" => self.thread_count = Number::fit(name, value)?,
+            "vertex_limit" => self.vertex_limit = Number::fit(name, value)?,
+            "edge_limit" => self.edge_limit = Number::fit(name, value)?,
+            "memory_limit_mb" => self.memory_limit_mb = Number::fit(name, value)?,
+            "work_limit_gflop" => self.work_limit_gflop = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, edges: Option<&[u32]>,
+            weights: Option<&[f64]>) -> Result<raw::hf_graph_desc> {
+        let mut desc = raw::hf_graph_desc { vertex_count: self.vertex_count,
+            allow_negative: i32::from(self.allow_negative), field_kind: self.field_kind, ordering: self.ordering,
+            thread_count: self.thread_count, vertex_limit: self.vertex_limit, edge_limit: self.edge_limit,
+            memory_limit_mb: self.memory_limit_mb, work_limit_gflop: self.work_limit_gflop, ..Default::default() };
+        c.known("vertex_count", self.vertex_count);
+        desc.edges = c.array(edges, "edges", &[&format!("{prefix}edge_count"), "2"])?;
+        desc.weights = c.array(weights, "weights", &[&format!("{prefix}edge_count")])?;
+        desc.masses = c.array(self.masses, "masses", &["vertex_count"])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        if let Some(inner) = &self.saved_factor {
+            let inner = inner.fill(c, "saved_factor.")?;
+            desc.saved_factor = c.keep(inner);
+        }
+        desc.edge_count = c.count(&format!("{prefix}edge_count"), 1)?;
+        Ok(desc)
+    }
+}
+
+/// Posed positions of the mesh, of which gaps are measured. Set one of the two.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Gaps {
+}
+impl Gaps {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, positions: Option<Reals<'_>>) -> Result<raw::hf_gaps_desc> {
+        let mut desc = raw::hf_gaps_desc { ..Default::default() };
+        (desc.positions, desc.positions_f64) = c.reals(positions, "positions", &["vertex_count", "3"])?;
+        Ok(desc)
+    }
+}
+
+/// Options of picking: posed positions, if the surface is not at rest, and which triangles count.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PickOptions<'a> {
+    /// vertex_count x 3 numbers posed positions (Pose.deform writes them), or `None`
+    pub positions: Option<Reals<'a>>,
+    /// 1: a ray passes triangles seen from behind
+    pub front_only: bool,
+}
+impl<'a> PickOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "front_only" => self.front_only = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_pick_desc> {
+        let mut desc = raw::hf_pick_desc { front_only: i32::from(self.front_only), ..Default::default() };
+        (desc.positions, desc.positions_f64) = c.reals(self.positions, "positions", &["vertex_count", "3"])?;
+        Ok(desc)
+    }
+}
+
+/// As the header says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SolverOptions<'a> {
+    /// `HF_FIELD_*`; if the surface has no factor of that kind yet, it is made now
+    pub field_kind: i32,
+    /// `HF_ENGINE_*`
+    pub engine: i32,
+    /// fields solved at once, 1 to 64; 0 = 1
+    pub channel_count: u32,
+    /// at most this many sites; 0 = 100,000
+    pub site_limit: u32,
+    /// [`raw::HF_ENGINE_UPDOWN`]: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
+    pub penalty: f64,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> SolverOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "field_kind" => self.field_kind = Number::fit(name, value)?,
+            "engine" => self.engine = Number::fit(name, value)?,
+            "channel_count" => self.channel_count = Number::fit(name, value)?,
+            "site_limit" => self.site_limit = Number::fit(name, value)?,
+            "penalty" => self.penalty = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_solver_desc> {
+        let mut desc = raw::hf_solver_desc { field_kind: self.field_kind, engine: self.engine,
+            channel_count: self.channel_count, site_limit: self.site_limit, penalty: self.penalty,
+            ..Default::default() };
+        c.known("channel_count", if self.channel_count == 0 { 1 } else { self.channel_count });
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        Ok(desc)
+    }
+}
+
+/// Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the less
+/// influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius
+/// below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields
+/// the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sites<'a> {
+    /// site_count numbers vertices as given, or `None`
+    pub vertices: Option<&'a [u32]>,
+    /// site_count x channel_count numbers, up to 1e200 in size; `None` = 0
+    pub values: Option<&'a [f64]>,
+    /// site_count numbers triangles (or faces of three corners) as given, or `None`
+    pub triangles: Option<&'a [u32]>,
+    /// site_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
+    pub barycentrics: Option<&'a [f64]>,
+    /// site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped to 1e-12
+    /// .. 1e12
+    pub stiffness: Option<&'a [f64]>,
+    /// site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
+    pub radii: Option<&'a [f64]>,
+    /// site_count x 3 numbers three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face of
+    /// more corners this places a site in a triangle of them
+    pub corners: Option<&'a [u32]>,
+}
+impl<'a> Sites<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_sites_desc> {
+        let mut desc = raw::hf_sites_desc { ..Default::default() };
+        desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}site_count")])?;
+        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}site_count")])?;
+        desc.barycentrics = c.array(self.barycentrics, "barycentrics", &[&format!("{prefix}site_count"), "3"])?;
+        desc.values = c.array(self.values, "values", &[&format!("{prefix}site_count"), "channel_count"])?;
+        desc.stiffness = c.array(self.stiffness, "stiffness", &[&format!("{prefix}site_count")])?;
+        desc.radii = c.array(self.radii, "radii", &[&format!("{prefix}site_count")])?;
+        desc.corners = c.array(self.corners, "corners", &[&format!("{prefix}site_count"), "3"])?;
+        desc.site_count = c.count(&format!("{prefix}site_count"), 1)?;
+        Ok(desc)
+    }
+}
+
+/// One batch of edits, applied in the order remove, move, set, add. A count of 0 skips its part.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Edit<'a> {
+    /// remove_count numbers
+    pub remove_sites: Option<&'a [u32]>,
+    /// move_count numbers
+    pub move_sites: Option<&'a [u32]>,
+    /// set_count numbers
+    pub set_sites: Option<&'a [u32]>,
+    /// set_count x channel_count numbers
+    pub set_values: Option<&'a [f64]>,
+    /// `None`, or places of move_count numbers sites
+    pub move_to: Option<Sites<'a>>,
+    /// `None`, or the sites to add
+    pub add: Option<Sites<'a>>,
+}
+impl<'a> Edit<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_edit_desc> {
+        let mut desc = raw::hf_edit_desc { ..Default::default() };
+        desc.remove_sites = c.array(self.remove_sites, "remove_sites", &[&format!("{prefix}remove_count")])?;
+        desc.move_sites = c.array(self.move_sites, "move_sites", &[&format!("{prefix}move_count")])?;
+        desc.set_sites = c.array(self.set_sites, "set_sites", &[&format!("{prefix}set_count")])?;
+        desc.set_values = c.array(self.set_values, "set_values", &[&format!("{prefix}set_count"), "channel_count"])?;
+        if let Some(inner) = &self.move_to {
+            let inner = inner.fill(c, "move_to.")?;
+            desc.move_to = c.keep(inner);
+        }
+        if let Some(inner) = &self.add {
+            let inner = inner.fill(c, "add.")?;
+            desc.add = c.keep(inner);
+        }
+        desc.remove_count = c.count(&format!("{prefix}remove_count"), 0)?;
+        desc.move_count = c.count(&format!("{prefix}move_count"), 0)?;
+        desc.set_count = c.count(&format!("{prefix}set_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Skin<'a> {
+    /// vertex_count x 3 numbers
+    pub positions: Option<&'a [f32]>,
+    /// triangle_count x 3 numbers, or `None` with triangle_count 0
+    pub triangles: Option<&'a [u32]>,
+    /// vertex_count x influence_count numbers
+    pub joints: Option<&'a [u32]>,
+    /// vertex_count x influence_count numbers >= 0; a vertex whose weights are all 0 has no joint
+    pub weights: Option<&'a [f32]>,
+}
+impl<'a> Skin<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_skin_desc> {
+        let mut desc = raw::hf_skin_desc { ..Default::default() };
+        desc.positions = c.array(self.positions, "positions", &[&format!("{prefix}vertex_count"), "3"])?;
+        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}triangle_count"), "3"])?;
+        desc.joints = c.array(self.joints, "joints", &[&format!("{prefix}vertex_count"),
+            &format!("{prefix}influence_count")])?;
+        desc.weights = c.array(self.weights, "weights", &[&format!("{prefix}vertex_count"),
+            &format!("{prefix}influence_count")])?;
+        desc.vertex_count = c.count(&format!("{prefix}vertex_count"), 0)?;
+        desc.triangle_count = c.count(&format!("{prefix}triangle_count"), 0)?;
+        desc.influence_count = c.count(&format!("{prefix}influence_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// The joints of a character at rest. A joint transform is 10 numbers relative to the parent: translation x y z, rotation
+/// x y z w, scale x y z.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SkeletonOptions<'a> {
+    /// joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
+    /// children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all joints bend it
+    pub inverse_binds: Option<&'a [f32]>,
+    /// 3 numbers declared axis, any length, or `None`: find it
+    pub up: Option<&'a [f32]>,
+    /// 3 numbers declared axis, any length, or `None`: find it
+    pub forward: Option<&'a [f32]>,
+    /// joint_count numbers declared `HF_ROLE_*`, -1 for a joint without; or `None`
+    pub roles: Option<&'a [i32]>,
+    /// joint_count numbers `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
+    pub sides: Option<&'a [i32]>,
+    /// travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or `None`
+    pub travels: Option<&'a [f32]>,
+    /// `None`: there is none, and joints are judged by names and places alone
+    pub skin: Option<Skin<'a>>,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> SkeletonOptions<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, names: Option<&[&str]>, parents: Option<&[u32]>,
+            rest: Option<&[f32]>) -> Result<raw::hf_skeleton_desc> {
+        let mut desc = raw::hf_skeleton_desc { ..Default::default() };
+        desc.parents = c.array(parents, "parents", &[&format!("{prefix}joint_count")])?;
+        desc.rest = c.array(rest, "rest", &[&format!("{prefix}joint_count"), "10"])?;
+        desc.inverse_binds = c.array(self.inverse_binds, "inverse_binds", &[&format!("{prefix}joint_count"), "16"])?;
+        desc.up = c.array(self.up, "up", &["3"])?;
+        desc.forward = c.array(self.forward, "forward", &["3"])?;
+        desc.roles = c.array(self.roles, "roles", &[&format!("{prefix}joint_count")])?;
+        desc.sides = c.array(self.sides, "sides", &[&format!("{prefix}joint_count")])?;
+        desc.travels = c.array(self.travels, "travels", &[&format!("{prefix}travel_count"), "3"])?;
+        desc.names = c.text(names)?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        if let Some(inner) = &self.skin {
+            let inner = inner.fill(c, "skin.")?;
+            desc.skin = c.keep(inner);
+        }
+        desc.joint_count = c.count(&format!("{prefix}joint_count"), 0)?;
+        desc.travel_count = c.count(&format!("{prefix}travel_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// As the header says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GeodesicsOptions<'a> {
+    /// `HF_GEODESICS_*`
+    pub method: i32,
+    /// of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to 10,000
+    pub smoothing: f64,
+    /// `None`, or an object to poll and cancel through: creation and every later call report to it
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> GeodesicsOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "method" => self.method = Number::fit(name, value)?,
+            "smoothing" => self.smoothing = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_geodesics_desc> {
+        let mut desc = raw::hf_geodesics_desc { method: self.method, smoothing: self.smoothing, ..Default::default() };
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        Ok(desc)
+    }
+}
+
+/// As the header says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ExtremitiesOptions<'a> {
+    /// `HF_EXTREMITIES_*`
+    pub kind: i32,
+    /// tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10
+    pub least_length_share: f64,
+    /// sources of the mean distance per component, 1 to 1,000; 0 = 40
+    pub source_count: u32,
+    /// for [`raw::HF_EXTREMITIES_GEODESIC`]: an object of this surface. If its method is [`raw::HF_GEODESICS_HEAT`] its
+    /// factor serves; else, and for `None`, the call makes a factor
+    pub geodesics: Option<&'a Geodesics>,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> ExtremitiesOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "kind" => self.kind = Number::fit(name, value)?,
+            "least_length_share" => self.least_length_share = Number::fit(name, value)?,
+            "source_count" => self.source_count = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_extremities_desc> {
+        let mut desc = raw::hf_extremities_desc { kind: self.kind, least_length_share: self.least_length_share,
+            source_count: self.source_count, ..Default::default() };
+        c.known("source_count", if self.source_count == 0 { 40 } else { self.source_count });
+        desc.geodesics = self.geodesics.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        Ok(desc)
+    }
+}
+
+/// As the header says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DirectionOptions<'a> {
+    /// 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
+    pub degree: u32,
+    /// most constraints; 0 = 100,000
+    pub site_limit: u32,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> DirectionOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "degree" => self.degree = Number::fit(name, value)?,
+            "site_limit" => self.site_limit = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_direction_desc> {
+        let mut desc = raw::hf_direction_desc { degree: self.degree, site_limit: self.site_limit,
+            ..Default::default() };
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        Ok(desc)
+    }
+}
+
+/// As the header says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PoseOptions {
+    /// `HF_DEFORM_*`
+    pub mode: i32,
+    /// bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+    pub band_count: u32,
+    /// iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+    pub iteration_count: u32,
+    /// sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
+    pub rim_site_count: u32,
+    /// rotation groups of the smooth mode, 1 to 2000; 0 = 250
+    pub group_count: u32,
+}
+impl PoseOptions {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "mode" => self.mode = Number::fit(name, value)?,
+            "band_count" => self.band_count = Number::fit(name, value)?,
+            "iteration_count" => self.iteration_count = Number::fit(name, value)?,
+            "rim_site_count" => self.rim_site_count = Number::fit(name, value)?,
+            "group_count" => self.group_count = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_pose_desc> {
+        let mut desc = raw::hf_pose_desc { mode: self.mode, band_count: self.band_count,
+            iteration_count: self.iteration_count, rim_site_count: self.rim_site_count, group_count: self.group_count,
+            ..Default::default() };
+        Ok(desc)
+    }
+}
+
+/// The handles to add. Give their regions as vertex lists one after the other, or as points with radii.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HandlesOptions<'a> {
+    /// handle_count x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-connected to it
+    /// within the radius. `None`: regions are given
+    pub points: Option<&'a [f64]>,
+    /// handle_count numbers of the regions of points, in the unit of the mesh; `None`: regions are given. A radius below
+    /// 1 % of the box makes regions of 2 vertices or more
+    pub radii: Option<&'a [f64]>,
+    /// 0 to HF_LAYER_COUNT - 1, for the whole batch
+    pub layer: u32,
+    /// 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+    pub in_place: bool,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> HandlesOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "layer" => self.layer = Number::fit(name, value)?,
+            "in_place" => self.in_place = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str,
+            region_vertices: Option<&[&[u32]]>) -> Result<raw::hf_handles_desc> {
+        let mut desc = raw::hf_handles_desc { layer: self.layer, in_place: i32::from(self.in_place),
+            ..Default::default() };
+        (desc.region_counts, desc.region_vertices) = c.lists(region_vertices, "region_vertices",
+            &[&format!("{prefix}handle_count")])?;
+        desc.points = c.array(self.points, "points", &[&format!("{prefix}handle_count"), "3"])?;
+        desc.radii = c.array(self.radii, "radii", &[&format!("{prefix}handle_count")])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.handle_count = c.count(&format!("{prefix}handle_count"), 1)?;
+        Ok(desc)
+    }
+}
+
+/// The options of `Pose::deform` are outputs, strides and a range of vertices. Set at least one output.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DeformOptions {
+    /// 1 to 1000; 0 = the pose's
+    pub iteration_count: u32,
+    /// 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose with the same
+    /// handles, added in the same order, and the same transforms. Without restart a frame continues from the last
+    /// one, so it also depends on that
+    pub restart: bool,
+    /// 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about 0.2 us a
+    /// vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
+    pub refine: i32,
+    /// 1: the steps go on from the surface of the last call, instead of starting at the smooth pose. Then one step a
+    /// frame keeps lengths in a drag as well as 8 do without. If the handles stand still, more calls go on to the
+    /// minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1 or more. Higher layers
+    /// start at the smooth pose. Memory: 72 bytes a vertex
+    pub refine_from_last: bool,
+    /// outputs hold vertex_count vertices from this one on; 0 and 0: all
+    pub first_vertex: u32,
+    /// positions of a range cost only the range, without higher layers, refine and normals
+    pub vertex_count: u32,
+}
+impl DeformOptions {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "iteration_count" => self.iteration_count = Number::fit(name, value)?,
+            "restart" => self.restart = Number::fit(name, value)?,
+            "refine" => self.refine = Number::fit(name, value)?,
+            "refine_from_last" => self.refine_from_last = Number::fit(name, value)?,
+            "first_vertex" => self.first_vertex = Number::fit(name, value)?,
+            "vertex_count" => self.vertex_count = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_deform_desc> {
+        let mut desc = raw::hf_deform_desc { iteration_count: self.iteration_count, restart: i32::from(self.restart),
+            refine: self.refine, refine_from_last: i32::from(self.refine_from_last), first_vertex: self.first_vertex,
+            vertex_count: self.vertex_count, ..Default::default() };
+        c.known("vertex_count", self.vertex_count);
+        Ok(desc)
+    }
+}
+
+/// As the header says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HandleProposalsOptions<'a> {
+    /// joint_count x 3 numbers their places at rest, in the unit and frame of the mesh
+    pub joints: Option<&'a [f64]>,
+    /// joint_count numbers position of each joint's parent in the list; [`raw::HF_NO_INDEX`] for a root
+    pub parents: Option<&'a [u32]>,
+    /// direction away from the ground, of any length; 0 0 0 = 0 1 0
+    pub up: Option<[f64; 3]>,
+    /// as in [`ExtremitiesOptions`]; 0 = 0.05
+    pub least_length_share: f64,
+    /// most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
+    pub limit: u32,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> HandleProposalsOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "least_length_share" => self.least_length_share = Number::fit(name, value)?,
+            "limit" => self.limit = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_handle_proposals_desc> {
+        let mut desc = raw::hf_handle_proposals_desc { least_length_share: self.least_length_share, limit: self.limit,
+            ..Default::default() };
+        desc.joints = c.array(self.joints, "joints", &[&format!("{prefix}joint_count"), "3"])?;
+        desc.parents = c.array(self.parents, "parents", &[&format!("{prefix}joint_count")])?;
+        if let Some(given) = self.up { desc.up = given; }
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.joint_count = c.count(&format!("{prefix}joint_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct QuadsOptions<'a> {
+    /// crease_count x 2 numbers the two vertices of each edge, as given
+    pub crease_edges: Option<&'a [u32]>,
+    /// guide_count numbers as given; guides of one vertex are averaged
+    pub guide_vertices: Option<&'a [u32]>,
+    /// guide_count x 3 numbers along the surface, of any length above 0; quads run along the vector and across it
+    pub guide_vectors: Option<&'a [f64]>,
+    /// `None` = all 1, or guide_count numbers, above 0 to 1: 1 holds the direction, less mixes it with that of the
+    /// curvature, which has the rest of the weight
+    pub guide_weights: Option<&'a [f32]>,
+    /// irregular_count x 3 numbers at the surface, in the unit and frame of the mesh
+    pub irregular_points: Option<&'a [f64]>,
+    /// irregular_count numbers how many quads meet there: 3 or 5
+    pub irregular_valences: Option<&'a [u32]>,
+    /// `None` = any, or irregular_count x 3 numbers: one side of the irregular vertex runs along it; 0 0 0 = any
+    pub irregular_directions: Option<&'a [f64]>,
+    /// wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+    pub face_count: u32,
+    /// wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+    pub edge_length: f64,
+    /// edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 = none.  If there
+    /// are more than 1,024 lines of creases and borders, only the longest are kept. Creases nearer to each other than an
+    /// edge may be released
+    pub crease_angle: f64,
+    /// rounds of tangential relaxation, up to 1,000; 0 = 60; [`raw::HF_NO_INDEX`] = none, and the mesh is not fitted to
+    /// the surface either
+    pub relax_count: u32,
+    /// a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads are made of the
+    /// side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the other side are not used
+    pub symmetry_plane: Option<[f64; 4]>,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> QuadsOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "face_count" => self.face_count = Number::fit(name, value)?,
+            "edge_length" => self.edge_length = Number::fit(name, value)?,
+            "crease_angle" => self.crease_angle = Number::fit(name, value)?,
+            "relax_count" => self.relax_count = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_quads_desc> {
+        let mut desc = raw::hf_quads_desc { face_count: self.face_count, edge_length: self.edge_length,
+            crease_angle: self.crease_angle, relax_count: self.relax_count, ..Default::default() };
+        desc.crease_edges = c.array(self.crease_edges, "crease_edges", &[&format!("{prefix}crease_count"), "2"])?;
+        desc.guide_vertices = c.array(self.guide_vertices, "guide_vertices", &[&format!("{prefix}guide_count")])?;
+        desc.guide_vectors = c.array(self.guide_vectors, "guide_vectors", &[&format!("{prefix}guide_count"), "3"])?;
+        desc.guide_weights = c.array(self.guide_weights, "guide_weights", &[&format!("{prefix}guide_count")])?;
+        desc.irregular_points = c.array(self.irregular_points, "irregular_points",
+            &[&format!("{prefix}irregular_count"), "3"])?;
+        desc.irregular_valences = c.array(self.irregular_valences, "irregular_valences",
+            &[&format!("{prefix}irregular_count")])?;
+        desc.irregular_directions = c.array(self.irregular_directions, "irregular_directions",
+            &[&format!("{prefix}irregular_count"), "3"])?;
+        if let Some(given) = self.symmetry_plane { desc.symmetry_plane = given; }
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.crease_count = c.count(&format!("{prefix}crease_count"), 0)?;
+        desc.guide_count = c.count(&format!("{prefix}guide_count"), 0)?;
+        desc.irregular_count = c.count(&format!("{prefix}irregular_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// As the header says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RegionOptions<'a> {
+    /// vertex_count x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or any pose of them.
+    /// `None`: the mesh's own to 1e-15 of the box. Copied
+    pub positions: Option<Reals<'a>>,
+    /// `HF_BASE_*`. If the surface has no factor for it yet, it is made now
+    pub base: i32,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> RegionOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "base" => self.base = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_region_desc> {
+        let mut desc = raw::hf_region_desc { base: self.base, ..Default::default() };
+        (desc.positions, desc.positions_f64) = c.reals(self.positions, "positions", &["vertex_count", "3"])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        Ok(desc)
+    }
+}
+
+/// Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
+/// region, and any single vertex that these surround but for one edge. The rim is the vertices next to them, on or beyond
+/// the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the curve. A whole
+/// border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Curve<'a> {
+    /// point_count numbers vertices as given, or `None`
+    pub vertices: Option<&'a [u32]>,
+    /// point_count numbers triangles (or faces of three corners) as given, or `None`
+    pub triangles: Option<&'a [u32]>,
+    /// point_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
+    pub barycentrics: Option<&'a [f64]>,
+    /// point_count x 3 numbers three vertices of one face, as [`raw::hf_hit`] has them, or `None`
+    pub corners: Option<&'a [u32]>,
+    /// `HF_SIDE_*`
+    pub side: i32,
+    /// with [`raw::HF_SIDE_SEED`]
+    pub seed_vertex: u32,
+    /// `HF_CURVE_*`
+    pub kind: i32,
+}
+impl<'a> Curve<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "side" => self.side = Number::fit(name, value)?,
+            "seed_vertex" => self.seed_vertex = Number::fit(name, value)?,
+            "kind" => self.kind = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_curve_desc> {
+        let mut desc = raw::hf_curve_desc { side: self.side, seed_vertex: self.seed_vertex, kind: self.kind,
+            ..Default::default() };
+        desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}point_count")])?;
+        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}point_count")])?;
+        desc.barycentrics = c.array(self.barycentrics, "barycentrics", &[&format!("{prefix}point_count"), "3"])?;
+        desc.corners = c.array(self.corners, "corners", &[&format!("{prefix}point_count"), "3"])?;
+        desc.point_count = c.count(&format!("{prefix}point_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// A change of a region. The parts are applied in the order curve, rings, remove, add. A part that is 0 or `None` is
+/// skipped.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RegionEditOptions<'a> {
+    /// remove_count numbers vertices that leave the region; others are passed over
+    pub remove_vertices: Option<&'a [u32]>,
+    /// add_count numbers vertices that join it; those in it already are passed over
+    pub add_vertices: Option<&'a [u32]>,
+    /// rings of vertices by which the region grows; below 0 it shrinks
+    pub ring_count: i32,
+    /// the region becomes what this curve encloses
+    pub curve: Option<Curve<'a>>,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> RegionEditOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "ring_count" => self.ring_count = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_region_edit_desc> {
+        let mut desc = raw::hf_region_edit_desc { ring_count: self.ring_count, ..Default::default() };
+        desc.remove_vertices = c.array(self.remove_vertices, "remove_vertices", &[&format!("{prefix}remove_count")])?;
+        desc.add_vertices = c.array(self.add_vertices, "add_vertices", &[&format!("{prefix}add_count")])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        if let Some(inner) = &self.curve {
+            let inner = inner.fill(c, "curve.")?;
+            desc.curve = c.keep(inner);
+        }
+        desc.remove_count = c.count(&format!("{prefix}remove_count"), 0)?;
+        desc.add_count = c.count(&format!("{prefix}add_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// Gives `Region::morph` and `Detail::morph` their weight and outputs. Set at least one output.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct MorphOptions {
+}
+impl MorphOptions {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, weight: f64) -> Result<raw::hf_morph_desc> {
+        let mut desc = raw::hf_morph_desc { weight: weight, ..Default::default() };
+        Ok(desc)
+    }
+}
+
+/// As the header says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DetailOptions<'a> {
+    /// pair_count numbers rim vertices of the source, as given
+    pub source_vertices: Option<&'a [u32]>,
+    /// pair_count numbers rim vertices of the target, as given
+    pub target_vertices: Option<&'a [u32]>,
+    /// of the detail, > 0; 0 = square root of target base area over source base area
+    pub scale: f64,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> DetailOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "scale" => self.scale = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_detail_desc> {
+        let mut desc = raw::hf_detail_desc { scale: self.scale, ..Default::default() };
+        desc.source_vertices = c.array(self.source_vertices, "source_vertices", &[&format!("{prefix}pair_count")])?;
+        desc.target_vertices = c.array(self.target_vertices, "target_vertices", &[&format!("{prefix}pair_count")])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.pair_count = c.count(&format!("{prefix}pair_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// Options of a retarget. `None` in `Retarget::new` gives the defaults.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RetargetOptions<'a> {
+    /// source.joint_count x 10 numbers a pose that counts as rest, or `None`: the rest of the skeleton. Give poses in
+    /// which both characters stand alike
+    pub source_rest: Option<&'a [f32]>,
+    /// target.joint_count x 10 numbers the same for the target, or `None`
+    pub target_rest: Option<&'a [f32]>,
+    /// `HF_ROOT_MOTION_*`
+    pub root_motion: i32,
+    /// bits of `HF_RETARGET_*`
+    pub leave_out: u32,
+    /// travel of the target over travel of the source; 0: the ratio of leg lengths
+    pub scale: f64,
+    /// of the ground under a clip on the spot, in the space of the source, per second; 0: the ground rests.
+    /// `Skeleton::ground_velocity` finds it
+    pub ground_velocity: Option<[f64; 3]>,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> RetargetOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "root_motion" => self.root_motion = Number::fit(name, value)?,
+            "leave_out" => self.leave_out = Number::fit(name, value)?,
+            "scale" => self.scale = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_retarget_desc> {
+        let mut desc = raw::hf_retarget_desc { root_motion: self.root_motion, leave_out: self.leave_out,
+            scale: self.scale, ..Default::default() };
+        desc.source_rest = c.array(self.source_rest, "source_rest", &["source.joint_count", "10"])?;
+        desc.target_rest = c.array(self.target_rest, "target_rest", &["target.joint_count", "10"])?;
+        if let Some(given) = self.ground_velocity { desc.ground_velocity = given; }
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        Ok(desc)
+    }
+}
+
+/// most pairs of a transfer
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TransferOptions<'a> {
+    /// source.vertex_count x 3 numbers, or `None` Poses in which the two bodies correspond, in each surface's unit, read
+    /// by the call, or `None` for the positions of the surface. A character bound in a crouch gets a standing pose here.
+    /// Motion counts from these poses; the fields stay those of the surfaces.
+    pub source_rest: Option<&'a [f32]>,
+    /// target.vertex_count x 3 numbers, or `None`
+    pub target_rest: Option<&'a [f32]>,
+    /// `HF_TRANSFER_*`
+    pub mode: i32,
+    /// 1 to 512; 0 = 80, or 5 for each pair if that is more
+    pub cluster_count: u32,
+    /// `HF_GROUND_*`
+    pub ground: i32,
+    /// width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is more, up to 0.12
+    pub kernel_width: f64,
+    /// lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no pair is
+    /// a foot
+    pub scale: f64,
+    /// A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times the angle it is not
+    /// aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
+    pub alignment_angle: f64,
+    /// Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward +z). Lengths,
+    /// and right x up = forward, must hold within 1e-3. The library takes the nearest rotation.
+    pub source_axes: Option<[f64; 9]>,
+    /// As the header says.
+    pub target_axes: Option<[f64; 9]>,
+}
+impl<'a> TransferOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "mode" => self.mode = Number::fit(name, value)?,
+            "cluster_count" => self.cluster_count = Number::fit(name, value)?,
+            "ground" => self.ground = Number::fit(name, value)?,
+            "kernel_width" => self.kernel_width = Number::fit(name, value)?,
+            "scale" => self.scale = Number::fit(name, value)?,
+            "alignment_angle" => self.alignment_angle = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_transfer_desc> {
+        let mut desc = raw::hf_transfer_desc { mode: self.mode, cluster_count: self.cluster_count, ground: self.ground,
+            kernel_width: self.kernel_width, scale: self.scale, alignment_angle: self.alignment_angle,
+            ..Default::default() };
+        desc.source_rest = c.array(self.source_rest, "source_rest", &["source.vertex_count", "3"])?;
+        desc.target_rest = c.array(self.target_rest, "target_rest", &["target.vertex_count", "3"])?;
+        if let Some(given) = self.source_axes { desc.source_axes = given; }
+        if let Some(given) = self.target_axes { desc.target_axes = given; }
+        Ok(desc)
+    }
+}
+
+/// The pairs to add. The regions of each surface are vertex lists, one after the other.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pairs<'a> {
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> Pairs<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, source_vertices: Option<&[&[u32]]>,
+            target_vertices: Option<&[&[u32]]>, flags: Option<&[u32]>) -> Result<raw::hf_pairs_desc> {
+        let mut desc = raw::hf_pairs_desc { ..Default::default() };
+        (desc.source_counts, desc.source_vertices) = c.lists(source_vertices, "source_vertices",
+            &[&format!("{prefix}pair_count")])?;
+        (desc.target_counts, desc.target_vertices) = c.lists(target_vertices, "target_vertices",
+            &[&format!("{prefix}pair_count")])?;
+        desc.flags = c.array(flags, "flags", &[&format!("{prefix}pair_count")])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.pair_count = c.count(&format!("{prefix}pair_count"), 1)?;
+        Ok(desc)
+    }
+}
+
+/// What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the result
+/// is continuous in each dial.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TransferDials {
+    /// the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted foot does
+    /// not slide. The body travels as much farther
+    pub stride: f64,
+    /// raises the pairs flagged [`raw::HF_PAIR_TRUNK`] and [`raw::HF_PAIR_ANCHOR`] by this share of their mean height at
+    /// rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised
+    pub hip_height_share: f64,
+    /// pairs flagged [`raw::HF_PAIR_NECK`], together one limb How far a limb follows the source, -1 to 1. 0 = neutral: it
+    /// plays the source's motion from its own rest direction. 1: it also takes the rest direction of the source's limb.
+    /// -1: it does not move against its root.
+    pub neck_follow: f64,
+    /// pairs flagged [`raw::HF_PAIR_TAIL`], together one limb
+    pub tail_follow: f64,
+    /// turns arms ([`raw::HF_PAIR_ARM`]) away from the body, about the forward axis at rest, -pi/2 to pi/2 radians; 0 =
+    /// neutral
+    pub arm_space: f64,
+    /// how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less, so that they move
+    /// as far. 1: they make the whole turn. Between, a part may jump that turns by half a turn against the part before it
+    pub long_follow: f64,
+}
+impl TransferDials {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "stride" => self.stride = Number::fit(name, value)?,
+            "hip_height_share" => self.hip_height_share = Number::fit(name, value)?,
+            "neck_follow" => self.neck_follow = Number::fit(name, value)?,
+            "tail_follow" => self.tail_follow = Number::fit(name, value)?,
+            "arm_space" => self.arm_space = Number::fit(name, value)?,
+            "long_follow" => self.long_follow = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_transfer_dials> {
+        let mut desc = raw::hf_transfer_dials { stride: self.stride, hip_height_share: self.hip_height_share,
+            neck_follow: self.neck_follow, tail_follow: self.tail_follow, arm_space: self.arm_space,
+            long_follow: self.long_follow, ..Default::default() };
+        Ok(desc)
+    }
+}
+
+/// Describes one frame: the input is the posed source, the output the posed target. Set source_positions or
+/// source_positions_f64, and at least one output. Strides are in bytes; 0 = packed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TransferFrame<'a> {
+    /// hold_count numbers each pair at most once
+    pub hold_pairs: Option<&'a [u32]>,
+    /// hold_count x 3 numbers in the target's unit and frame
+    pub hold_positions: Option<&'a [f64]>,
+}
+impl<'a> TransferFrame<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str,
+            source_positions: Option<Reals<'_>>) -> Result<raw::hf_transfer_frame> {
+        let mut desc = raw::hf_transfer_frame { ..Default::default() };
+        (desc.source_positions, desc.source_positions_f64) = c.reals(source_positions, "source_positions",
+            &["source.vertex_count", "3"])?;
+        desc.hold_pairs = c.array(self.hold_pairs, "hold_pairs", &[&format!("{prefix}hold_count")])?;
+        desc.hold_positions = c.array(self.hold_positions, "hold_positions", &[&format!("{prefix}hold_count"), "3"])?;
+        desc.hold_count = c.count(&format!("{prefix}hold_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// The joints of a skeleton, in the unit and frame of the mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Joints<'a> {
+    /// joint_count x 3 numbers
+    pub heads: Option<&'a [f64]>,
+    /// joint_count x 3 numbers, or `None`: heads are joints, and the library finds the tails
+    pub tails: Option<&'a [f64]>,
+    /// joint_count x 3 numbers with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A joint
+    /// reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a last
+    /// joint ends
+    pub axes: Option<&'a [f64]>,
+    /// joint_count numbers number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
+    pub parents: Option<&'a [u32]>,
+    /// joint_count numbers 1: the joint gets weights; `None`: all do
+    pub deforms: Option<&'a [i32]>,
+    /// joint_count numbers for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`] for a
+    /// new one; `None`: the same number. `Weights::new`: `None`
+    pub sources: Option<&'a [u32]>,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> Joints<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_joints_desc> {
+        let mut desc = raw::hf_joints_desc { ..Default::default() };
+        desc.heads = c.array(self.heads, "heads", &[&format!("{prefix}joint_count"), "3"])?;
+        desc.tails = c.array(self.tails, "tails", &[&format!("{prefix}joint_count"), "3"])?;
+        desc.axes = c.array(self.axes, "axes", &[&format!("{prefix}joint_count"), "3"])?;
+        desc.parents = c.array(self.parents, "parents", &[&format!("{prefix}joint_count")])?;
+        desc.deforms = c.array(self.deforms, "deforms", &[&format!("{prefix}joint_count")])?;
+        desc.sources = c.array(self.sources, "sources", &[&format!("{prefix}joint_count")])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.joint_count = c.count(&format!("{prefix}joint_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// Places with given weights. Set vertices, or triangles with barycentrics. Give every vertex of a painted region to keep
+/// its weights.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pins<'a> {
+    /// pin_count numbers triangles as given, or `None`
+    pub triangles: Option<&'a [u32]>,
+    /// pin_count x 3 numbers with triangles, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
+    pub barycentrics: Option<&'a [f64]>,
+    /// pin_count numbers of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place alone
+    pub radii: Option<&'a [f64]>,
+    /// pin_count x influence_count numbers joints
+    pub joints: Option<&'a [u32]>,
+    /// pin_count x influence_count numbers >= 0, scaled to the sum 1
+    pub weights: Option<&'a [f32]>,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> Pins<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, vertices: Option<&[u32]>) -> Result<raw::hf_pins_desc> {
+        let mut desc = raw::hf_pins_desc { ..Default::default() };
+        desc.vertices = c.array(vertices, "vertices", &[&format!("{prefix}pin_count")])?;
+        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}pin_count")])?;
+        desc.barycentrics = c.array(self.barycentrics, "barycentrics", &[&format!("{prefix}pin_count"), "3"])?;
+        desc.radii = c.array(self.radii, "radii", &[&format!("{prefix}pin_count")])?;
+        desc.joints = c.array(self.joints, "joints", &[&format!("{prefix}pin_count"),
+            &format!("{prefix}influence_count")])?;
+        desc.weights = c.array(self.weights, "weights", &[&format!("{prefix}pin_count"),
+            &format!("{prefix}influence_count")])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.pin_count = c.count(&format!("{prefix}pin_count"), 0)?;
+        desc.influence_count = c.count(&format!("{prefix}influence_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// Weights to transfer from one surface to another.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WeightsTransferOptions<'a> {
+    /// source.vertex_count x source_influence_count numbers
+    pub joints: Option<&'a [u32]>,
+    /// source.vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+    pub weights: Option<&'a [f32]>,
+    /// a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
+    pub distance: f64,
+    /// between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
+    pub angle: f64,
+    /// joints of each vertex in the result: 4 or 8; 0: 4
+    pub influence_count: u32,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> WeightsTransferOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "distance" => self.distance = Number::fit(name, value)?,
+            "angle" => self.angle = Number::fit(name, value)?,
+            "influence_count" => self.influence_count = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_weights_transfer_desc> {
+        let mut desc = raw::hf_weights_transfer_desc { distance: self.distance, angle: self.angle,
+            influence_count: self.influence_count, ..Default::default() };
+        c.known("influence_count", if self.influence_count == 0 { 4 } else { self.influence_count });
+        desc.joints = c.array(self.joints, "joints", &["source.vertex_count",
+            &format!("{prefix}source_influence_count")])?;
+        desc.weights = c.array(self.weights, "weights", &["source.vertex_count",
+            &format!("{prefix}source_influence_count")])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.source_influence_count = c.count(&format!("{prefix}source_influence_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// Weights to mirror.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WeightsMirrorOptions<'a> {
+    /// joint_count x 3 numbers the joints at rest, in the frame of the mesh
+    pub heads: Option<&'a [f64]>,
+    /// one line for each joint in UTF-8, or `None`: joints are paired by their places
+    pub names: Option<&'a [&'a str]>,
+    /// joint_count numbers the joint of the other side, [`raw::HF_NO_INDEX`]: find it; or `None`
+    pub partners: Option<&'a [u32]>,
+    /// 6 numbers a point and a normal, or `None`: find the plane
+    pub plane: Option<&'a [f64]>,
+    /// vertex_count x source_influence_count numbers
+    pub joints: Option<&'a [u32]>,
+    /// vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+    pub weights: Option<&'a [f32]>,
+    /// `HF_MIRROR_*`
+    pub to: i32,
+    /// as in [`WeightsTransferOptions`]
+    pub distance: f64,
+    /// as in [`WeightsTransferOptions`]
+    pub angle: f64,
+    /// joints of each vertex in the result: 4 or 8; 0: 4
+    pub influence_count: u32,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> WeightsMirrorOptions<'a> {
+    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        match name {
+            "to" => self.to = Number::fit(name, value)?,
+            "distance" => self.distance = Number::fit(name, value)?,
+            "angle" => self.angle = Number::fit(name, value)?,
+            "influence_count" => self.influence_count = Number::fit(name, value)?,
+            _ => return Err(unknown(name)),
+        }
+        Ok(())
+    }
+
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_weights_mirror_desc> {
+        let mut desc = raw::hf_weights_mirror_desc { to: self.to, distance: self.distance, angle: self.angle,
+            influence_count: self.influence_count, ..Default::default() };
+        c.known("influence_count", if self.influence_count == 0 { 4 } else { self.influence_count });
+        desc.heads = c.array(self.heads, "heads", &[&format!("{prefix}joint_count"), "3"])?;
+        desc.partners = c.array(self.partners, "partners", &[&format!("{prefix}joint_count")])?;
+        desc.plane = c.array(self.plane, "plane", &["6"])?;
+        desc.joints = c.array(self.joints, "joints", &["vertex_count", &format!("{prefix}source_influence_count")])?;
+        desc.weights = c.array(self.weights, "weights", &["vertex_count", &format!("{prefix}source_influence_count")])?;
+        desc.names = c.text(self.names)?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.joint_count = c.count(&format!("{prefix}joint_count"), 0)?;
+        desc.source_influence_count = c.count(&format!("{prefix}source_influence_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 - parameter)
+/// a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours: each is `None` or as
+/// large as its capacity.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Isolines {
+    /// point_capacity x 2 numbers vertices a and b as given, of welded copies the first
+    pub point_edges: Vec<u32>,
+    /// point_capacity numbers 0 to 1
+    pub parameters: Vec<f64>,
+    /// point_capacity x 3 numbers in the unit and frame of the mesh as given
+    pub positions: Vec<f64>,
+    /// line_capacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1
+    pub line_starts: Vec<u32>,
+    /// line_capacity numbers position of its level in the list
+    pub line_levels: Vec<u32>,
+    /// line_capacity numbers 1: closed, the first point is not repeated; 0: ends at borders
+    pub line_closed: Vec<i32>,
+}
+
+/// Places, values and fluxes of the sites. The arrays are yours; each is `None` or has `capacity` entries. The entries
+/// are ordered by site number.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SitesInfo {
+    /// capacity numbers numbers
+    pub sites: Vec<u32>,
+    /// capacity numbers the vertex given, [`raw::HF_NO_INDEX`] for a point in a triangle
+    pub vertices: Vec<u32>,
+    /// capacity numbers
+    pub components: Vec<u32>,
+    /// capacity x channel_count numbers
+    pub values: Vec<f64>,
+    /// capacity numbers 0 = hard
+    pub stiffness: Vec<f64>,
+    /// capacity x channel_count numbers lambda: what flows into the surface at the site, in value x weight; the sum over
+    /// a disc
+    pub flux: Vec<f64>,
+    /// capacity numbers 0 = a point
+    pub radii: Vec<f64>,
+}
+
+/// A path along the surface, from its first point to its last. Each point lies on a mesh edge with the end vertices a and
+/// b, at the position (1 - parameter) a + parameter b; at a vertex a is b. An end inside a triangle has
+/// [`raw::HF_NO_INDEX`] for both. The arrays are yours: each is `None` or as large as the capacity.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Path {
+    /// point_capacity x 2 numbers vertices a and b as given, of welded copies the first
+    pub point_edges: Vec<u32>,
+    /// point_capacity numbers 0 to 1
+    pub parameters: Vec<f64>,
+    /// point_capacity x 3 numbers in the unit and frame of the mesh as given
+    pub positions: Vec<f64>,
+    /// in the unit of the mesh; -1: no path
+    pub length: f64,
+}
+
+/// This struct receives a pose or a transfer as a skin for linear blend skinning. The clusters become joints with fixed
+/// vertex weights, and the skin holds their motion in the last frame. Joint j takes a point p to R (p - pivot) +
+/// translation, with R its rotation. Its inverse bind matrix is the translation by -pivot.
+///
+/// If you ask for scales, a joint may also stretch along its own axes. With B the rotation of `axes`, the joint takes p
+/// to R B diag(scale) B^-1 (p - pivot) + translation. In a scene file that is a node with rotation R B and that scale,
+/// and the inverse bind matrix takes p to B^-1 (p - pivot). The arrays are yours; each may be `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SkinInfo {
+    /// joint_capacity x 3 numbers rest centroid of what each joint moves
+    pub pivots: Vec<f64>,
+    /// joint_capacity x 4 numbers quaternion x, y, z, w of the last frame
+    pub rotations: Vec<f64>,
+    /// joint_capacity x 3 numbers posed place of the pivot
+    pub translations: Vec<f64>,
+    /// joint_capacity x 4 numbers quaternion of B, fixed while handles stay
+    pub axes: Vec<f64>,
+    /// joint_capacity x 3 numbers along the axes in the last frame; `None` = joints are rigid
+    pub scales: Vec<f64>,
+    /// vertex_capacity x influence_count numbers
+    pub vertex_joints: Vec<u32>,
+    /// vertex_capacity x influence_count numbers of sum 1, descending
+    pub vertex_weights: Vec<f32>,
+    /// joints per vertex, 4 or 8; 0 = 4
+    pub influence_count: u32,
+}
+
+/// `Quads::mesh` writes the quad mesh to these arrays. They are yours: each is `None` or as large as its capacity.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct QuadsMesh {
+    /// vertex_capacity x 3 numbers in the unit and frame of the mesh as given
+    pub positions: Vec<f64>,
+    /// face_capacity x 4 numbers vertices of each quad, counter-clockwise
+    pub faces: Vec<u32>,
+    /// vertex_capacity numbers triangle or face as given that the vertex lies in
+    pub triangles: Vec<u32>,
+    /// vertex_capacity x 3 numbers weights of that triangle's corners, in its own order, of sum 1; in a face of more
+    /// corners the weights of `corners`
+    pub barycentrics: Vec<f64>,
+    /// vertex_capacity x 3 numbers vertices as given, of welded copies the first, that barycentrics belong to
+    pub corners: Vec<u32>,
+}
+
+/// As the header says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Streamlines {
+    /// point_capacity x 3 numbers in the unit and frame of the mesh as given
+    pub positions: Vec<f64>,
+    /// point_capacity numbers of the field, rising along every line
+    pub values: Vec<f64>,
+    /// line_capacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1
+    pub line_starts: Vec<u32>,
+    /// line_capacity x 2 numbers vertices where it starts and ends, of welded copies the first
+    pub line_ends: Vec<u32>,
+}
+
+/// Receives the weights. The arrays are yours; each may be `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WeightsOut {
+    /// vertex_capacity x influence_count numbers
+    pub joints: Vec<u32>,
+    /// vertex_capacity x influence_count numbers descending, of sum exactly 1
+    pub weights: Vec<f32>,
+    /// vertex_capacity numbers `HF_WEIGHTS_*`
+    pub origins: Vec<u8>,
+    /// joints per vertex, 4 or 8
+    pub influence_count: u32,
+}
+
+object!(
+    /// Reports the progress of a long call. Any thread can poll the object and cancel the call through it. Use one object
+    /// for one call at a time.
+    Progress: hf_progress, hf_progress_destroy
+);
+impl Progress {
+    /// Creates a progress object.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new() -> Result<Self> {
+        let mut c = Call::new(&[]);
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_progress_create(&mut handle_) })?;
+        Ok(Progress { handle: handle_, counts: c.counts(&[]) })
+    }
+
+    /// Writes how much of the running call is done.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn fraction(&self) -> Result<f64> {
+        let mut c = Call::new(&self.counts);
+        let mut fraction = f64::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_progress_get_fraction(self.handle, &mut fraction) })?;
+        Ok(fraction)
+    }
+
+    /// Stops the call that uses this object, or the next one that does. That call returns [`raw::HF_ERROR_CANCELLED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn cancel(&self) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_progress_cancel(self.handle) })?;
+        Ok(())
+    }
+}
+
+object!(
+    /// hf/surface.h - prepare a mesh once: weld it, check it and factorise its Laplacian.
+    ///
+    /// Make one surface per mesh, or per graph of your own (`Surface::from_graph`). Solvers, poses, direction fields,
+    /// regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any number of
+    /// threads may use it. An object made on a surface keeps the data it needs, so you can destroy objects in any order.
+    Surface: hf_surface, hf_surface_destroy
+);
+impl Surface {
+    /// Makes a surface: welds and checks the mesh, builds the operator, orders and factorises it. The call copies the
+    /// mesh. Afterwards the surface uses only the allocator and the job runner of the desc. The mesh may be dirty: the
+    /// surface counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
+    /// `Surface::report` gives these counts.
+    ///
+    /// A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are doubled
+    /// if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a
+    /// cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
+    /// second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+    ///
+    /// positions: vertex_count x 3 numbers, any unit, any offset
+    /// triangles: triangle_count x 3 numbers, counter-clockwise seen from outside
+    /// face_starts: face_count numbers first corner of each face. `None`: the faces follow one another. Without
+    /// face_sizes face_count + 1 numbers: the corners of face f end where those of f + 1 start
+    /// face_sizes: face_count numbers corners of each face, 3 to 65,535. `None`: face_starts is enough
+    /// corners: corner_count numbers vertices, counter-clockwise seen from outside
+    /// weld: `HF_WELD_*`
+    /// weld_tolerance: for [`raw::HF_WELD_TOLERANCE`], in the unit of the positions, > 0
+    /// operator_kind: `HF_OPERATOR_*`
+    /// field_kind: `HF_FIELD_*`: the factor made now. Others are made when a solver or region asks
+    /// ordering: `HF_ORDERING_*`
+    /// thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
+    /// vertex_limit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles or
+    /// edges are always refused
+    /// triangle_limit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the vertex
+    /// limit
+    /// memory_limit_mb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
+    /// work_limit_gflop: refuse a factorisation of more than this many 10^9 operations. They are counted before it
+    /// begins; 0 = 100,000, about an hour of one core
+    /// progress: an object to poll and cancel through
+    /// saved_factor: the saved factor of this mesh; ordering is then 0 or the factor's
+    /// links: `None`: [`raw::HF_LINK_NONE`]. A saved factor needs the links it was made with
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new<'i>(positions: impl Into<Reals<'i>>, triangles: impl Into<Indices<'i>>,
+            options: &SurfaceOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        let desc = options.fill(&mut c, "", Some(positions.into()), Some(triangles.into()))?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_create(&desc, &mut handle_) })?;
+        Ok(Surface { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the
+    /// graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
+    /// reports work as on a mesh. A call that needs triangles returns [`raw::HF_ERROR_UNSUPPORTED`]: poses, regions,
+    /// directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
+    /// links, screening, and sites in triangles or on discs.
+    ///
+    /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
+    /// median of their component are limited; [`raw::hf_surface_report`] counts their vertices as changed. Bi-harmonic
+    /// fields limit weights to 1e3 times the median.
+    ///
+    /// edges: edge_count x 2 numbers vertices, in any order. The weights of parallel edges are added up. Self loops are
+    /// ignored
+    /// weights: edge_count numbers any unit, up to 1e100 in size. An edge of weight 0 is left out
+    /// masses: vertex_count numbers M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100; `None`: all 1.
+    /// A mass below 1e-4 of the mean of its component counts as that
+    /// vertex_count: >= 1, also without masses
+    /// allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of tetrahedra
+    /// do. A field can then leave the range of its sites. 0: they are refused
+    /// field_kind: `HF_FIELD_*`: the factor made now. Others are made when a solver asks
+    /// ordering: `HF_ORDERING_*`
+    /// thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
+    /// vertex_limit: refuse larger graphs before allocating; 0 = 20,000,000
+    /// edge_limit: refuse more edges; 0 = sixteen per vertex of the vertex limit
+    /// memory_limit_mb: refuse to hold more memory than this, in MiB; 0 = no limit
+    /// work_limit_gflop: refuse a factorisation of more than this many 10^9 operations; 0 = 100,000
+    /// progress: an object to poll and cancel through
+    /// saved_factor: the saved factor of this graph; ordering is then 0 or the factor's
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn from_graph(edges: &[u32], weights: &[f64], options: &GraphOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        let desc = options.fill(&mut c, "", Some(edges), Some(weights))?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_create_graph(&desc, &mut handle_) })?;
+        Ok(Surface { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Writes the options of a surface.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn info(&self) -> Result<raw::hf_surface_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_surface_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_get_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Writes the report of the mesh.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn report(&self) -> Result<raw::hf_surface_report> {
+        let mut c = Call::new(&self.counts);
+        let mut report = raw::hf_surface_report::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_get_report(self.handle, &mut report) })?;
+        Ok(report)
+    }
+
+    /// Writes the component of every vertex of your mesh, and [`raw::HF_NO_INDEX`] for isolated vertices. Components are
+    /// numbered in the order of their lowest vertex numbers.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn components(&self) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut components: Vec<u32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut components, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_get_components(self.handle, room.get("capacity"),
+                room.at(&mut components), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        components.truncate(c.product(&["capacity"]));
+        Ok(components)
+    }
+
+    /// Writes the links of a surface. You can edit them and give them back with [`raw::HF_LINK_LIST`]. A list does not
+    /// say which pieces are light: name them in light_vertices, as `Surface::pieces` marks them. Then the list alone
+    /// gives the same surface, bit for bit, without a search.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn links(&self) -> Result<Vec<raw::hf_link>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut links: Vec<raw::hf_link> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut links, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_get_links(self.handle, room.get("capacity"), room.at(&mut links),
+                &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        links.truncate(c.product(&["capacity"]));
+        Ok(links)
+    }
+
+    /// Writes the piece of every vertex of your mesh, and [`raw::HF_NO_INDEX`] for isolated vertices. Pieces are numbered
+    /// in the order of their lowest vertices.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn pieces(&self) -> Result<(Vec<u32>, Vec<i32>)> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut pieces: Vec<u32> = Vec::new();
+        let mut light: Vec<i32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"], &["capacity"]]);
+            room.make(&c, &mut pieces, &["capacity"]);
+            room.make(&c, &mut light, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_get_pieces(self.handle, room.get("capacity"), room.at(&mut pieces),
+                room.at(&mut light), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        pieces.truncate(c.product(&["capacity"]));
+        light.truncate(c.product(&["capacity"]));
+        Ok((pieces, light))
+    }
+
+    /// Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends
+    /// are apart than at rest, and 0 if they are nearer.
+    ///
+    /// positions: vertex_count x 3 numbers: of a pose, a frame of a transfer, or any other deformation
+    /// info: filled in when given
+    ///
+    /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn measure_gaps<'i>(&self, positions: impl Into<Reals<'i>>) -> Result<(Vec<f64>, raw::hf_gaps_info)> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_gaps_info::default();
+        let desc = Gaps {}.fill(&mut c, "", Some(positions.into()))?;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut gaps: Vec<f64> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut gaps, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_measure_gaps(self.handle, &desc, room.get("capacity"),
+                room.at(&mut gaps), &mut info) };
+            if room.enough(&mut c, code, &[("capacity", info.link_count)])? {
+                break;
+            }
+        }
+        gaps.truncate(c.product(&["capacity"]));
+        Ok((gaps, info))
+    }
+
+    /// Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old one
+    /// where its matrix has the same pattern: other stiffness, weights or light pieces.
+    ///
+    /// joints: vertex_count x influence_count numbers of a skin: pieces of the same joint link sooner
+    /// weights: vertex_count x influence_count numbers of sum 1; where all are 0, a vertex shares no joint
+    /// tags: vertex_count numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of a
+    /// piece counts
+    /// links: link_count numbers
+    /// light_vertices: light_count numbers: their pieces are light
+    /// heavy_vertices: heavy_count numbers: their pieces are not, as one that gets a site or handle
+    /// mode: `HF_LINK_*`
+    /// distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
+    /// stiffness: of all links, times each one's weight; 0 = 1
+    /// overlay_distance: automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of the
+    /// diagonal, below 0: no piece is light unless light_vertices say so
+    /// progress: an object to poll and cancel through.
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn relink(&self, links: &Links, progress: Option<&Progress>) -> Result<Self> {
+        let mut c = Call::new(&self.counts);
+        let desc = links.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_relink(self.handle, &desc, progress.map_or(std::ptr::null_mut(), |o| o.handle),
+            &mut handle_) })?;
+        Ok(Surface { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Writes the statistics of a surface and of the factor it was made with.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_surface_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_surface_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
+    }
+
+    /// Saves the factor of one kind of field. An authoring tool saves it once. A game ships the bytes beside the mesh and
+    /// gives them to `Surface::new`, which then takes a fraction of the time. The bytes are the same for the same mesh,
+    /// options and library version, whatever the number of threads. The bytes are little-endian and hold a format
+    /// version, a hash of the matrix and a checksum. They hold no sites.
+    ///
+    /// field_kind: `HF_FIELD_*`; a factor that does not exist yet is made first.
+    /// progress: an object to poll and cancel through.
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_TOO_SMALL`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn save(&self, field_kind: i32, progress: Option<&Progress>) -> Result<Vec<u8>> {
+        let mut c = Call::new(&self.counts);
+        let mut size = 0;
+        // SAFETY: the first call asks for the size.
+        check(unsafe { raw::hf_surface_save(self.handle, field_kind, progress.map_or(std::ptr::null_mut(),
+            |o| o.handle), 0, std::ptr::null_mut(), &mut size) })?;
+        let mut block = vec![0u8; size];
+        check(unsafe { raw::hf_surface_save(self.handle, field_kind, progress.map_or(std::ptr::null_mut(),
+            |o| o.handle), block.len(), block.as_mut_ptr().cast(), &mut size) })?;
+        Ok(block)
+    }
+
+    /// Finds what a mouse click hits: the first triangle on a ray.
+    ///
+    /// origin: 3 numbers in the frame of the positions; the direction can have any length above 0.
+    /// direction: 3 numbers in the frame of the positions; the direction can have any length above 0.
+    /// positions: vertex_count x 3 numbers posed positions (Pose.deform writes them), or `None`
+    /// front_only: 1: a ray passes triangles seen from behind
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn cast_ray(&self, origin: &[f64], direction: &[f64], options: &PickOptions) -> Result<Option<raw::hf_hit>> {
+        let mut c = Call::new(&self.counts);
+        let origin_ = c.array(Some(origin), "origin", &["3"])?;
+        let direction_ = c.array(Some(direction), "direction", &["3"])?;
+        let desc = options.fill(&mut c, "")?;
+        let mut hit = raw::hf_hit::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_cast_ray(self.handle, origin_, direction_, &desc, &mut hit) })?;
+        Ok((hit.found != 0).then_some(hit))
+    }
+
+    /// Finds the vertex nearest to a point.
+    ///
+    /// point: 3 numbers in the frame of the positions.
+    /// positions: vertex_count x 3 numbers posed positions (Pose.deform writes them), or `None`
+    /// front_only: 1: a ray passes triangles seen from behind
+    ///
+    /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn find_vertex(&self, point: &[f64], options: &PickOptions) -> Result<(u32, f64)> {
+        let mut c = Call::new(&self.counts);
+        let point_ = c.array(Some(point), "point", &["3"])?;
+        let desc = options.fill(&mut c, "")?;
+        let mut vertex = u32::default();
+        let mut distance = f64::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_find_vertex(self.handle, point_, &desc, &mut vertex, &mut distance) })?;
+        Ok((vertex, distance))
+    }
+
+    /// Writes levels, ascending. [`raw::HF_LEVELS_AREA`] makes all strips equal in area. [`raw::HF_LEVELS_LENGTH`] makes
+    /// the mean widths of the strips equal. So iso-lines around point sites are evenly spaced, where equal steps of the
+    /// value would crowd them. [`raw::HF_LEVELS_LENGTH`] leaves out the parts where the field is flat to 1e-9 of its
+    /// range.
+    ///
+    /// In formulas, A(c) is the area where the field is below c, and L(c) is the length of the iso-line of level c. Both
+    /// are exact for the piecewise linear field. [`raw::HF_LEVELS_AREA`] takes equal steps of A.
+    /// [`raw::HF_LEVELS_LENGTH`] takes equal steps of the integral of A'(c) / L(c) dc. That integral is the height on a
+    /// cylinder and the distance from the pole on a sphere.
+    ///
+    /// spacing: `HF_LEVELS_*`.
+    /// level_count: 1 to 1,000,000.
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn space_levels<'i>(&self, field: impl Into<Reals<'i>>, level_count: u32, spacing: i32) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let mut field_ = raw::hf_scalars { ..Default::default() };
+        (field_.values, field_.values_f64) = c.reals(Some(field.into()), "field", &["vertex_count"])?;
+        c.known("level_count", level_count);
+        let mut levels = vec![f64::default(); c.product(&["level_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_space_levels(self.handle, &field_, spacing, level_count,
+            levels.as_mut_ptr()) })?;
+        Ok(levels)
+    }
+
+    /// Traces the iso-lines of levels. The levels must be finite and can have any order; the lines come in the order of
+    /// the levels. A vertex whose value equals a level counts as just above it, so lines have no gaps. A line either
+    /// closes or ends. It ends at a border or at a triangle without values. At an edge of three or more triangles (non-
+    /// manifold), these are taken in pairs. A line continues inside a pair, and ends at a triangle without a partner. The
+    /// function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is higher on
+    /// the left of a line.
+    ///
+    /// levels: level_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn trace_isolines<'i>(&self, field: impl Into<Reals<'i>>, levels: &[f64]) -> Result<Isolines> {
+        let mut c = Call::new(&self.counts);
+        let mut field_ = raw::hf_scalars { ..Default::default() };
+        (field_.values, field_.values_f64) = c.reals(Some(field.into()), "field", &["vertex_count"])?;
+        let levels_ = c.array(Some(levels), "levels", &["level_count"])?;
+        let mut lines = raw::hf_isolines { ..Default::default() };
+        let mut room = Room::new(&[("point_capacity", None), ("line_capacity", None)]);
+        let mut all_point_edges: Vec<u32> = Vec::new();
+        let mut all_parameters: Vec<f64> = Vec::new();
+        let mut all_positions: Vec<f64> = Vec::new();
+        let mut all_line_starts: Vec<u32> = Vec::new();
+        let mut all_line_levels: Vec<u32> = Vec::new();
+        let mut all_line_closed: Vec<i32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["point_capacity", "2"], &["point_capacity"], &["point_capacity", "3"],
+                &["line_capacity + 1"], &["line_capacity"], &["line_capacity"]]);
+            room.make(&c, &mut all_point_edges, &["point_capacity", "2"]);
+            room.make(&c, &mut all_parameters, &["point_capacity"]);
+            room.make(&c, &mut all_positions, &["point_capacity", "3"]);
+            room.make(&c, &mut all_line_starts, &["line_capacity + 1"]);
+            room.make(&c, &mut all_line_levels, &["line_capacity"]);
+            room.make(&c, &mut all_line_closed, &["line_capacity"]);
+            lines.point_capacity = room.get("point_capacity");
+            lines.line_capacity = room.get("line_capacity");
+            lines.point_edges = room.at(&mut all_point_edges);
+            lines.parameters = room.at(&mut all_parameters);
+            lines.positions = room.at(&mut all_positions);
+            lines.line_starts = room.at(&mut all_line_starts);
+            lines.line_levels = room.at(&mut all_line_levels);
+            lines.line_closed = room.at(&mut all_line_closed);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_trace_isolines(self.handle, &field_, c.count("level_count", 1)?,
+                levels_, &mut lines) };
+            if room.enough(&mut c, code, &[("point_capacity", lines.point_count), ("line_capacity",
+                lines.line_count)])? {
+                break;
+            }
+        }
+        all_point_edges.truncate(c.product(&["point_capacity", "2"]));
+        all_parameters.truncate(c.product(&["point_capacity"]));
+        all_positions.truncate(c.product(&["point_capacity", "3"]));
+        all_line_starts.truncate(c.product(&["line_capacity + 1"]));
+        all_line_levels.truncate(c.product(&["line_capacity"]));
+        all_line_closed.truncate(c.product(&["line_capacity"]));
+        Ok(Isolines { point_edges: all_point_edges, parameters: all_parameters, positions: all_positions,
+            line_starts: all_line_starts, line_levels: all_line_levels, line_closed: all_line_closed })
+    }
+
+    /// Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each vertex
+    /// decide (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of its neighbours with lower
+    /// values and the edges between them. The vertex number breaks ties, so a flat area has critical points too. The
+    /// indices sum to the Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field can
+    /// show an extremum away from its sites, because the default operator uses other edges than the mesh.
+    /// [`raw::HF_OPERATOR_CLAMPED`] uses the edges of the mesh and avoids this.
+    ///
+    /// info: filled in when given
+    ///
+    /// Fails with [`raw::HF_ERROR_NON_FINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn find_critical_points<'i>(&self, field: impl Into<Reals<'i>>) -> Result<(Vec<raw::hf_critical_point>,
+            raw::hf_critical_info)> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_critical_info::default();
+        let mut field_ = raw::hf_scalars { ..Default::default() };
+        (field_.values, field_.values_f64) = c.reals(Some(field.into()), "field", &["vertex_count"])?;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut points: Vec<raw::hf_critical_point> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut points, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_find_critical_points(self.handle, &field_, room.get("capacity"),
+                room.at(&mut points), &mut info) };
+            if room.enough(&mut c, code, &[("capacity", info.point_count)])? {
+                break;
+            }
+        }
+        points.truncate(c.product(&["capacity"]));
+        Ok((points, info))
+    }
+
+    /// Proposes the tips of the surface as places for sites and handles, the longest tip first. The list does not depend
+    /// on the order of the vertices. Pose and meshing change it only within the resolution of the mesh.
+    ///
+    /// kind: `HF_EXTREMITIES_*`
+    /// least_length_share: tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10
+    /// source_count: sources of the mean distance per component, 1 to 1,000; 0 = 40
+    /// geodesics: for [`raw::HF_EXTREMITIES_GEODESIC`]: an object of this surface. If its method is
+    /// [`raw::HF_GEODESICS_HEAT`] its factor serves; else, and for `None`, the call makes a factor
+    /// progress: an object to poll and cancel through
+    /// field: vertex_count numbers, packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
+    /// (Poisson), length (geodesic), each up to a constant per component
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn find_extremities(&self, field: Option<&mut [f64]>,
+            options: &ExtremitiesOptions) -> Result<Vec<raw::hf_extremity>> {
+        let mut c = Call::new(&self.counts);
+        let mut desc = options.fill(&mut c, "")?;
+        let field_at = c.fill(field, "field", &["vertex_count"])?;
+        desc.out_field = field_at;
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut extremities: Vec<raw::hf_extremity> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut extremities, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_find_extremities(self.handle, &desc, room.get("capacity"),
+                room.at(&mut extremities), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        extremities.truncate(c.product(&["capacity"]));
+        Ok(extremities)
+    }
+
+    /// Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first, then the
+    /// others, each group by length, the longest first. The places do not depend on the order of the vertices. They
+    /// follow translation and scale.
+    ///
+    /// joints: joint_count x 3 numbers their places at rest, in the unit and frame of the mesh
+    /// parents: joint_count numbers position of each joint's parent in the list; [`raw::HF_NO_INDEX`] for a root
+    /// up: direction away from the ground, of any length; 0 0 0 = 0 1 0
+    /// least_length_share: as in [`ExtremitiesOptions`]; 0 = 0.05
+    /// limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn propose_handles(&self, options: &HandleProposalsOptions) -> Result<Vec<raw::hf_handle_proposal>> {
+        let mut c = Call::new(&self.counts);
+        let desc = options.fill(&mut c, "")?;
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut proposals: Vec<raw::hf_handle_proposal> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut proposals, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_propose_handles(self.handle, &desc, room.get("capacity"),
+                room.at(&mut proposals), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        proposals.truncate(c.product(&["capacity"]));
+        Ok(proposals)
+    }
+
+    /// Vertices of the surface, as given.
+    pub fn vertex_count(&self) -> usize {
+        known(&self.counts, "vertex_count").unwrap_or(0)
+    }
+}
+
+object!(
+    /// A set of sites on a surface, and their field.
+    Solver: hf_solver, hf_solver_destroy
+);
+impl Solver {
+    /// Creates a solver without sites.
+    ///
+    /// field_kind: `HF_FIELD_*`; if the surface has no factor of that kind yet, it is made now
+    /// engine: `HF_ENGINE_*`
+    /// channel_count: fields solved at once, 1 to 64; 0 = 1
+    /// site_limit: at most this many sites; 0 = 100,000
+    /// penalty: [`raw::HF_ENGINE_UPDOWN`]: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(surface: &Surface, options: &SolverOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("surface", &surface.counts);
+        let desc = options.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_create(surface.handle, &desc, &mut handle_) })?;
+        Ok(Solver { handle: handle_, counts: c.counts(&["channel_count", "vertex_count"]) })
+    }
+
+    /// Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share the factor
+    /// and what the sites have cost, so a copy costs its list of sites only. Use one copy per thread or per set of sites.
+    /// For undo, keep copies: one before each edit.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn try_clone(&self) -> Result<Self> {
+        let mut c = Call::new(&self.counts);
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_clone(self.handle, &mut handle_) })?;
+        Ok(Solver { handle: handle_, counts: c.counts(&["channel_count", "vertex_count"]) })
+    }
+
+    /// Writes the options of a solver.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn info(&self) -> Result<raw::hf_solver_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_solver_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_get_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Adds sites.
+    ///
+    /// vertices: site_count numbers vertices as given, or `None`
+    /// values: site_count x channel_count numbers, up to 1e200 in size; `None` = 0
+    /// triangles: site_count numbers triangles (or faces of three corners) as given, or `None`
+    /// barycentrics: site_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum
+    /// 1 within 1e-6
+    /// stiffness: site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard;
+    /// clamped to 1e-12 .. 1e12
+    /// radii: site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
+    /// corners: site_count x 3 numbers three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a
+    /// face of more corners this places a site in a triangle of them
+    ///
+    /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
+    /// [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn add_sites(&mut self, sites: &Sites) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let desc = sites.fill(&mut c, "")?;
+        let mut sites = vec![u32::default(); c.product(&["site_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_add_sites(self.handle, &desc, sites.as_mut_ptr()) })?;
+        Ok(sites)
+    }
+
+    /// Adds one hard site at a vertex.
+    ///
+    /// values: channel_count numbers, or `None` for 0.
+    ///
+    /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
+    /// [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn add_site(&mut self, vertex: u32, values: Option<&[f64]>) -> Result<u32> {
+        let mut c = Call::new(&self.counts);
+        let values_ = c.array(values, "values", &["channel_count"])?;
+        let mut site = u32::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_add_site(self.handle, vertex, values_, &mut site) })?;
+        Ok(site)
+    }
+
+    /// Removes sites by number. The field is 0 on a component that has no site left. If you add a site there again, the
+    /// field is exact.
+    ///
+    /// sites: site_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn remove_sites(&mut self, sites: &[u32]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_remove_sites(self.handle, c.count("site_count", 1)?, sites_) })?;
+        Ok(())
+    }
+
+    /// Moves sites to new places. Each site keeps its number, value, stiffness and radius.
+    ///
+    /// sites: site_count numbers.
+    /// vertices: site_count numbers vertices as given, or `None`
+    /// values: site_count x channel_count numbers, up to 1e200 in size; `None` = 0
+    /// triangles: site_count numbers triangles (or faces of three corners) as given, or `None`
+    /// barycentrics: site_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum
+    /// 1 within 1e-6
+    /// stiffness: site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard;
+    /// clamped to 1e-12 .. 1e12
+    /// radii: site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
+    /// corners: site_count x 3 numbers three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a
+    /// face of more corners this places a site in a triangle of them
+    ///
+    /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn move_sites(&mut self, sites: &[u32], to: &Sites) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
+        let desc = to.fill(&mut c, "")?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_move_sites(self.handle, c.count("site_count", 1)?, sites_, &desc) })?;
+        Ok(())
+    }
+
+    /// Gives sites new values. The call costs nothing until the next solve.
+    ///
+    /// sites: site_count numbers.
+    /// values: site_count x channel_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_values(&mut self, sites: &[u32], values: &[f64]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
+        let values_ = c.array(Some(values), "values", &["site_count", "channel_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_set_values(self.handle, c.count("site_count", 1)?, sites_, values_) })?;
+        Ok(())
+    }
+
+    /// Applies a batch of edits at once.
+    ///
+    /// remove_sites: remove_count numbers
+    /// move_sites: move_count numbers
+    /// set_sites: set_count numbers
+    /// set_values: set_count x channel_count numbers
+    /// move_to: places of move_count numbers sites
+    /// add: the sites to add
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn edit_sites(&mut self, edit: &Edit) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let desc = edit.fill(&mut c, "")?;
+        let mut sites = vec![u32::default(); c.product(&["add.site_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_edit_sites(self.handle, &desc, sites.as_mut_ptr()) })?;
+        Ok(sites)
+    }
+
+    /// Returns the number of sites, or 0 for an invalid object.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn site_count(&self) -> u32 {
+        // SAFETY: the handle is valid.
+        unsafe { raw::hf_solver_get_site_count(self.handle) }
+    }
+
+    /// Writes all sites.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn sites(&self) -> Result<SitesInfo> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_sites_info { ..Default::default() };
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut all_sites: Vec<u32> = Vec::new();
+        let mut all_vertices: Vec<u32> = Vec::new();
+        let mut all_components: Vec<u32> = Vec::new();
+        let mut all_values: Vec<f64> = Vec::new();
+        let mut all_stiffness: Vec<f64> = Vec::new();
+        let mut all_flux: Vec<f64> = Vec::new();
+        let mut all_radii: Vec<f64> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"], &["capacity"], &["capacity"], &["capacity", "channel_count"],
+                &["capacity"], &["capacity", "channel_count"], &["capacity"]]);
+            room.make(&c, &mut all_sites, &["capacity"]);
+            room.make(&c, &mut all_vertices, &["capacity"]);
+            room.make(&c, &mut all_components, &["capacity"]);
+            room.make(&c, &mut all_values, &["capacity", "channel_count"]);
+            room.make(&c, &mut all_stiffness, &["capacity"]);
+            room.make(&c, &mut all_flux, &["capacity", "channel_count"]);
+            room.make(&c, &mut all_radii, &["capacity"]);
+            info.capacity = room.get("capacity");
+            info.sites = room.at(&mut all_sites);
+            info.vertices = room.at(&mut all_vertices);
+            info.components = room.at(&mut all_components);
+            info.values = room.at(&mut all_values);
+            info.stiffness = room.at(&mut all_stiffness);
+            info.flux = room.at(&mut all_flux);
+            info.radii = room.at(&mut all_radii);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_solver_get_sites(self.handle, &mut info) };
+            if room.enough(&mut c, code, &[("capacity", info.count)])? {
+                break;
+            }
+        }
+        all_sites.truncate(c.product(&["capacity"]));
+        all_vertices.truncate(c.product(&["capacity"]));
+        all_components.truncate(c.product(&["capacity"]));
+        all_values.truncate(c.product(&["capacity", "channel_count"]));
+        all_stiffness.truncate(c.product(&["capacity"]));
+        all_flux.truncate(c.product(&["capacity", "channel_count"]));
+        all_radii.truncate(c.product(&["capacity"]));
+        Ok(SitesInfo { sites: all_sites, vertices: all_vertices, components: all_components, values: all_values,
+            stiffness: all_stiffness, flux: all_flux, radii: all_radii })
+    }
+
+    /// Screens the field: (K + A H) u = A H p + W lambda, with A the vertex areas. The field follows p where H is large,
+    /// and the influence of a site fades over a distance of about 1 / sqrt(H). A H is at most 1e12 times the mean
+    /// diagonal of K. Such a field needs no site on a component where some H is above 0.
+    ///
+    /// screening: vertex_count numbers H >= 0, in 1 / length^2 with the unit of the mesh; `None` removes the screening.
+    /// targets: vertex_count x channel_count numbers p, or `None` for 0. Both are copied; welded copies of a vertex take
+    /// the values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores the
+    /// screening with the sites.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_screening(&mut self, screening: Option<&[f64]>, targets: Option<&[f64]>) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let screening_ = c.array(screening, "screening", &["vertex_count"])?;
+        let targets_ = c.array(targets, "targets", &["vertex_count", "channel_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_set_screening(self.handle, screening_, targets_) })?;
+        Ok(())
+    }
+
+    /// Solves for the field at every vertex of your mesh.
+    ///
+    /// out: vertex_count x channel_count numbers. Hard sites hold their values exactly. The field is 0 on components
+    /// without a site.
+    /// info: filled in when given
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve(&self) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_solve_info::default();
+        let mut out = vec![f64::default(); c.product(&["vertex_count", "channel_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_solve_f64(self.handle, out.as_mut_ptr().cast(), 0, &mut info) })?;
+        Ok(out)
+    }
+
+    /// As `solve`, into a slice of yours. Returns the figures of the call.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve_into<P: Real>(&self, out: &mut [P]) -> Result<raw::hf_solve_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_solve_info::default();
+        of_length(out, "out", c.product(&["vertex_count", "channel_count"]))?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { if P::DOUBLE { raw::hf_solver_solve_f64(self.handle, out.as_mut_ptr().cast(), 0,
+            &mut info) } else { raw::hf_solve(self.handle, out.as_mut_ptr().cast(), 0, &mut info) } })?;
+        Ok(info)
+    }
+
+    /// Solves for the field at chosen vertices only, with the same bits as Solver.solve. The call reads only those
+    /// columns of the factor on which these vertices depend (elimination paths), on the calling thread. One path is up to
+    /// a sixth of the factor, but the paths of many vertices share most of their columns. The call costs a whole solve
+    /// for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of a
+    /// component without a site gets 0.
+    ///
+    /// vertices: vertex_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve_at(&self, vertices: &[u32]) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        c.forget("vertex_count"); // of the list given here
+        let vertices_ = c.array(Some(vertices), "vertices", &["vertex_count"])?;
+        let mut values = vec![f64::default(); c.product(&["vertex_count", "channel_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_solve_at(self.handle, c.count("vertex_count", 1)?, vertices_,
+            values.as_mut_ptr()) })?;
+        Ok(values)
+    }
+
+    /// Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.3).
+    /// The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects
+    /// the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
+    ///
+    /// out: vertex_count x 3 numbers, not normalised.
+    /// normals: vertex_count x 3 numbers, packed: the normals used.
+    /// info: filled in when given
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve_vectors(&self) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_solve_info::default();
+        let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
+        let normals_at = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_solve_vectors_f64(self.handle, out.as_mut_ptr().cast(), 0, normals_at,
+            &mut info) })?;
+        Ok(out)
+    }
+
+    /// As `solve_vectors`, into a slice of yours. Returns the figures of the call.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve_vectors_into<P: Real>(&self, out: &mut [P],
+            normals: Option<&mut [f64]>) -> Result<raw::hf_solve_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_solve_info::default();
+        of_length(out, "out", c.product(&["vertex_count", "3"]))?;
+        let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { if P::DOUBLE { raw::hf_solver_solve_vectors_f64(self.handle, out.as_mut_ptr().cast(), 0,
+            normals_at, &mut info) } else { raw::hf_solver_solve_vectors(self.handle, out.as_mut_ptr().cast(), 0,
+            normals_at, &mut info) } })?;
+        Ok(info)
+    }
+
+    /// Solves with a single-precision copy of the factor. This reads half the bytes of `Solver::solve`; use it while the
+    /// user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic fields,
+    /// long shapes and crowded sites can have an error of any size: ask for corrections there and read error_estimate.
+    /// Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a harmonic field takes
+    /// the error below 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of
+    /// `Solver::solve`.
+    ///
+    /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on
+    /// the surface share the copy. It is freed with the last of these solvers, or by `Solver::release_preview`. Engines
+    /// other than [`raw::HF_ENGINE_GREEN`] give the exact field, and so do solvers whose factor eliminates sites.
+    /// info.exact is then 1.
+    ///
+    /// correction_count: 0 to 8.
+    /// out: vertex_count x channel_count numbers, as `Solver::solve`.
+    /// info: filled in when given
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve_preview(&self, correction_count: u32) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_preview_info::default();
+        let mut out = vec![f64::default(); c.product(&["vertex_count", "channel_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_solve_preview_f64(self.handle, out.as_mut_ptr().cast(), 0, correction_count,
+            &mut info) })?;
+        Ok(out)
+    }
+
+    /// As `solve_preview`, into a slice of yours. Returns the figures of the call.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve_preview_into<P: Real>(&self, out: &mut [P], correction_count: u32) -> Result<raw::hf_preview_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_preview_info::default();
+        of_length(out, "out", c.product(&["vertex_count", "channel_count"]))?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { if P::DOUBLE { raw::hf_solver_solve_preview_f64(self.handle, out.as_mut_ptr().cast(), 0,
+            correction_count, &mut info) } else { raw::hf_solver_solve_preview(self.handle, out.as_mut_ptr().cast(), 0,
+            correction_count, &mut info) } })?;
+        Ok(info)
+    }
+
+    /// Frees the single-precision copy for all solvers that share it, as soon as no running call uses it. The next
+    /// preview makes the copy again.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn release_preview(&self) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_release_preview(self.handle) })?;
+        Ok(())
+    }
+
+    /// Moves vector sites to other vertices of their components. Each vector is carried along the shortest path of edges,
+    /// from vertex normal to vertex normal (parallel transport; Xu and others 2009, Section 3.3).
+    ///
+    /// sites: site_count numbers.
+    /// vertices: site_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn move_vectors(&mut self, sites: &[u32], vertices: &[u32]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
+        let vertices_ = c.array(Some(vertices), "vertices", &["site_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_move_vectors(self.handle, c.count("site_count", 1)?, sites_, vertices_) })?;
+        Ok(())
+    }
+
+    /// Turns the vector of site i about its vertex normal, counter-clockwise by anglesi numbers radians. Does not
+    /// factorise.
+    ///
+    /// sites: site_count numbers.
+    /// angles: site_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn rotate_vectors(&mut self, sites: &[u32], angles: &[f64]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
+        let angles_ = c.array(Some(angles), "angles", &["site_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_rotate_vectors(self.handle, c.count("site_count", 1)?, sites_, angles_) })?;
+        Ok(())
+    }
+
+    /// Solves the field and checks it against its equations. The check uses only the operator K and the site values. So
+    /// it finds a damaged factor, borrowed bytes that changed, or a fault of the machine. The call returns
+    /// [`raw::HF_ERROR_INACCURATE`] (index = worst vertex) if the check fails, and writes certificate then too. Do not
+    /// use fields of that solver; make the surface again.
+    ///
+    /// tolerance: largest error to accept, > 0; 0 = 1e-8, [`raw::HF_ENGINE_UPDOWN`] 1e-5
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INACCURATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn certify(&self, tolerance: f64) -> Result<raw::hf_certificate> {
+        let mut c = Call::new(&self.counts);
+        let mut certificate = raw::hf_certificate { tolerance: tolerance, ..Default::default() };
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_certify(self.handle, &mut certificate) })?;
+        Ok(certificate)
+    }
+
+    /// Factorises in the background with the hard vertex sites eliminated, so that they cost no dense solve. It runs on
+    /// the calling thread, while other threads edit and solve with this solver. The next edit switches to the new factor.
+    /// Fields before and after are the same up to rounding. Call it on a thread of yours when
+    /// [`raw::hf_solver_statistics`].rebase_advised is 1. An edit of very many sites does this by itself when that is
+    /// quicker. Memory: one more factor, for as long as it eliminates sites.
+    ///
+    /// Fails with [`raw::HF_ERROR_BUSY`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn prepare_rebase(&self) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_prepare_rebase(self.handle) })?;
+        Ok(())
+    }
+
+    /// Writes the statistics.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_solver_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_solver_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
+    }
+
+    /// As it was made with.
+    pub fn channel_count(&self) -> usize {
+        known(&self.counts, "channel_count").unwrap_or(0)
+    }
+
+    /// Vertices of the surface, as given.
+    pub fn vertex_count(&self) -> usize {
+        known(&self.counts, "vertex_count").unwrap_or(0)
+    }
+}
+impl TryClone for Solver {
+    fn try_clone(&self) -> Result<Self> {
+        Solver::try_clone(self)
+    }
+}
+
+object!(
+    /// A skeleton at rest and the findings about it. Calls read the object, none changes it.
+    Skeleton: hf_skeleton, hf_skeleton_destroy
+);
+impl Skeleton {
+    /// Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
+    /// feet shall stand on the ground. The object keeps a copy of everything.
+    ///
+    /// names: one line for each joint in UTF-8, or `None`: names then say nothing
+    /// parents: joint_count numbers number of the parent, [`raw::HF_NO_INDEX`] for a root
+    /// rest: joint_count x 10 numbers joint transforms
+    /// inverse_binds: joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
+    /// names: it carries children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all
+    /// joints bend it
+    /// up: 3 numbers declared axis, any length, or `None`: find it
+    /// forward: 3 numbers declared axis, any length, or `None`: find it
+    /// roles: joint_count numbers declared `HF_ROLE_*`, -1 for a joint without; or `None`
+    /// sides: joint_count numbers `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
+    /// travels: travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or
+    /// `None`
+    /// skin: `None`: there is none, and joints are judged by names and places alone
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(names: Option<&[&str]>, parents: &[u32], rest: &[f32], options: &SkeletonOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        let desc = options.fill(&mut c, "", names, Some(parents), Some(rest))?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_skeleton_create(&desc, &mut handle_) })?;
+        Ok(Skeleton { handle: handle_, counts: c.counts(&["joint_count"]) })
+    }
+
+    /// Writes the findings.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn info(&self) -> Result<raw::hf_skeleton_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_skeleton_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_skeleton_get_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Writes one entry for each joint.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn joints(&self) -> Result<Vec<raw::hf_joint_info>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut joints: Vec<raw::hf_joint_info> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut joints, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_skeleton_get_joints(self.handle, room.get("capacity"), room.at(&mut joints),
+                &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        joints.truncate(c.product(&["capacity"]));
+        Ok(joints)
+    }
+
+    /// Writes the chains.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn chains(&self) -> Result<Vec<raw::hf_chain>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut chains: Vec<raw::hf_chain> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut chains, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_skeleton_get_chains(self.handle, room.get("capacity"), room.at(&mut chains),
+                &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        chains.truncate(c.product(&["capacity"]));
+        Ok(chains)
+    }
+
+    /// Writes the joints of chain after chain.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn chain_joints(&self) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut joints: Vec<u32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut joints, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_skeleton_get_chain_joints(self.handle, room.get("capacity"),
+                room.at(&mut joints), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        joints.truncate(c.product(&["capacity"]));
+        Ok(joints)
+    }
+
+    /// Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn reasons(&self) -> Result<String> {
+        let mut c = Call::new(&self.counts);
+        let mut size = 0;
+        // SAFETY: the first call asks for the size.
+        check(unsafe { raw::hf_skeleton_get_reasons(self.handle, 0, std::ptr::null_mut(), &mut size) })?;
+        let mut block = vec![0u8; size];
+        check(unsafe { raw::hf_skeleton_get_reasons(self.handle, block.len(), block.as_mut_ptr().cast(), &mut size) })?;
+        Ok(String::from_utf8_lossy(&block[..block.len() - 1]).into_owned())
+    }
+
+    /// Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk. It
+    /// is 0 for a clip that travels.
+    ///
+    /// poses: frame_count x joint_count x 10 numbers.
+    /// seconds: between two frames, above 0.
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn ground_velocity(&self, poses: &[f32], seconds: f64) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let poses_ = c.array(Some(poses), "poses", &["frame_count", "joint_count", "10"])?;
+        let mut velocity = vec![f64::default(); c.product(&["3"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_skeleton_get_ground_velocity(self.handle, c.count("frame_count", 1)?, poses_, seconds,
+            velocity.as_mut_ptr()) })?;
+        Ok(velocity)
+    }
+
+    /// As it was made with.
+    pub fn joint_count(&self) -> usize {
+        known(&self.counts, "joint_count").unwrap_or(0)
+    }
+}
+
+object!(
+    /// Computes geodesic distances on one surface: the lengths of shortest paths along it.
+    Geodesics: hf_geodesics, hf_geodesics_destroy
+);
+impl Geodesics {
+    /// Creates the object and the tables of its method. FRONT and EXACT take a pass over the triangles. HEAT takes one
+    /// numeric factorisation and holds a factor of its own beside the surface's.
+    ///
+    /// method: `HF_GEODESICS_*`
+    /// smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to 10,000
+    /// progress: an object to poll and cancel through: creation and every later call report to it
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(surface: &Surface, options: &GeodesicsOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("surface", &surface.counts);
+        let desc = options.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_geodesics_create(surface.handle, &desc, &mut handle_) })?;
+        Ok(Geodesics { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+    ///
+    /// sources: source_count numbers vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
+    /// links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance of
+    /// EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The error of
+    /// FRONT falls with the edge length. HEAT rounds the distance off at corners and where two shortest paths meet.
+    /// out: vertex_count numbers. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve(&self, sources: &[u32]) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let sources_ = c.array(Some(sources), "sources", &["source_count"])?;
+        let mut out = vec![f64::default(); c.product(&["vertex_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_geodesics_solve_f64(self.handle, c.count("source_count", 1)?, sources_,
+            out.as_mut_ptr().cast(), 0) })?;
+        Ok(out)
+    }
+
+    /// As `solve`, into a slice of yours.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve_into<P: Real>(&self, sources: &[u32], out: &mut [P]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let sources_ = c.array(Some(sources), "sources", &["source_count"])?;
+        of_length(out, "out", c.product(&["vertex_count"]))?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { if P::DOUBLE { raw::hf_geodesics_solve_f64(self.handle, c.count("source_count", 1)?, sources_,
+            out.as_mut_ptr().cast(), 0) } else { raw::hf_geodesics_solve(self.handle, c.count("source_count", 1)?,
+            sources_, out.as_mut_ptr().cast(), 0) } })?;
+        Ok(())
+    }
+
+    /// Finds the shortest path between two points, exact up to rounding, whatever the method of the object. If several
+    /// are as short, it writes one of them. The path is straight where its triangles are unfolded; it bends at vertices
+    /// only.
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn find_path(&self, from: &raw::hf_surface_point, to: &raw::hf_surface_point) -> Result<Path> {
+        let mut c = Call::new(&self.counts);
+        let mut path = raw::hf_path { ..Default::default() };
+        let mut room = Room::new(&[("point_capacity", None)]);
+        let mut all_point_edges: Vec<u32> = Vec::new();
+        let mut all_parameters: Vec<f64> = Vec::new();
+        let mut all_positions: Vec<f64> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["point_capacity", "2"], &["point_capacity"], &["point_capacity", "3"]]);
+            room.make(&c, &mut all_point_edges, &["point_capacity", "2"]);
+            room.make(&c, &mut all_parameters, &["point_capacity"]);
+            room.make(&c, &mut all_positions, &["point_capacity", "3"]);
+            path.point_capacity = room.get("point_capacity");
+            path.point_edges = room.at(&mut all_point_edges);
+            path.parameters = room.at(&mut all_parameters);
+            path.positions = room.at(&mut all_positions);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_geodesics_find_path(self.handle, from, to, &mut path) };
+            if room.enough(&mut c, code, &[("point_capacity", path.point_count)])? {
+                break;
+            }
+        }
+        all_point_edges.truncate(c.product(&["point_capacity", "2"]));
+        all_parameters.truncate(c.product(&["point_capacity"]));
+        all_positions.truncate(c.product(&["point_capacity", "3"]));
+        Ok(Path { length: path.length, point_edges: all_point_edges, parameters: all_parameters,
+            positions: all_positions })
+    }
+
+    /// Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each vertex
+    /// gets the length of its shortest path from the point, in the direction in which that path leaves the point.
+    ///
+    /// radius: vertices farther away get NaN too, and cost nothing; 0 = no bound.
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn map(&self, centre: &raw::hf_surface_point, radius: f64) -> Result<(Vec<f64>, Vec<f64>)> {
+        let mut c = Call::new(&self.counts);
+        let mut map = vec![f64::default(); c.product(&["vertex_count", "2"])];
+        let mut frame = vec![f64::default(); c.product(&["6"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_geodesics_get_map(self.handle, centre, radius, map.as_mut_ptr(), frame.as_mut_ptr()) })?;
+        Ok((map, frame))
+    }
+
+    /// Vertices of the surface, as given.
+    pub fn vertex_count(&self) -> usize {
+        known(&self.counts, "vertex_count").unwrap_or(0)
+    }
+}
+
+object!(
+    /// A direction field on a surface, with a factor and constraints of its own.
+    Direction: hf_direction, hf_direction_destroy
+);
+impl Direction {
+    /// Makes a direction field without constraints. It computes the connection between tangent planes and the operator,
+    /// and factorises once, with two unknowns per vertex.
+    ///
+    /// degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
+    /// site_limit: most constraints; 0 = 100,000
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(surface: &Surface, options: &DirectionOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("surface", &surface.counts);
+        let desc = options.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_direction_create(surface.handle, &desc, &mut handle_) })?;
+        Ok(Direction { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Makes a direction field with the same constraints under the same numbers; it has the same bits. Both share
+    /// connection and factor, so the copy costs the constraints only. For undo, keep copies: one before each edit.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn try_clone(&self) -> Result<Self> {
+        let mut c = Call::new(&self.counts);
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_direction_clone(self.handle, &mut handle_) })?;
+        Ok(Direction { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Adds constraints: vectors at vertices. The function projects the vectors on the tangent planes. Each constraint
+    /// costs two sparse triangular solves (elimination paths) and two rows of a small dense system. For a batch of very
+    /// many constraints, the function factorises once instead, with their vertices eliminated. Later edits cost paths and
+    /// rows again.
+    ///
+    /// vertices: site_count numbers vertices of your mesh.
+    /// vectors: site_count x 3 numbers; a zero vector makes the field 0 there.
+    ///
+    /// Fails with [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn add_sites(&mut self, vertices: &[u32], vectors: &[f64]) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let vertices_ = c.array(Some(vertices), "vertices", &["site_count"])?;
+        let vectors_ = c.array(Some(vectors), "vectors", &["site_count", "3"])?;
+        let mut sites = vec![u32::default(); c.product(&["site_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_direction_add_sites(self.handle, c.count("site_count", 1)?, vertices_, vectors_,
+            sites.as_mut_ptr()) })?;
+        Ok(sites)
+    }
+
+    /// Removes constraints by number.
+    ///
+    /// sites: site_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn remove_sites(&mut self, sites: &[u32]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_direction_remove_sites(self.handle, c.count("site_count", 1)?, sites_) })?;
+        Ok(())
+    }
+
+    /// Moves constraints to other vertices of the same component. The connection carries each vector along the shortest
+    /// path of edges, from tangent plane to tangent plane.
+    ///
+    /// sites: site_count numbers.
+    /// vertices: site_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn move_sites(&mut self, sites: &[u32], vertices: &[u32]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
+        let vertices_ = c.array(Some(vertices), "vertices", &["site_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_direction_move_sites(self.handle, c.count("site_count", 1)?, sites_, vertices_) })?;
+        Ok(())
+    }
+
+    /// Gives constraints new vectors and projects them on the tangent planes. Does not factorise.
+    ///
+    /// sites: site_count numbers.
+    /// vectors: site_count x 3 numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_vectors(&mut self, sites: &[u32], vectors: &[f64]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
+        let vectors_ = c.array(Some(vectors), "vectors", &["site_count", "3"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_direction_set_vectors(self.handle, c.count("site_count", 1)?, sites_, vectors_) })?;
+        Ok(())
+    }
+
+    /// Turns constraint i by anglesi numbers radians, counter-clockwise seen from outside. Does not factorise.
+    ///
+    /// sites: site_count numbers.
+    /// angles: site_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn rotate_sites(&mut self, sites: &[u32], angles: &[f64]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
+        let angles_ = c.array(Some(angles), "angles", &["site_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_direction_rotate_sites(self.handle, c.count("site_count", 1)?, sites_, angles_) })?;
+        Ok(())
+    }
+
+    /// Returns the number of constraints, or 0 for an invalid object.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn site_count(&self) -> u32 {
+        // SAFETY: the handle is valid.
+        unsafe { raw::hf_direction_get_site_count(self.handle) }
+    }
+
+    /// Writes the constraints by ascending number.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn sites(&self) -> Result<(Vec<u32>, Vec<u32>, Vec<f64>)> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut sites: Vec<u32> = Vec::new();
+        let mut vertices: Vec<u32> = Vec::new();
+        let mut vectors: Vec<f64> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"], &["capacity"], &["capacity", "3"]]);
+            room.make(&c, &mut sites, &["capacity"]);
+            room.make(&c, &mut vertices, &["capacity"]);
+            room.make(&c, &mut vectors, &["capacity", "3"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_direction_get_sites(self.handle, room.get("capacity"), room.at(&mut sites),
+                room.at(&mut vertices), room.at(&mut vectors), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        sites.truncate(c.product(&["capacity"]));
+        vertices.truncate(c.product(&["capacity"]));
+        vectors.truncate(c.product(&["capacity", "3"]));
+        Ok((sites, vertices, vectors))
+    }
+
+    /// Writes the field as vectors in space. The vectors are tangent to the surface up to 1e-12 of their length. For
+    /// degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors; vertices
+    /// that no constraint reaches get 0.
+    ///
+    /// out: vertex_count x 3 numbers.
+    /// info: filled in when given
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve(&self) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_solve_info::default();
+        let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_direction_solve_f64(self.handle, out.as_mut_ptr().cast(), 0, &mut info) })?;
+        Ok(out)
+    }
+
+    /// As `solve`, into a slice of yours. Returns the figures of the call.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve_into<P: Real>(&self, out: &mut [P]) -> Result<raw::hf_solve_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_solve_info::default();
+        of_length(out, "out", c.product(&["vertex_count", "3"]))?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { if P::DOUBLE { raw::hf_direction_solve_f64(self.handle, out.as_mut_ptr().cast(), 0,
+            &mut info) } else { raw::hf_direction_solve(self.handle, out.as_mut_ptr().cast(), 0, &mut info) } })?;
+        Ok(info)
+    }
+
+    /// Lists the singularities of the field, ordered by triangle (Crane, Desbrun and Schroeder 2010, Section 5). On a
+    /// closed manifold component of one orientation the indices sum to degree times the Euler characteristic.
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn singularities(&self) -> Result<Vec<raw::hf_singularity>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut singularities: Vec<raw::hf_singularity> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut singularities, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_direction_get_singularities(self.handle, room.get("capacity"),
+                room.at(&mut singularities), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        singularities.truncate(c.product(&["capacity"]));
+        Ok(singularities)
+    }
+
+    /// Writes the statistics.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_direction_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_direction_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_direction_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
+    }
+
+    /// Vertices of the surface, as given.
+    pub fn vertex_count(&self) -> usize {
+        known(&self.counts, "vertex_count").unwrap_or(0)
+    }
+}
+impl TryClone for Direction {
+    fn try_clone(&self) -> Result<Self> {
+        Direction::try_clone(self)
+    }
+}
+
+object!(
+    /// A set of handles on a surface.
+    Pose: hf_pose, hf_pose_destroy
+);
+impl Pose {
+    /// Creates a pose without handles.
+    ///
+    /// mode: `HF_DEFORM_*`
+    /// band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+    /// iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+    /// rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
+    /// group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(surface: &Surface, options: &PoseOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("surface", &surface.counts);
+        let desc = options.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_create(surface.handle, &desc, &mut handle_) })?;
+        Ok(Pose { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Copies a pose with its handles and transforms, so that several threads can pose one rig.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn try_clone(&self) -> Result<Self> {
+        let mut c = Call::new(&self.counts);
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_clone(self.handle, &mut handle_) })?;
+        Ok(Pose { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Writes the options of a pose.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn info(&self) -> Result<raw::hf_pose_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_pose_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_get_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a posed
+    /// surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion that its
+    /// region has in the last pose (`Pose::handle` writes it), and the surface stays where it is (to 1e-6 of the box). It
+    /// goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then
+    /// the region of the new handle keeps a part of its bend. restart ends this at once. [`raw::HF_DEFORM_PAPER`] places
+    /// the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle.
+    /// Handles of lower layers hold the surface in place for the higher layers.
+    ///
+    /// region_vertices: lists of whole numbers: all regions one after the other; `None`: points are given
+    /// points: handle_count x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-connected
+    /// to it within the radius. `None`: regions are given
+    /// radii: handle_count numbers of the regions of points, in the unit of the mesh; `None`: regions are given. A radius
+    /// below 1 % of the box makes regions of 2 vertices or more
+    /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
+    /// in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn add_handles(&mut self, region_vertices: Option<&[&[u32]]>, handles: &HandlesOptions) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let desc = handles.fill(&mut c, "", region_vertices)?;
+        let mut handles = vec![u32::default(); c.product(&["handle_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_add_handles(self.handle, &desc, handles.as_mut_ptr()) })?;
+        Ok(handles)
+    }
+
+    /// Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are edge-
+    /// connected to it within `radius` of the point.
+    ///
+    /// point: 3 numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn add_handle_at(&mut self, point: &[f64], radius: f64) -> Result<u32> {
+        let mut c = Call::new(&self.counts);
+        let point_ = c.array(Some(point), "point", &["3"])?;
+        let mut handle = u32::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_add_handle_at(self.handle, point_, radius, &mut handle) })?;
+        Ok(handle)
+    }
+
+    /// Removes handles by number. A handle on a higher layer takes its edit with it: the surface is then, bit for bit, as
+    /// if the handle had never been added. On layer 0 this holds when you remove the handles that were added last, and
+    /// for frames with `restart`.
+    ///
+    /// handles: handle_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn remove_handles(&mut self, handles: &[u32]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_remove_handles(self.handle, c.count("handle_count", 1)?, handles_) })?;
+        Ok(())
+    }
+
+    /// Places handles. On layer 0 a transform is a motion from the rest place. On a higher layer it is an edit in the
+    /// rest frame of the handle. There the region moves by F (edit) F^-1, with F the rigid motion that the lower layers
+    /// give the handle. Rotations continue from call to call, so a handle that you dragged past 180 degrees stays turned
+    /// that far. The transforms take effect at the next Pose.deform.
+    ///
+    /// handles: handle_count numbers.
+    /// rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity
+    /// translations: up to 1e15 box diagonals
+    ///
+    /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_transforms(&mut self, handles: &[u32], rotations: Option<&[f64]>,
+            translations: Option<&[f64]>) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
+        let mut transforms = vec![raw::hf_transform::default(); c.product(&["handle_count"])];
+        if let Some(given) = rotations {
+            of_length(given, "rotations", 4 * transforms.len())?;
+            for (row, numbers) in transforms.iter_mut().zip(given.chunks_exact(4)) {
+                row.rotation.copy_from_slice(numbers);
+            }
+        }
+        if let Some(given) = translations {
+            of_length(given, "translations", 3 * transforms.len())?;
+            for (row, numbers) in transforms.iter_mut().zip(given.chunks_exact(3)) {
+                row.translation.copy_from_slice(numbers);
+            }
+        }
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_set_transforms(self.handle, c.count("handle_count", 1)?, handles_,
+            transforms.as_ptr()) })?;
+        Ok(())
+    }
+
+    /// Places one handle.
+    ///
+    /// rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity
+    /// translation: up to 1e15 box diagonals
+    ///
+    /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_transform(&mut self, handle: u32, rotation: Option<[f64; 4]>,
+            translation: Option<[f64; 3]>) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let mut transform = raw::hf_transform::default();
+        if let Some(given) = rotation { transform.rotation = given; }
+        if let Some(given) = translation { transform.translation = given; }
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_set_transform(self.handle, handle, &transform) })?;
+        Ok(())
+    }
+
+    /// Places handles by 4 x 4 matrices M.
+    ///
+    /// handles: handle_count numbers.
+    /// matrices: handle_count x 16 numbers, column by column, elements 12 to 14 the translation. M takes a rest position
+    /// p to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
+    /// rotation. Its last row must be 0 0 0 1.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_matrices(&mut self, handles: &[u32], matrices: &[f64]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
+        let matrices_ = c.array(Some(matrices), "matrices", &["handle_count", "16"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_set_matrices(self.handle, c.count("handle_count", 1)?, handles_, matrices_) })?;
+        Ok(())
+    }
+
+    /// Writes the info of a handle.
+    ///
+    /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn handle(&self, handle: u32) -> Result<raw::hf_handle_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_handle_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_get_handle(self.handle, handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Returns the number of handles, or 0 for an invalid object.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn handle_count(&self) -> u32 {
+        // SAFETY: the handle is valid.
+        unsafe { raw::hf_pose_get_handle_count(self.handle) }
+    }
+
+    /// Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
+    /// reaches, the fields of all handles sum to 1.
+    ///
+    /// out: vertex_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn field(&self, handle: u32) -> Result<Vec<f32>> {
+        let mut c = Call::new(&self.counts);
+        let mut out = vec![f32::default(); c.product(&["vertex_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_get_field(self.handle, handle, out.as_mut_ptr(), 0) })?;
+        Ok(out)
+    }
+
+    /// As `field`, into a slice of yours.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn field_into(&self, handle: u32, out: &mut [f32]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        of_length(out, "out", c.product(&["vertex_count"]))?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_get_field(self.handle, handle, out.as_mut_ptr(), 0) })?;
+        Ok(())
+    }
+
+    /// Does the same as Pose.deform, with the options of a desc.
+    ///
+    /// iteration_count: 1 to 1000; 0 = the pose's
+    /// restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose with the
+    /// same handles, added in the same order, and the same transforms. Without restart a frame continues from the
+    /// last one, so it also depends on that
+    /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about 0.2
+    /// us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
+    /// refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the smooth pose.
+    /// Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still, more calls
+    /// go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1 or more.
+    /// Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+    /// first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
+    /// vertex_count: positions of a range cost only the range, without higher layers, refine and normals
+    /// out: vertex_count x 3 numbers posed positions, or `None`
+    /// normals: vertex_count x 3 numbers unit normals of the posed surface, shared across seams, or `None`
+    /// info: filled in when given
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn deform(&mut self, options: &DeformOptions) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_deform_info::default();
+        let mut desc = options.fill(&mut c, "")?;
+        let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
+        (desc.positions, desc.positions_f64) = f64::both_mut(out.as_mut_ptr());
+        let normals_at = std::ptr::null_mut();
+        desc.normals = normals_at;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_deform(self.handle, &desc, &mut info) })?;
+        Ok(out)
+    }
+
+    /// As `deform`, into a slice of yours. Returns the figures of the call.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn deform_into<P: Real>(&mut self, out: &mut [P], normals: Option<&mut [f32]>,
+            options: &DeformOptions) -> Result<raw::hf_deform_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_deform_info::default();
+        let mut desc = options.fill(&mut c, "")?;
+        of_length(out, "out", c.product(&["vertex_count", "3"]))?;
+        (desc.positions, desc.positions_f64) = P::both_mut(out.as_mut_ptr());
+        let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
+        desc.normals = normals_at;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_deform(self.handle, &desc, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were
+    /// added. If the handles do not reach some vertices, a last joint that never moves holds those vertices. The weights
+    /// of a vertex are its 4 or 8 largest, scaled so that their sum is exactly 1 in single precision. Weights and pivots
+    /// change only when handles are added or removed.
+    ///
+    /// The joint motions bring the skin as near as possible to the last Pose.deform, as it is without refine. With
+    /// scales, classic bends, twists and lifts replay within 0.5 per cent of the box. Without scales, bends and twists
+    /// replay within 1 per cent and stretched surfaces within about 2.5 per cent.
+    ///
+    /// influence_count: joints per vertex, 4 or 8; 0 = 4
+    /// scales: joint_capacity x 3 numbers along the axes in the last frame; `None` = joints are rigid
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn skin(&self, influence_count: u32, want_scales: bool) -> Result<SkinInfo> {
+        let mut c = Call::new(&self.counts);
+        let mut skin = raw::hf_skin_info { influence_count: influence_count, ..Default::default() };
+        c.known("influence_count", if influence_count == 0 { 4 } else { influence_count });
+        let mut room = Room::new(&[("joint_capacity", c.size("joint_count")), ("vertex_capacity",
+            c.size("vertex_count"))]);
+        let mut all_pivots: Vec<f64> = Vec::new();
+        let mut all_rotations: Vec<f64> = Vec::new();
+        let mut all_translations: Vec<f64> = Vec::new();
+        let mut all_axes: Vec<f64> = Vec::new();
+        let mut all_scales: Vec<f64> = Vec::new();
+        let mut all_vertex_joints: Vec<u32> = Vec::new();
+        let mut all_vertex_weights: Vec<f32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["joint_capacity", "3"], &["joint_capacity", "4"], &["joint_capacity", "3"],
+                &["joint_capacity", "4"], &["joint_capacity", "3"], &["vertex_capacity", "influence_count"],
+                &["vertex_capacity", "influence_count"]]);
+            room.make(&c, &mut all_pivots, &["joint_capacity", "3"]);
+            room.make(&c, &mut all_rotations, &["joint_capacity", "4"]);
+            room.make(&c, &mut all_translations, &["joint_capacity", "3"]);
+            room.make(&c, &mut all_axes, &["joint_capacity", "4"]);
+            if want_scales { room.make(&c, &mut all_scales, &["joint_capacity", "3"]); }
+            room.make(&c, &mut all_vertex_joints, &["vertex_capacity", "influence_count"]);
+            room.make(&c, &mut all_vertex_weights, &["vertex_capacity", "influence_count"]);
+            skin.joint_capacity = room.get("joint_capacity");
+            skin.vertex_capacity = room.get("vertex_capacity");
+            skin.pivots = room.at(&mut all_pivots);
+            skin.rotations = room.at(&mut all_rotations);
+            skin.translations = room.at(&mut all_translations);
+            skin.axes = room.at(&mut all_axes);
+            skin.scales = room.at(&mut all_scales);
+            skin.vertex_joints = room.at(&mut all_vertex_joints);
+            skin.vertex_weights = room.at(&mut all_vertex_weights);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_pose_get_skin(self.handle, &mut skin) };
+            if room.enough(&mut c, code, &[("joint_capacity", skin.joint_count), ("vertex_capacity", skin.vertex_count),
+                ("joint_count", skin.joint_count), ("vertex_count", skin.vertex_count)])? {
+                break;
+            }
+        }
+        all_pivots.truncate(c.product(&["joint_capacity", "3"]));
+        all_rotations.truncate(c.product(&["joint_capacity", "4"]));
+        all_translations.truncate(c.product(&["joint_capacity", "3"]));
+        all_axes.truncate(c.product(&["joint_capacity", "4"]));
+        all_scales.truncate(c.product(&["joint_capacity", "3"]));
+        all_vertex_joints.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_vertex_weights.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        Ok(SkinInfo { influence_count: skin.influence_count, pivots: all_pivots, rotations: all_rotations,
+            translations: all_translations, axes: all_axes, scales: all_scales, vertex_joints: all_vertex_joints,
+            vertex_weights: all_vertex_weights })
+    }
+
+    /// Vertices of the surface, as given.
+    pub fn vertex_count(&self) -> usize {
+        known(&self.counts, "vertex_count").unwrap_or(0)
+    }
+}
+impl TryClone for Pose {
+    fn try_clone(&self) -> Result<Self> {
+        Pose::try_clone(self)
+    }
+}
+
+object!(
+    /// Quads.
+    Quads: hf_quads, hf_quads_destroy
+);
+impl Quads {
+    /// Makes a quad mesh of a surface. Every face is a quad. Edges follow smooth crosses along the curvature. Creases and
+    /// borders are straight lines of edges. Irregular vertices are the singularities of the crosses, and places where the
+    /// function split quads to keep to the surface.
+    ///
+    /// The function relaxes the mesh along the surface. Where mesh and surface are farther apart than 0.39 edge lengths,
+    /// it snaps vertices to the surface and adds quads. A relaxed quad starts at the corner whose diagonal keeps nearer
+    /// to the surface, so a renderer should split quads into triangles from the first corner. If the mesh stays farther
+    /// than an edge length from the surface, a limb is lost. Then the function makes up to three finer meshes, and
+    /// removes rows of quads until the number is right. The function checks every result: each directed edge occurs once,
+    /// no face repeats a corner, and the Euler characteristic is that of the surface.
+    ///
+    /// The surface may have borders, any genus and several components; the function turns triangles that disagree in
+    /// orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two. A
+    /// triangle without a partner gets a border. `Surface::report` counts such edges. A Moebius band is parted across.
+    ///
+    /// With symmetry_plane a vertex on the plane is its own image, and all others come in pairs, exact to rounding. Half
+    /// of the quads lie on each side. Where surface and mirror image differ, by up to 0.05 box diagonals, the side of the
+    /// normal counts.
+    ///
+    /// The user can place irregular vertices and drag them. The function makes each by guides on a ring around the place,
+    /// an edge of the quads away. The crosses on the ring make a quarter turn along it. 96 % of 1,000 irregular vertices
+    /// at random places of 20 meshes come out within an edge of the place; such a vertex then moves to the place and
+    /// stays there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to four times
+    /// the Euler characteristic. On a torus or a knot a single one of 5 is often lost.
+    ///
+    /// crease_edges: crease_count x 2 numbers the two vertices of each edge, as given
+    /// guide_vertices: guide_count numbers as given; guides of one vertex are averaged
+    /// guide_vectors: guide_count x 3 numbers along the surface, of any length above 0; quads run along the vector and
+    /// across it
+    /// guide_weights: `None` = all 1, or guide_count numbers, above 0 to 1: 1 holds the direction, less mixes it with
+    /// that of the curvature, which has the rest of the weight
+    /// irregular_points: irregular_count x 3 numbers at the surface, in the unit and frame of the mesh
+    /// irregular_valences: irregular_count numbers how many quads meet there: 3 or 5
+    /// irregular_directions: `None` = any, or irregular_count x 3 numbers: one side of the irregular vertex runs along
+    /// it; 0 0 0 = any
+    /// face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+    /// edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+    /// crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
+    /// none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases nearer to
+    /// each other than an edge may be released
+    /// relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; [`raw::HF_NO_INDEX`] = none, and the mesh is
+    /// not fitted to the surface either
+    /// symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads are
+    /// made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the other
+    /// side are not used
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INTERNAL`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(surface: &Surface, options: &QuadsOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("surface", &surface.counts);
+        let desc = options.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_quads_create(surface.handle, &desc, &mut handle_) })?;
+        Ok(Quads { handle: handle_, counts: c.counts(&[]) })
+    }
+
+    /// Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result is
+    /// that of `Quads::new` with the same options, bit for bit. The first update takes as long. It keeps what does not
+    /// depend on guides, creases and relax_count, so later updates with the same edge_length, face_count and
+    /// symmetry_plane take less: 0.1 s for 15,000 vertices without relaxation (relax_count = [`raw::HF_NO_INDEX`]). Use
+    /// that while the user drags, and relax_count = 0 at the end. Other sizes and planes are allowed; what belongs to
+    /// them is made again. After an error `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until `quads` is
+    /// destroyed.
+    ///
+    /// crease_edges: crease_count x 2 numbers the two vertices of each edge, as given
+    /// guide_vertices: guide_count numbers as given; guides of one vertex are averaged
+    /// guide_vectors: guide_count x 3 numbers along the surface, of any length above 0; quads run along the vector and
+    /// across it
+    /// guide_weights: `None` = all 1, or guide_count numbers, above 0 to 1: 1 holds the direction, less mixes it with
+    /// that of the curvature, which has the rest of the weight
+    /// irregular_points: irregular_count x 3 numbers at the surface, in the unit and frame of the mesh
+    /// irregular_valences: irregular_count numbers how many quads meet there: 3 or 5
+    /// irregular_directions: `None` = any, or irregular_count x 3 numbers: one side of the irregular vertex runs along
+    /// it; 0 0 0 = any
+    /// face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
+    /// edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
+    /// crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
+    /// none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases nearer to
+    /// each other than an edge may be released
+    /// relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; [`raw::HF_NO_INDEX`] = none, and the mesh is
+    /// not fitted to the surface either
+    /// symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads are
+    /// made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the other
+    /// side are not used
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INTERNAL`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn update(&mut self, options: &QuadsOptions) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let desc = options.fill(&mut c, "")?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_quads_update(self.handle, &desc) })?;
+        Ok(())
+    }
+
+    /// Writes the counts.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn info(&self) -> Result<raw::hf_quads_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_quads_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_quads_get_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Writes every array that is not `None`.
+    ///
+    /// Fails with [`raw::HF_ERROR_TOO_SMALL`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn mesh(&self) -> Result<QuadsMesh> {
+        let mut c = Call::new(&self.counts);
+        let mut mesh = raw::hf_quads_mesh { ..Default::default() };
+        let mut room = Room::new(&[("vertex_capacity", c.size("vertex_count")), ("face_capacity", None)]);
+        let mut all_positions: Vec<f64> = Vec::new();
+        let mut all_faces: Vec<u32> = Vec::new();
+        let mut all_triangles: Vec<u32> = Vec::new();
+        let mut all_barycentrics: Vec<f64> = Vec::new();
+        let mut all_corners: Vec<u32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["vertex_capacity", "3"], &["face_capacity", "4"], &["vertex_capacity"],
+                &["vertex_capacity", "3"], &["vertex_capacity", "3"]]);
+            room.make(&c, &mut all_positions, &["vertex_capacity", "3"]);
+            room.make(&c, &mut all_faces, &["face_capacity", "4"]);
+            room.make(&c, &mut all_triangles, &["vertex_capacity"]);
+            room.make(&c, &mut all_barycentrics, &["vertex_capacity", "3"]);
+            room.make(&c, &mut all_corners, &["vertex_capacity", "3"]);
+            mesh.vertex_capacity = room.get("vertex_capacity");
+            mesh.face_capacity = room.get("face_capacity");
+            mesh.positions = room.at(&mut all_positions);
+            mesh.faces = room.at(&mut all_faces);
+            mesh.triangles = room.at(&mut all_triangles);
+            mesh.barycentrics = room.at(&mut all_barycentrics);
+            mesh.corners = room.at(&mut all_corners);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_quads_get_mesh(self.handle, &mut mesh) };
+            if room.enough(&mut c, code, &[("vertex_capacity", mesh.vertex_count), ("face_capacity", mesh.face_count),
+                ("vertex_count", mesh.vertex_count)])? {
+                break;
+            }
+        }
+        all_positions.truncate(c.product(&["vertex_capacity", "3"]));
+        all_faces.truncate(c.product(&["face_capacity", "4"]));
+        all_triangles.truncate(c.product(&["vertex_capacity"]));
+        all_barycentrics.truncate(c.product(&["vertex_capacity", "3"]));
+        all_corners.truncate(c.product(&["vertex_capacity", "3"]));
+        Ok(QuadsMesh { positions: all_positions, faces: all_faces, triangles: all_triangles,
+            barycentrics: all_barycentrics, corners: all_corners })
+    }
+}
+
+object!(
+    /// A surface that is prepared for tracing streamlines.
+    Flow: hf_flow, hf_flow_destroy
+);
+impl Flow {
+    /// Prepares a surface for tracing: computes half-edges and weights.
+    ///
+    /// Fails with [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(surface: &Surface) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("surface", &surface.counts);
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_flow_create(surface.handle, &mut handle_) })?;
+        Ok(Flow { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Traces streamlines of any field that is finite at every vertex in a triangle. For a harmonic field of
+    /// [`raw::HF_OPERATOR_CLAMPED`] the lines are denser where the field is steeper. `Surface::trace_isolines` gives the
+    /// lines that cross the streamlines.
+    ///
+    /// seeds: seed_count numbers vertices as given
+    /// wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn trace<'i>(&self, field: impl Into<Reals<'i>>, seeds: Option<&[u32]>,
+            wanted_count: u32) -> Result<Streamlines> {
+        let mut c = Call::new(&self.counts);
+        let mut field_ = raw::hf_scalars { ..Default::default() };
+        (field_.values, field_.values_f64) = c.reals(Some(field.into()), "field", &["vertex_count"])?;
+        let mut lines = raw::hf_streamlines { wanted_count: wanted_count, ..Default::default() };
+        lines.seeds = c.array(seeds, "seeds", &["seed_count"])?;
+        lines.seed_count = c.count("seed_count", 0)?;
+        let mut room = Room::new(&[("point_capacity", None), ("line_capacity", None)]);
+        let mut all_positions: Vec<f64> = Vec::new();
+        let mut all_values: Vec<f64> = Vec::new();
+        let mut all_line_starts: Vec<u32> = Vec::new();
+        let mut all_line_ends: Vec<u32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["point_capacity", "3"], &["point_capacity"], &["line_capacity + 1"],
+                &["line_capacity", "2"]]);
+            room.make(&c, &mut all_positions, &["point_capacity", "3"]);
+            room.make(&c, &mut all_values, &["point_capacity"]);
+            room.make(&c, &mut all_line_starts, &["line_capacity + 1"]);
+            room.make(&c, &mut all_line_ends, &["line_capacity", "2"]);
+            lines.point_capacity = room.get("point_capacity");
+            lines.line_capacity = room.get("line_capacity");
+            lines.positions = room.at(&mut all_positions);
+            lines.values = room.at(&mut all_values);
+            lines.line_starts = room.at(&mut all_line_starts);
+            lines.line_ends = room.at(&mut all_line_ends);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_flow_trace(self.handle, &field_, &mut lines) };
+            if room.enough(&mut c, code, &[("point_capacity", lines.point_count), ("line_capacity",
+                lines.line_count)])? {
+                break;
+            }
+        }
+        all_positions.truncate(c.product(&["point_capacity", "3"]));
+        all_values.truncate(c.product(&["point_capacity"]));
+        all_line_starts.truncate(c.product(&["line_capacity + 1"]));
+        all_line_ends.truncate(c.product(&["line_capacity", "2"]));
+        Ok(Streamlines { positions: all_positions, values: all_values, line_starts: all_line_starts,
+            line_ends: all_line_ends })
+    }
+
+    /// Vertices of the surface, as given.
+    pub fn vertex_count(&self) -> usize {
+        known(&self.counts, "vertex_count").unwrap_or(0)
+    }
+}
+
+object!(
+    /// A region of a surface and its smooth base.
+    Region: hf_region, hf_region_destroy
+);
+impl Region {
+    /// Creates a region without vertices.
+    ///
+    /// positions: vertex_count x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or any pose of
+    /// them. `None`: the mesh's own to 1e-15 of the box. Copied
+    /// base: `HF_BASE_*`. If the surface has no factor for it yet, it is made now
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(surface: &Surface, options: &RegionOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("surface", &surface.counts);
+        let desc = options.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_region_create(surface.handle, &desc, &mut handle_) })?;
+        Ok(Region { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Copies a region. The copy shares the factor and all memory, until one of the two is edited. For undo, keep copies:
+    /// one before each edit.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn try_clone(&self) -> Result<Self> {
+        let mut c = Call::new(&self.counts);
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_region_clone(self.handle, &mut handle_) })?;
+        Ok(Region { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Changes the region and computes its new base. The vertices next to the region (its rim) are sites with their
+    /// positions as values. Sites that stay cost nothing; the others are one batch as in `Solver::edit_sites`. One
+    /// backward sweep over the factor then gives the base; for a small region the sweep covers only the part of the
+    /// factor that its vertices need. A region may have several pieces, in several components. Progress covers curve,
+    /// sites and base; the call can be cancelled between them.
+    ///
+    /// remove_vertices: remove_count numbers vertices that leave the region; others are passed over
+    /// add_vertices: add_count numbers vertices that join it; those in it already are passed over
+    /// ring_count: rings of vertices by which the region grows; below 0 it shrinks
+    /// curve: the region becomes what this curve encloses
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn edit(&mut self, edit: &RegionEditOptions) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let desc = edit.fill(&mut c, "")?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_region_edit(self.handle, &desc) })?;
+        Ok(())
+    }
+
+    /// Writes the info of a region.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn info(&self) -> Result<raw::hf_region_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_region_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_region_get_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
+    ///
+    /// list: `HF_REGION_*`.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn vertices(&self, list: i32) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut vertices: Vec<u32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut vertices, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_region_get_vertices(self.handle, list, room.get("capacity"),
+                room.at(&mut vertices), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        vertices.truncate(c.product(&["capacity"]));
+        Ok(vertices)
+    }
+
+    /// Writes the corners of the region's last curve, to draw it, in order, in the unit and frame of the positions in
+    /// [`RegionOptions`]. The last corner is joined to the first. Rings, added and removed vertices leave it as it is.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn curve(&self) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut points: Vec<f64> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity", "3"]]);
+            room.make(&c, &mut points, &["capacity", "3"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_region_get_curve(self.handle, room.get("capacity"), room.at(&mut points),
+                &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        points.truncate(c.product(&["capacity", "3"]));
+        Ok(points)
+    }
+
+    /// Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
+    /// [`RegionOptions`]. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A
+    /// weight below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p. The call
+    /// solves nothing.
+    ///
+    /// weight: any finite number
+    /// out: vertex_count x 3 numbers in the unit and frame of the mesh as given, or `None`
+    /// normals: vertex_count x 3 numbers unit normals of the morphed surface, shared across seams, or `None`
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn morph(&self, weight: f64) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
+        let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
+        (desc.positions, desc.positions_f64) = f64::both_mut(out.as_mut_ptr());
+        let normals_at = std::ptr::null_mut();
+        desc.normals = normals_at;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_region_morph(self.handle, &desc) })?;
+        Ok(out)
+    }
+
+    /// As `morph`, into a slice of yours.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn morph_into<P: Real>(&self, weight: f64, out: &mut [P], normals: Option<&mut [f32]>) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
+        of_length(out, "out", c.product(&["vertex_count", "3"]))?;
+        (desc.positions, desc.positions_f64) = P::both_mut(out.as_mut_ptr());
+        let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
+        desc.normals = normals_at;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_region_morph(self.handle, &desc) })?;
+        Ok(())
+    }
+
+    /// Vertices of the surface, as given.
+    pub fn vertex_count(&self) -> usize {
+        known(&self.counts, "vertex_count").unwrap_or(0)
+    }
+}
+impl TryClone for Region {
+    fn try_clone(&self) -> Result<Self> {
+        Region::try_clone(self)
+    }
+}
+
+object!(
+    /// The detail of a source region, transferred to a target region. Both may be on one surface or on two.
+    Detail: hf_detail, hf_detail_destroy
+);
+impl Detail {
+    /// Carries the detail of the source region to the target region. A harmonic map with positive weights takes each
+    /// region to the unit disc (an embedding: Tutte 1963, Floater 1997). Vertices around a region (its rim) lie on the
+    /// circle, by arc length between the pairs of desc. Points at the same place in the disc correspond. The function
+    /// stores the offset from base to surface in a local frame of the Both regions must be discs: in one piece, one rim
+    /// loop, no hole, manifold, of one orientation.
+    ///
+    /// source: the normal of the base, and the direction in which the first disc coordinate grows. It interpolates the
+    /// offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades to
+    /// nothing at the rim. If source and target are the same region, the result is the surface itself. Later edits of
+    /// the regions do not change the object.
+    /// source_vertices: pair_count numbers rim vertices of the source, as given
+    /// target_vertices: pair_count numbers rim vertices of the target, as given
+    /// scale: of the detail, > 0; 0 = square root of target base area over source base area
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
+    /// [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(source: &Region, target: &Region, options: &DetailOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("source", &source.counts);
+        c.parent("target", &target.counts);
+        let desc = options.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_detail_create(source.handle, target.handle, &desc, &mut handle_) })?;
+        Ok(Detail { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Writes the target's surface with its detail replaced. A vertex of the target region gets base + weight
+    /// (transferred detail); all others keep their positions. Weight 0 gives the smooth base, and weight 1 the detail as
+    /// it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
+    ///
+    /// weight: any finite number
+    /// out: vertex_count x 3 numbers in the unit and frame of the mesh as given, or `None`
+    /// normals: vertex_count x 3 numbers unit normals of the morphed surface, shared across seams, or `None`
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn morph(&self, weight: f64) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
+        let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
+        (desc.positions, desc.positions_f64) = f64::both_mut(out.as_mut_ptr());
+        let normals_at = std::ptr::null_mut();
+        desc.normals = normals_at;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_detail_morph(self.handle, &desc) })?;
+        Ok(out)
+    }
+
+    /// As `morph`, into a slice of yours.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn morph_into<P: Real>(&self, weight: f64, out: &mut [P], normals: Option<&mut [f32]>) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
+        of_length(out, "out", c.product(&["vertex_count", "3"]))?;
+        (desc.positions, desc.positions_f64) = P::both_mut(out.as_mut_ptr());
+        let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
+        desc.normals = normals_at;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_detail_morph(self.handle, &desc) })?;
+        Ok(())
+    }
+
+    /// Vertices of the surface, as given.
+    pub fn vertex_count(&self) -> usize {
+        known(&self.counts, "vertex_count").unwrap_or(0)
+    }
+}
+
+object!(
+    /// The motion of one skeleton on another.
+    Retarget: hf_retarget, hf_retarget_destroy
+);
+impl Retarget {
+    /// Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through the
+    /// allocator of the target.
+    ///
+    /// source_rest: source.joint_count x 10 numbers a pose that counts as rest, or `None`: the rest of the skeleton. Give
+    /// poses in which both characters stand alike
+    /// target_rest: target.joint_count x 10 numbers the same for the target, or `None`
+    /// root_motion: `HF_ROOT_MOTION_*`
+    /// leave_out: bits of `HF_RETARGET_*`
+    /// scale: travel of the target over travel of the source; 0: the ratio of leg lengths
+    /// ground_velocity: of the ground under a clip on the spot, in the space of the source, per second; 0: the ground
+    /// rests. `Skeleton::ground_velocity` finds it
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(source: &Skeleton, target: &Skeleton, options: &RetargetOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("source", &source.counts);
+        c.parent("target", &target.counts);
+        let desc = options.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_retarget_create(source.handle, target.handle, &desc, &mut handle_) })?;
+        Ok(Retarget { handle: handle_, counts: c.counts(&["joint_count"]) })
+    }
+
+    /// Copies a retarget with the state of its feet: for another character with the same skeletons, and for undo.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn try_clone(&self) -> Result<Self> {
+        let mut c = Call::new(&self.counts);
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_retarget_clone(self.handle, &mut handle_) })?;
+        Ok(Retarget { handle: handle_, counts: c.counts(&["joint_count"]) })
+    }
+
+    /// Computes the pose of the target. The frame depends on the source pose and on the state of the feet: whether each
+    /// is planted, and how far it is moved to keep its place. The state comes from the frames since the last reset and
+    /// fades within a step.
+    ///
+    /// source_pose: source.joint_count x 10 numbers.
+    /// seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn solve(&mut self, source_pose: &[f32], seconds: f64) -> Result<Vec<f32>> {
+        let mut c = Call::new(&self.counts);
+        let source_pose_ = c.array(Some(source_pose), "source_pose", &["source.joint_count", "10"])?;
+        let mut target_pose = vec![f32::default(); c.product(&["target.joint_count", "10"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_retarget_solve(self.handle, source_pose_, seconds, target_pose.as_mut_ptr()) })?;
+        Ok(target_pose)
+    }
+
+    /// Forgets the state of the feet and the figures of the info. Call it where the clip jumps.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn reset(&mut self) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_retarget_reset(self.handle) })?;
+        Ok(())
+    }
+
+    /// Writes the figures.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn info(&self) -> Result<raw::hf_retarget_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_retarget_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_retarget_get_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Writes how chains follow.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn chains(&self) -> Result<Vec<raw::hf_chain_match>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut chains: Vec<raw::hf_chain_match> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut chains, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_retarget_get_chains(self.handle, room.get("capacity"), room.at(&mut chains),
+                &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        chains.truncate(c.product(&["capacity"]));
+        Ok(chains)
+    }
+
+    /// Writes which joint of the source each joint of the target follows. A joint between two gets the nearer, a joint
+    /// without a partner [`raw::HF_NO_INDEX`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn partners(&self) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut partners: Vec<u32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut partners, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_retarget_get_partners(self.handle, room.get("capacity"), room.at(&mut partners),
+                &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        partners.truncate(c.product(&["capacity"]));
+        Ok(partners)
+    }
+
+    /// As it was made with.
+    pub fn joint_count(&self) -> usize {
+        known(&self.counts, "joint_count").unwrap_or(0)
+    }
+}
+impl TryClone for Retarget {
+    fn try_clone(&self) -> Result<Self> {
+        Retarget::try_clone(self)
+    }
+}
+
+object!(
+    /// hf/transfer.h - play the motion of one surface on another.
+    ///
+    /// You pair regions of the source surface with regions of the target surface. From the pairs both surfaces get the
+    /// same harmonic coordinates, and places of equal coordinates correspond. The vertices around such a place form a
+    /// cluster. The target takes over the rotations of the source's clusters. Its translations follow from its own shape
+    /// (Xu, Zhang, Cohen-Or and Xiong 2009, Section 6), and from where the source's clusters turn about one another. A
+    /// limb whose parts reach farther than the source's turns less, so that it moves as far: a held sword, a long tail, a
+    /// large head. The dial long_follow gives it the whole turn.
+    Transfer: hf_transfer, hf_transfer_destroy
+);
+impl Transfer {
+    /// Creates a transfer between two surfaces; both may be the same.
+    ///
+    /// source_rest: source.vertex_count x 3 numbers, or `None` Poses in which the two bodies correspond, in each
+    /// surface's unit, read by the call, or `None` for the positions of the surface. A character bound in a crouch
+    /// gets a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+    /// target_rest: target.vertex_count x 3 numbers, or `None`
+    /// mode: `HF_TRANSFER_*`
+    /// cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
+    /// ground: `HF_GROUND_*`
+    /// kernel_width: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is more,
+    /// up to 0.12
+    /// scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no
+    /// pair is a foot
+    /// alignment_angle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times
+    /// the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
+    /// source_axes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward
+    /// +z). Lengths, and right x up = forward, must hold within 1e-3. The library takes the nearest rotation.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_INVALID_OBJECT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(source: &Surface, target: &Surface, options: &TransferOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("source", &source.counts);
+        c.parent("target", &target.counts);
+        let desc = options.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_create(source.handle, target.handle, &desc, &mut handle_) })?;
+        Ok(Transfer { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Adds pairs.
+    ///
+    /// source_vertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries per
+    /// vertex
+    /// target_vertices: lists of whole numbers:
+    /// flags: pair_count numbers `HF_PAIR_*`, or `None` for none
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn add_pairs(&mut self, source_vertices: &[&[u32]], target_vertices: &[&[u32]], flags: Option<&[u32]>,
+            pairs: &Pairs) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let desc = pairs.fill(&mut c, "", Some(source_vertices), Some(target_vertices), flags)?;
+        let mut pairs = vec![u32::default(); c.product(&["pair_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_add_pairs(self.handle, &desc, pairs.as_mut_ptr()) })?;
+        Ok(pairs)
+    }
+
+    /// Removes pairs by number.
+    ///
+    /// pairs: pair_count numbers.
+    ///
+    /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn remove_pairs(&mut self, pairs: &[u32]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let pairs_ = c.array(Some(pairs), "pairs", &["pair_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_remove_pairs(self.handle, c.count("pair_count", 1)?, pairs_) })?;
+        Ok(())
+    }
+
+    /// Writes the info of a pair. The first call after a change of pairs solves the fields of all pairs, unless
+    /// `Transfer::apply` has done so. This changes no result.
+    ///
+    /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn pair(&self, pair: u32) -> Result<raw::hf_pair_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_pair_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_get_pair(self.handle, pair, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Writes the info of the whole transfer. The first call after a change of pairs solves fields, as `Transfer::pair`
+    /// does.
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn info(&self) -> Result<raw::hf_transfer_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_transfer_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_get_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Sets the dials of a transfer for the next frames.
+    ///
+    /// stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
+    /// foot does not slide. The body travels as much farther
+    /// hip_height_share: raises the pairs flagged [`raw::HF_PAIR_TRUNK`] and [`raw::HF_PAIR_ANCHOR`] by this share of
+    /// their mean height at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not
+    /// raised
+    /// neck_follow: pairs flagged [`raw::HF_PAIR_NECK`], together one limb How far a limb follows the source, -1 to 1. 0
+    /// = neutral: it plays the source's motion from its own rest direction. 1: it also takes the rest direction of
+    /// the source's limb. -1: it does not move against its root.
+    /// tail_follow: pairs flagged [`raw::HF_PAIR_TAIL`], together one limb
+    /// arm_space: turns arms ([`raw::HF_PAIR_ARM`]) away from the body, about the forward axis at rest, -pi/2 to pi/2
+    /// radians; 0 = neutral
+    /// long_follow: how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less, so
+    /// that they move as far. 1: they make the whole turn. Between, a part may jump that turns by half a turn against
+    /// the part before it
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_dials(&mut self, dials: &TransferDials) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let desc = dials.fill(&mut c, "")?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_set_dials(self.handle, &desc) })?;
+        Ok(())
+    }
+
+    /// Writes the dials; stride is never 0.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn dials(&self) -> Result<raw::hf_transfer_dials> {
+        let mut c = Call::new(&self.counts);
+        let mut dials = raw::hf_transfer_dials::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_get_dials(self.handle, &mut dials) })?;
+        Ok(dials)
+    }
+
+    /// Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions differ
+    /// much on the two surfaces ([`raw::hf_pair_info`]), it takes the direction of the source's limb instead, by a share.
+    ///
+    /// The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
+    /// Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The result
+    /// changes as little as the source does: a source that stands still, but for noise, gives a target that stands still.
+    ///
+    /// The ground counts too if the mode is [`raw::HF_TRANSFER_FIELDS`] and some pairs are anchors (their target region
+    /// follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
+    /// follows its scaled path exactly. No part of the target sinks deeper into the ground than the source, scaled, but
+    /// for those of `Transfer::sinking`. What would sink bends up. The ground does not move regions that you hold. A
+    /// lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged.
+    /// All rules of the ground come in continuously. [`raw::HF_GROUND_OFF`] switches them off.
+    ///
+    /// source_positions: source.vertex_count x 3 numbers the posed source, its own vertex order
+    /// hold_pairs: hold_count numbers each pair at most once
+    /// hold_positions: hold_count x 3 numbers in the target's unit and frame
+    /// out: target.vertex_count x 3 numbers, or `None`
+    /// target_normals: target.vertex_count x 3 numbers, or `None`
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn apply<'i>(&mut self, source_positions: impl Into<Reals<'i>>, frame: &TransferFrame) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let mut desc = frame.fill(&mut c, "", Some(source_positions.into()))?;
+        let mut out = vec![f64::default(); c.product(&["target.vertex_count", "3"])];
+        (desc.target_positions, desc.target_positions_f64) = f64::both_mut(out.as_mut_ptr());
+        let target_normals_at = std::ptr::null_mut();
+        desc.target_normals = target_normals_at;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_apply(self.handle, &desc) })?;
+        Ok(out)
+    }
+
+    /// As `apply`, into a slice of yours.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn apply_into<'i, P: Real>(&mut self, source_positions: impl Into<Reals<'i>>, out: &mut [P],
+            target_normals: Option<&mut [f32]>, frame: &TransferFrame) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let mut desc = frame.fill(&mut c, "", Some(source_positions.into()))?;
+        of_length(out, "out", c.product(&["target.vertex_count", "3"]))?;
+        (desc.target_positions, desc.target_positions_f64) = P::both_mut(out.as_mut_ptr());
+        let target_normals_at = c.fill(target_normals, "target_normals", &["target.vertex_count", "3"])?;
+        desc.target_normals = target_normals_at;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_apply(self.handle, &desc) })?;
+        Ok(())
+    }
+
+    /// Writes which target vertices may sink into the ground.
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn sinking(&self) -> Result<Vec<u8>> {
+        let mut c = Call::new(&self.counts);
+        let mut sinking = vec![u8::default(); c.product(&["target.vertex_count"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_get_sinking(self.handle, sinking.as_mut_ptr()) })?;
+        Ok(sinking)
+    }
+
+    /// Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
+    /// replays `Transfer::apply` exactly, because that function also uses the four largest weights.
+    ///
+    /// influence_count: joints per vertex, 4 or 8; 0 = 4
+    /// scales: joint_capacity x 3 numbers along the axes in the last frame; `None` = joints are rigid
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn skin(&self, influence_count: u32, want_scales: bool) -> Result<SkinInfo> {
+        let mut c = Call::new(&self.counts);
+        let mut skin = raw::hf_skin_info { influence_count: influence_count, ..Default::default() };
+        c.known("influence_count", if influence_count == 0 { 4 } else { influence_count });
+        let mut room = Room::new(&[("joint_capacity", c.size("joint_count")), ("vertex_capacity",
+            c.size("vertex_count"))]);
+        let mut all_pivots: Vec<f64> = Vec::new();
+        let mut all_rotations: Vec<f64> = Vec::new();
+        let mut all_translations: Vec<f64> = Vec::new();
+        let mut all_axes: Vec<f64> = Vec::new();
+        let mut all_scales: Vec<f64> = Vec::new();
+        let mut all_vertex_joints: Vec<u32> = Vec::new();
+        let mut all_vertex_weights: Vec<f32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["joint_capacity", "3"], &["joint_capacity", "4"], &["joint_capacity", "3"],
+                &["joint_capacity", "4"], &["joint_capacity", "3"], &["vertex_capacity", "influence_count"],
+                &["vertex_capacity", "influence_count"]]);
+            room.make(&c, &mut all_pivots, &["joint_capacity", "3"]);
+            room.make(&c, &mut all_rotations, &["joint_capacity", "4"]);
+            room.make(&c, &mut all_translations, &["joint_capacity", "3"]);
+            room.make(&c, &mut all_axes, &["joint_capacity", "4"]);
+            if want_scales { room.make(&c, &mut all_scales, &["joint_capacity", "3"]); }
+            room.make(&c, &mut all_vertex_joints, &["vertex_capacity", "influence_count"]);
+            room.make(&c, &mut all_vertex_weights, &["vertex_capacity", "influence_count"]);
+            skin.joint_capacity = room.get("joint_capacity");
+            skin.vertex_capacity = room.get("vertex_capacity");
+            skin.pivots = room.at(&mut all_pivots);
+            skin.rotations = room.at(&mut all_rotations);
+            skin.translations = room.at(&mut all_translations);
+            skin.axes = room.at(&mut all_axes);
+            skin.scales = room.at(&mut all_scales);
+            skin.vertex_joints = room.at(&mut all_vertex_joints);
+            skin.vertex_weights = room.at(&mut all_vertex_weights);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_transfer_get_skin(self.handle, &mut skin) };
+            if room.enough(&mut c, code, &[("joint_capacity", skin.joint_count), ("vertex_capacity", skin.vertex_count),
+                ("joint_count", skin.joint_count), ("vertex_count", skin.vertex_count)])? {
+                break;
+            }
+        }
+        all_pivots.truncate(c.product(&["joint_capacity", "3"]));
+        all_rotations.truncate(c.product(&["joint_capacity", "4"]));
+        all_translations.truncate(c.product(&["joint_capacity", "3"]));
+        all_axes.truncate(c.product(&["joint_capacity", "4"]));
+        all_scales.truncate(c.product(&["joint_capacity", "3"]));
+        all_vertex_joints.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_vertex_weights.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        Ok(SkinInfo { influence_count: skin.influence_count, pivots: all_pivots, rotations: all_rotations,
+            translations: all_translations, axes: all_axes, scales: all_scales, vertex_joints: all_vertex_joints,
+            vertex_weights: all_vertex_weights })
+    }
+
+    /// Vertices of the surface, as given.
+    pub fn vertex_count(&self) -> usize {
+        known(&self.counts, "vertex_count").unwrap_or(0)
+    }
+}
+
+object!(
+    /// The weights of one surface for one skeleton.
+    Weights: hf_weights, hf_weights_destroy
+);
+impl Weights {
+    /// Computes weights.
+    ///
+    /// heads: joint_count x 3 numbers
+    /// tails: joint_count x 3 numbers, or `None`: heads are joints, and the library finds the tails
+    /// axes: joint_count x 3 numbers with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A
+    /// joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says where
+    /// a last joint ends
+    /// parents: joint_count numbers number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
+    /// deforms: joint_count numbers 1: the joint gets weights; `None`: all do
+    /// sources: joint_count numbers for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`]
+    /// for a new one; `None`: the same number. `Weights::new`: `None`
+    /// progress: an object to poll and cancel through
+    /// influence_count: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has none,
+    /// it is made now. Sets *weights to `None` first.
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(surface: &Surface, joints: &Joints, influence_count: u32) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        c.parent("surface", &surface.counts);
+        let desc = joints.fill(&mut c, "")?;
+        c.known("influence_count", if influence_count == 0 { 4 } else { influence_count });
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_weights_create(surface.handle, &desc, influence_count, &mut handle_) })?;
+        Ok(Weights { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Copies the weights with joints, pins and locks. The copy shares the factors and all memory, until one of the two
+    /// is changed. For undo, keep copies: one before each change.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn try_clone(&self) -> Result<Self> {
+        let mut c = Call::new(&self.counts);
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_weights_clone(self.handle, &mut handle_) })?;
+        Ok(Weights { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Replaces all
+    ///
+    /// heads: joint_count x 3 numbers
+    /// tails: joint_count x 3 numbers, or `None`: heads are joints, and the library finds the tails
+    /// axes: joint_count x 3 numbers with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A
+    /// joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says where
+    /// a last joint ends
+    /// parents: joint_count numbers number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
+    /// deforms: joint_count numbers 1: the joint gets weights; `None`: all do
+    /// sources: joint_count numbers for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`]
+    /// for a new one; `None`: the same number. `Weights::new`: `None`
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`],
+    /// [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_joints(&mut self, joints: &Joints) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let desc = joints.fill(&mut c, "")?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_weights_set_joints(self.handle, &desc) })?;
+        Ok(())
+    }
+
+    /// Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
+    /// disc. Pins at the same places with other weights cost no path.
+    ///
+    /// vertices: pin_count numbers vertices as given, or `None`
+    /// triangles: pin_count numbers triangles as given, or `None`
+    /// barycentrics: pin_count x 3 numbers with triangles, else `None`: weights of the corners, >= 0, of sum 1 within
+    /// 1e-6
+    /// radii: pin_count numbers of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place
+    /// alone
+    /// joints: pin_count x influence_count numbers joints
+    /// weights: pin_count x influence_count numbers >= 0, scaled to the sum 1
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`],
+    /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_pins(&mut self, vertices: Option<&[u32]>, pins: &Pins) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let desc = pins.fill(&mut c, "", vertices)?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_weights_set_pins(self.handle, &desc) })?;
+        Ok(())
+    }
+
+    /// Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0 unlocks.
+    ///
+    /// joints: lock_count numbers.
+    /// values: vertex_count x lock_count numbers weights to keep, 0 to 1, or `None` for the present ones. Welded copies
+    /// take the values of the first. Pinned vertices keep the weights of their pins.
+    ///
+    /// Fails with [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_locks(&mut self, joints: &[u32], values: Option<&[f32]>) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let joints_ = c.array(Some(joints), "joints", &["lock_count"])?;
+        let values_ = c.array(values, "values", &["vertex_count", "lock_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_weights_set_locks(self.handle, c.count("lock_count", 1)?, joints_, values_) })?;
+        Ok(())
+    }
+
+    /// Writes the weights. Welded copies of a vertex get the same. Unused places have weight 0 and the first joint of the
+    /// vertex.
+    ///
+    /// Fails with [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn get(&self) -> Result<WeightsOut> {
+        let mut c = Call::new(&self.counts);
+        let mut weights = raw::hf_weights_out { ..Default::default() };
+        let mut room = Room::new(&[("vertex_capacity", c.size("vertex_count"))]);
+        let mut all_joints: Vec<u32> = Vec::new();
+        let mut all_weights: Vec<f32> = Vec::new();
+        let mut all_origins: Vec<u8> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["vertex_capacity", "influence_count"], &["vertex_capacity", "influence_count"],
+                &["vertex_capacity"]]);
+            room.make(&c, &mut all_joints, &["vertex_capacity", "influence_count"]);
+            room.make(&c, &mut all_weights, &["vertex_capacity", "influence_count"]);
+            room.make(&c, &mut all_origins, &["vertex_capacity"]);
+            weights.vertex_capacity = room.get("vertex_capacity");
+            weights.joints = room.at(&mut all_joints);
+            weights.weights = room.at(&mut all_weights);
+            weights.origins = room.at(&mut all_origins);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_weights_get(self.handle, &mut weights) };
+            if room.enough(&mut c, code, &[("vertex_capacity", weights.vertex_count), ("vertex_count",
+                weights.vertex_count), ("influence_count", weights.influence_count)])? {
+                break;
+            }
+        }
+        all_joints.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_weights.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_origins.truncate(c.product(&["vertex_capacity"]));
+        Ok(WeightsOut { influence_count: weights.influence_count, joints: all_joints, weights: all_weights,
+            origins: all_origins })
+    }
+
+    /// Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not deform have no
+    /// flags.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn joints(&self) -> Result<(Vec<u32>, Vec<u32>)> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut flags: Vec<u32> = Vec::new();
+        let mut vertex_counts: Vec<u32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"], &["capacity"]]);
+            room.make(&c, &mut flags, &["capacity"]);
+            room.make(&c, &mut vertex_counts, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_weights_get_joints(self.handle, room.get("capacity"), room.at(&mut flags),
+                room.at(&mut vertex_counts), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        flags.truncate(c.product(&["capacity"]));
+        vertex_counts.truncate(c.product(&["capacity"]));
+        Ok((flags, vertex_counts))
+    }
+
+    /// Writes the info.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn info(&self) -> Result<raw::hf_weights_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_weights_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_weights_get_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and sets
+    /// deforms to 0.
+    ///
+    /// names: one line for each joint in UTF-8, or `None`.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn helpers(&self, names: Option<&[&str]>) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut reasons: Vec<u32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut reasons, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_weights_get_helpers(self.handle, c.text(names)?, room.get("capacity"),
+                room.at(&mut reasons), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        reasons.truncate(c.product(&["capacity"]));
+        Ok(reasons)
+    }
+
+    /// Transfers weights from one surface to another: clothes, hair, levels of detail, new topology. Both stand in the
+    /// same frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-harmonic
+    /// field fills in the vertices without such a point. A piece without any takes the weights of the nearest points.
+    ///
+    /// joints: source.vertex_count x source_influence_count numbers
+    /// weights: source.vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+    /// distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
+    /// angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
+    /// influence_count: joints of each vertex in the result: 4 or 8; 0: 4
+    /// progress: an object to poll and cancel through
+    /// info: filled in when given
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
+    /// [`raw::HF_ERROR_TOO_SMALL`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn transfer(source: &Surface, target: &Surface, options: &WeightsTransferOptions) -> Result<(WeightsOut,
+            raw::hf_weights_transfer_info)> {
+        let mut c = Call::new(&[]);
+        c.parent("source", &source.counts);
+        c.parent("target", &target.counts);
+        let mut info = raw::hf_weights_transfer_info::default();
+        let desc = options.fill(&mut c, "")?;
+        let mut weights_ = raw::hf_weights_out { ..Default::default() };
+        let mut room = Room::new(&[("vertex_capacity", c.size("vertex_count"))]);
+        let mut all_joints: Vec<u32> = Vec::new();
+        let mut all_weights: Vec<f32> = Vec::new();
+        let mut all_origins: Vec<u8> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["vertex_capacity", "influence_count"], &["vertex_capacity", "influence_count"],
+                &["vertex_capacity"]]);
+            room.make(&c, &mut all_joints, &["vertex_capacity", "influence_count"]);
+            room.make(&c, &mut all_weights, &["vertex_capacity", "influence_count"]);
+            room.make(&c, &mut all_origins, &["vertex_capacity"]);
+            weights_.vertex_capacity = room.get("vertex_capacity");
+            weights_.joints = room.at(&mut all_joints);
+            weights_.weights = room.at(&mut all_weights);
+            weights_.origins = room.at(&mut all_origins);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_weights_transfer(source.handle, target.handle, &desc, &mut weights_,
+                &mut info) };
+            if room.enough(&mut c, code, &[("vertex_capacity", weights_.vertex_count), ("vertex_count",
+                weights_.vertex_count), ("influence_count", weights_.influence_count)])? {
+                break;
+            }
+        }
+        all_joints.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_weights.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_origins.truncate(c.product(&["vertex_capacity"]));
+        Ok((WeightsOut { influence_count: weights_.influence_count, joints: all_joints, weights: all_weights,
+            origins: all_origins }, info))
+    }
+
+    /// Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the nearest
+    /// point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field fills in the
+    /// rest. The plane comes from joints with partners, else from the surface. A found normal has a positive largest
+    /// component, so along x, [`raw::HF_MIRROR_TO_NEGATIVE`] copies from +x to -x.
+    ///
+    /// heads: joint_count x 3 numbers the joints at rest, in the frame of the mesh
+    /// names: one line for each joint in UTF-8, or `None`: joints are paired by their places
+    /// partners: joint_count numbers the joint of the other side, [`raw::HF_NO_INDEX`]: find it; or `None`
+    /// plane: 6 numbers a point and a normal, or `None`: find the plane
+    /// joints: vertex_count x source_influence_count numbers
+    /// weights: vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+    /// to: `HF_MIRROR_*`
+    /// distance: as in [`WeightsTransferOptions`]
+    /// angle: as in [`WeightsTransferOptions`]
+    /// influence_count: joints of each vertex in the result: 4 or 8; 0: 4
+    /// progress: an object to poll and cancel through
+    /// info: filled in when given
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
+    /// [`raw::HF_ERROR_TOO_SMALL`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn mirror(surface: &Surface, options: &WeightsMirrorOptions) -> Result<(WeightsOut, Vec<u32>, Vec<u32>,
+            raw::hf_weights_mirror_info)> {
+        let mut c = Call::new(&[]);
+        c.parent("surface", &surface.counts);
+        let mut info = raw::hf_weights_mirror_info::default();
+        let desc = options.fill(&mut c, "")?;
+        let mut weights_ = raw::hf_weights_out { ..Default::default() };
+        let mut partners_ = vec![u32::default(); c.product(&["joint_count"])];
+        let mut pairings = vec![u32::default(); c.product(&["joint_count"])];
+        let mut room = Room::new(&[("vertex_capacity", c.size("vertex_count"))]);
+        let mut all_joints: Vec<u32> = Vec::new();
+        let mut all_weights: Vec<f32> = Vec::new();
+        let mut all_origins: Vec<u8> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["vertex_capacity", "influence_count"], &["vertex_capacity", "influence_count"],
+                &["vertex_capacity"]]);
+            room.make(&c, &mut all_joints, &["vertex_capacity", "influence_count"]);
+            room.make(&c, &mut all_weights, &["vertex_capacity", "influence_count"]);
+            room.make(&c, &mut all_origins, &["vertex_capacity"]);
+            weights_.vertex_capacity = room.get("vertex_capacity");
+            weights_.joints = room.at(&mut all_joints);
+            weights_.weights = room.at(&mut all_weights);
+            weights_.origins = room.at(&mut all_origins);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_weights_mirror(surface.handle, &desc, &mut weights_, partners_.as_mut_ptr(),
+                pairings.as_mut_ptr(), &mut info) };
+            if room.enough(&mut c, code, &[("vertex_capacity", weights_.vertex_count), ("vertex_count",
+                weights_.vertex_count), ("influence_count", weights_.influence_count)])? {
+                break;
+            }
+        }
+        all_joints.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_weights.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_origins.truncate(c.product(&["vertex_capacity"]));
+        Ok((WeightsOut { influence_count: weights_.influence_count, joints: all_joints, weights: all_weights,
+            origins: all_origins }, partners_, pairings, info))
+    }
+
+    /// Vertices of the surface, as given.
+    pub fn vertex_count(&self) -> usize {
+        known(&self.counts, "vertex_count").unwrap_or(0)
+    }
+}
+impl TryClone for Weights {
+    fn try_clone(&self) -> Result<Self> {
+        Weights::try_clone(self)
+    }
+}
