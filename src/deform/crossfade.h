@@ -2,8 +2,8 @@
 //
 // New handles have other fields, so their best pose differs from the pose before by 2e-3 to 7e-3 of the box. The
 // difference D_v = old position - new position is added to the surface, times a share. The share is 1 where the handles
-// stood then. It falls as they move away, to 0 over crossfade_reach, and as they come back to rest. After a rotation was
-// freed it does not fall at rest, where the given rotation is part of the surface:
+// stood then. It falls as they move away, to 0 over crossfade_reach, and as they come back to rest. After a rotation
+// was freed it does not fall at rest, where the given rotation is part of the surface:
 //     share = (1 - way / crossfade_reach)^2 min(1, rest way / rest way then)
 // A way is the largest over all handles: the move of the centroid plus crossfade_turn times the angle. Cost: one
 // product and sum per vertex. Allocates only when it is made.

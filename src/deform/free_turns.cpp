@@ -160,14 +160,11 @@ void begin_turns(const FreeTurns& turns, const Subspace& subspace, double* rows,
   const std::size_t handles = turns.handle_count;
   for (std::size_t k = 0; k < turns.count(); ++k) {
     double* x = rows + 16 * static_cast<std::size_t>(turns.handle[k]);
-    const double c[3] = {turns.centroid[k].x, turns.centroid[k].y, turns.centroid[k].z};
+    const double place[3] = {state.place[k].x, state.place[k].y, state.place[k].z};
     for (int i = 0; i < 3; ++i) {
-      for (int a = 0; a < 3; ++a) {
-        x[12 + i] += c[a] * x[4 * a + i];
-        x[4 * a + i] = 0;
-      }
+      for (int a = 0; a < 3; ++a) x[4 * a + i] = 0;
+      x[12 + i] = place[i];
     }
-    state.place[k] = {x[12], x[13], x[14]};
   }
   for (std::size_t k = 0; k < turns.count(); ++k) {
     state.constant[k] = Mat3();
@@ -218,7 +215,8 @@ void respond_to_turns(const FreeTurns& turns, const FreeTurnsState& state, doubl
     const double* u = turns.response.data() + 4 * size * k;
     for (std::size_t row = 0; row < size; ++row) {
       for (int i = 0; i < 3; ++i)
-        solved[4 * row + i] -= u[4 * row] * rotation(i, 0) + u[4 * row + 1] * rotation(i, 1) + u[4 * row + 2] * rotation(i, 2);
+        solved[4 * row + i] -=
+            u[4 * row] * rotation(i, 0) + u[4 * row + 1] * rotation(i, 1) + u[4 * row + 2] * rotation(i, 2);
     }
   }
 }

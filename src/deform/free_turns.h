@@ -2,13 +2,13 @@
 //
 // A handle of free rotation is a positional constraint on the centroid of its region. Its rotation R_h is one more
 // unknown of the local step of as-rigid-as-possible energy (Sorkine and Alexa 2007), a Procrustes problem. Let c_h be
-// the centroid, d_h its given place, J_h = (I, -c_h), so the handle's transform (4 x 3, subspace.h) is X_h = J_h' R_h' +
-// e_4 d_h'. The other symbols are those of subspace.h, with f for all free clusters together. |R_h y| = |y|, so the
+// the centroid, d_h its given place, J_h = (I, -c_h), so the handle's transform (4 x 3, subspace.h) is X_h = J_h' R_h'
+// + e_4 d_h'. The other symbols are those of subspace.h, with f for all free clusters together. |R_h y| = |y|, so the
 // energy is linear in R_h, also after X_f is eliminated (variable projection, Golub and Pereyra 1973):
 //     R_h = argmax tr(R' S_h),   -S_h' = J_h (sum_k L_hk Y_k - sum_g Q_gh R_g') + U_h' r + sum_{k != h} C_hk R_k',
 //     U_h = L_ff^-1 L_fh J_h',   C_hk = J_h L_hk J_k' - (L_fh J_h')' U_k,   X_f = L_ff^-1 r - sum_h U_h R_h'.
-// Y_k is X_k for a handle of given rotation, and e_4 d_k' for one of free rotation. r is the right-hand side of X_f for Y.
-// So X_f and R_h are found together. Alternating between them would take many more iterations.
+// Y_k is X_k for a handle of given rotation, and e_4 d_k' for one of free rotation. r is the right-hand side of X_f for
+// Y. So X_f and R_h are found together. Alternating between them would take many more iterations.
 //
 // One FreeTurns holds U, C and Q of one set of such handles. It never changes. Cost: one dense solve per handle, once;
 // a frame adds a few products of vectors per iteration.
@@ -51,7 +51,10 @@ FreeTurns make_free_turns(const Subspace& subspace, const Handles& handles, Span
 struct FreeTurnsState {
   explicit FreeTurnsState(Memory& memory) : rotation(&memory), place(&memory), constant(&memory), fixed(&memory) {}
   FreeTurnsState(const FreeTurnsState& other, Memory& memory)
-      : rotation(other.rotation, &memory), place(other.place, &memory), constant(other.constant, &memory), fixed(other.fixed, &memory) {}
+      : rotation(other.rotation, &memory),
+        place(other.place, &memory),
+        constant(other.constant, &memory),
+        fixed(other.fixed, &memory) {}
   void fit(std::size_t count) {
     rotation.assign(count, Quaternion());
     place.assign(count, Vec3());
@@ -59,7 +62,7 @@ struct FreeTurnsState {
     fixed.assign(count, Mat3());
   }
   Vector<Quaternion> rotation;  // R_h: where to start, and what was found
-  Vector<Vec3> place;           // d_h
+  Vector<Vec3> place;           // d_h, given
   Vector<Mat3> constant;        // J_h sum_k L_hk Y_k of this solve
   Vector<Mat3> fixed;           // the terms of -S_h' without other free handles, in this iteration
 };

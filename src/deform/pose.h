@@ -25,10 +25,10 @@ enum class DeformMode : std::int32_t { smooth = 0, paper = 1 };
 // Options of a pose. Zeros mean defaults; the ranges are those of hf_pose_desc.
 struct PoseOptions {
   DeformMode mode = DeformMode::smooth;
-  std::uint32_t band_count = 0;        // 2 to 64; 10 (smooth) or 12 (paper)
-  std::uint32_t iteration_count = 0;   // 1 to 1000; 10 or 200
-  std::uint32_t rim_site_count = 0;  // sites per handle on its boundary ring; 0: all its vertices
-  std::uint32_t group_count = 0;       // 1 to 2000; 250
+  std::uint32_t band_count = 0;       // 2 to 64; 10 (smooth) or 12 (paper)
+  std::uint32_t iteration_count = 0;  // 1 to 1000; 10 or 200
+  std::uint32_t rim_site_count = 0;   // sites per handle on its boundary ring; 0: all its vertices
+  std::uint32_t group_count = 0;      // 1 to 2000; 250
 };
 
 // The motion p -> rotation (p - centroid) + centroid + translation, in the unit of the mesh as given. The quaternion
@@ -95,8 +95,9 @@ class Pose {
   // next solve starts.
   void set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms);
 
-  // Frees the rotations of handles, or gives them: where they stand. With in_place the surface stays where it is, as after
-  // add_handles. Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE (index: position), or HF_ERROR_UNSUPPORTED in the paper's mode.
+  // Frees the rotations of handles, or gives them: where they stand. With in_place the surface stays where it is, as
+  // after add_handles. Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE (index: position), or HF_ERROR_UNSUPPORTED in the paper's
+  // mode.
   void set_free_turns(Span<const std::uint32_t> numbers, bool free_turn, bool in_place = true);
   bool free_turn(std::uint32_t number) const;
 

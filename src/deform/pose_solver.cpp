@@ -315,8 +315,8 @@ void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, 
 void set_turn_limit(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept {
   double apart = 0;
   const auto is_free = [&](std::size_t i) {
-    return state.turns && std::binary_search(state.turns->handle.begin(), state.turns->handle.end(),
-                                             static_cast<std::int32_t>(i));
+    return state.turns &&
+           std::binary_search(state.turns->handle.begin(), state.turns->handle.end(), static_cast<std::int32_t>(i));
   };
   for (std::size_t i = 0; i < turns.size(); ++i) {
     if (is_free(i)) continue;

@@ -67,7 +67,7 @@ struct SmoothState {
   Vector<double> known;              // the handles' part of the right-hand side
   Vector<double> iterate, residual;  // seven numbers per group in use: its rotation and its stress
   Anderson anderson;
-  double turn_limit = no_turn_limit;  // radians between a rotation and its anchor
+  double turn_limit = no_turn_limit;       // radians between a rotation and its anchor
   std::shared_ptr<const FreeTurns> turns;  // null: the rotations of all handles are given
   FreeTurnsState free;
 };
@@ -88,7 +88,8 @@ void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, 
 // limit follows from the handles of given rotation alone: a handle of free rotation may unwind.
 void set_turn_limit(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept;
 // Solves the pose. transforms: one per cluster of vertices; those of handles are read, the others are written. The
-// rotations of free handles start from state.free and end there. Their transforms are written too. It stops early when last_change falls below `tolerance`.
+// rotations of free handles start from state.free and end there. Their transforms are written too. It stops early when
+// last_change falls below `tolerance`.
 SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state,
                        Affine* transforms) noexcept;
 

@@ -77,8 +77,8 @@ class PoseStack {
     Vec3 centroid;         // of the rest region, in the given frame
     HandleTransform edit;  // D_h, the transform that the user set; of a free handle with the rotation it took
     bool free_turn = false;
-    Vec3 turn;             // rotation vector of D_h, with full turns
-    RigidMotion placed;    // F_h D_h in the given frame, F_h the motion by lower layers; on layer 0 D_h
+    Vec3 turn;           // rotation vector of D_h, with full turns
+    RigidMotion placed;  // F_h D_h in the given frame, F_h the motion by lower layers; on layer 0 D_h
   };
   struct Layer {
     explicit Layer(Memory& memory) : relative(&memory), turns(&memory), zeros(&memory) {}

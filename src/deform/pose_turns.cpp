@@ -43,8 +43,7 @@ void Pose::prepare_turns(const Layout& layout, State& state) const {
   }
   if (!any) return;
   state.smooth.turns = make_shared_in<FreeTurns>(
-      memory(),
-      make_free_turns(layout.smooth->subspace, layout.handles, free, layout.smooth->seed_field, memory()));
+      memory(), make_free_turns(layout.smooth->subspace, layout.handles, free, layout.smooth->seed_field, memory()));
   state.smooth.free.fit(state.smooth.turns->count());
 }
 
@@ -68,8 +67,11 @@ void Pose::follow_turns(State& state, Span<Vec3> turns, bool whole) const noexce
 void Pose::start_turns(State& state) const noexcept {
   if (!state.smooth.turns) return;
   const FreeTurns& free = *state.smooth.turns;
-  for (std::size_t k = 0; k < free.count(); ++k)
-    state.smooth.free.rotation[k] = state.handles[free.handle[k]].rotation;
+  for (std::size_t k = 0; k < free.count(); ++k) {
+    const HandleState& handle = state.handles[free.handle[k]];
+    state.smooth.free.rotation[k] = handle.rotation;
+    state.smooth.free.place[k] = free.centroid[k] + handle.translation;
+  }
 }
 
 void Pose::take_turns(State& state) const noexcept {

@@ -70,8 +70,8 @@ struct Blocks {
   std::size_t handles, free;
 };
 
-// Adds the 4 x 4 matrices L_cd (subspace.h) of every edge. They couple each cluster c with itself and the clusters before
-// it. Handles come first.
+// Adds the 4 x 4 matrices L_cd (subspace.h) of every edge. They couple each cluster c with itself and the clusters
+// before it. Handles come first.
 HF_FOUR_LANES
 void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count, EdgeRow row,
                 const Blocks& out) noexcept {
@@ -80,16 +80,16 @@ void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count,
     fill_row(rows, samples[e].i, samples[e].j, row);
     for (std::int32_t r = 0; r < row.count; ++r) {
       const std::size_t own = static_cast<std::size_t>(row.cluster[r]);
-      double* const handle_rows =
-          own < out.handles ? out.between + 4 * own * handle_stride : out.coupling + 4 * (own - out.handles) * handle_stride;
+      double* const handle_rows = own < out.handles ? out.between + 4 * own * handle_stride
+                                                    : out.coupling + 4 * (own - out.handles) * handle_stride;
       double wz[4];
       for (int a = 0; a < 4; ++a) wz[a] = samples[e].weight * row.z[r].x[a];
       for (std::int32_t s = 0; s <= r; ++s) {
         const std::size_t c = static_cast<std::size_t>(row.cluster[s]);
         const bool handle = c < out.handles;
         const std::size_t stride = handle ? handle_stride : free_stride;
-        double* block = handle ? handle_rows + 4 * c
-                               : out.lower + 4 * (c - out.handles) + 4 * (own - out.handles) * stride;
+        double* block =
+            handle ? handle_rows + 4 * c : out.lower + 4 * (c - out.handles) + 4 * (own - out.handles) * stride;
         Four z, line;
         std::memcpy(&z, row.z[s].x, sizeof z);
         for (std::size_t a = 0; a < 4; ++a) {
@@ -362,8 +362,8 @@ class Assembly {
   }
 
   void sum_blocks() {
-    const Blocks out{lower_.data(), out_.coupling.data(), out_.between.data(), static_cast<std::size_t>(weights_.handle_count),
-                     static_cast<std::size_t>(weights_.free_count())};
+    const Blocks out{lower_.data(), out_.coupling.data(), out_.between.data(),
+                     static_cast<std::size_t>(weights_.handle_count), static_cast<std::size_t>(weights_.free_count())};
     for_samples([&](const Sample* samples, std::size_t count, EdgeRow row) {
       add_blocks(blend_rows(), samples, count, row, out);
     });

@@ -692,6 +692,8 @@ namespace Hf.Native
         public IntPtr radii;
         public uint layer;
         public int in_place;
+        public int free_rotation;
+        public uint reserved;
         public IntPtr progress;
     }
 
@@ -714,7 +716,7 @@ namespace Hf.Native
         public fixed double rotation[4];
         public fixed double translation[3];
         public uint layer;
-        public uint reserved;
+        public int free_rotation;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1266,6 +1268,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_remove_handles(IntPtr pose, uint handle_count, void* handles);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_transforms(IntPtr pose, uint handle_count, void* handles, void* transforms);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_transform(IntPtr pose, uint handle, void* transform);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_free_rotations(IntPtr pose, uint handle_count, void* handles, int free_rotation);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_matrices(IntPtr pose, uint handle_count, void* handles, void* matrices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_handle(IntPtr pose, uint handle, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_pose_get_handle_count(IntPtr pose);

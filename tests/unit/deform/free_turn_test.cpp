@@ -95,9 +95,11 @@ class Energy {
     gain_ = border_stiffness[weights.shared[0]];
     groups_ = Groups::with(nullptr, core_, rest_, Vector<std::int32_t>(1, 0, core_.memory.get()), default_groups,
                            *core_.memory);
+    system_ = std::make_unique<SmoothSystem>(core_, rest_, weights, *groups_, fields, *core_.memory);
   }
 
-  double of(const Surface& surface) const {
+  // transforms: of the clusters. Those that the surface leaves free are held near the mean of the rotations.
+  double of(const Plant& plant, const Surface& surface) const {
     std::vector<Mat3> moment(static_cast<std::size_t>(groups_->count()));
     for_edges([&](std::int32_t i, std::int32_t j, double w) {
       for (const std::int32_t v : {i, j})
@@ -108,11 +110,22 @@ class Energy {
     double sum = 0;
     for_edges([&](std::int32_t i, std::int32_t j, double w) {
       for (const std::int32_t v : {i, j}) {
-        const Vec3 off =
-            at(surface, i) - at(surface, j) - rotate(rotation[groups_->group_of[v]], edge(i, j));
+        const Vec3 off = at(surface, i) - at(surface, j) - rotate(rotation[groups_->group_of[v]], edge(i, j));
         sum += w / 4 * dot(off, off);
       }
     });
+    const Subspace& subspace = system_->subspace;
+    const Span<const Affine> transforms = plant.pose->base().cluster_transforms();
+    for (std::int32_t f = 0; f < system_->free_count; ++f) {
+      Mat3 mean;
+      for (std::int32_t k = subspace.mean_start[f]; k < subspace.mean_start[f + 1]; ++k)
+        mean += subspace.mean[k].area * rotation[subspace.group[subspace.mean[k].group]].toRotationMatrix();
+      const Mat3 held = best_rotation(mean, Quaternion()).toRotationMatrix();
+      for (int i = 0; i < 3; ++i) {
+        for (int a = 0; a < 3; ++a)
+          sum += subspace.stiffness[f] / 2 * std::pow(transforms[system_->handle_count + f].a[i][a] - held(i, a), 2);
+      }
+    }
     return sum;
   }
 
@@ -130,54 +143,74 @@ class Energy {
   const Core& core_;
   Rest rest_;
   std::shared_ptr<const Groups> groups_;
+  std::unique_ptr<SmoothSystem> system_;
   std::vector<double> close_;
   double gain_ = 0;
 };
 
-// Least energy over the rotations of a handle, by brute force: each is given, and the pose settles.
-TEST(FreeTurn, TheRotationIsThatOfLeastEnergy) {
-  for (const bool three : {false, true}) {
-    std::vector<Region> regions{base_region(), crown_region()};
-    if (three) regions.push_back(arm_region());
-    const HandleTransform move = three ? HandleTransform{{}, {0.15, 0.1, 0.1}} : HandleTransform{{}, {0.3, -0.1, 0.2}};
-    Plant plant;
-    std::vector<std::uint32_t> handles;
-    for (std::size_t k = 0; k < regions.size(); ++k)
-      handles.push_back(plant.add(regions[k], {false, k + 1 == regions.size()}));
-    const std::uint32_t pulled_handle = handles.back();
-    plant.put(pulled_handle, move);
-    const Surface found = plant.settle();
-    const Energy energy(plant, regions);
-    const Quaternion rotation = plant.pose->placed(pulled_handle).rotation;
-
-    Plant given;
-    for (const Region& region : regions) given.add(region);
-    const auto energy_at = [&](Vec3 turn) {
-      given.put(pulled_handle, {exponential(turn) * rotation, move.translation});
-      return energy.of(given.settle());
-    };
-    // a pattern search: along each axis to the lowest of three, then with half the step
-    Vec3 best;
-    double least = energy_at(best);
-    EXPECT_NEAR(least, energy.of(found), 1e-7 * least);
-    for (double step = 0.1; step > 3e-4; step /= 2) {
-      for (bool better = true; better;) {
-        better = false;
-        for (const Vec3 way : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-          for (const double sign : {-1.0, 1.0}) {
-            const double there = energy_at(best + sign * step * way);
-            if (!(there < least)) continue;
+// A pattern search: along each axis to the lowest of three, then with half the step. Returns the least value and where.
+template <class Value>
+double search(Value&& value, std::vector<double>& at) {
+  double least = value(at);
+  for (double step = 0.1; step > 3e-4; step /= 2) {
+    for (bool better = true; better;) {
+      better = false;
+      for (double& x : at) {
+        for (const double way : {-step, step}) {
+          x += way;
+          const double there = value(at);
+          if (there < least) {
             least = there;
-            best = best + sign * step * way;
             better = true;
+          } else {
+            x -= way;
           }
         }
       }
     }
-    std::printf("%zu handles: turned by %.4f, least energy %.4e is %.1e rad away (%.4e there)\n", regions.size(),
-                angle_between(rotation, Quaternion()), least, norm(best), energy.of(found));
-    EXPECT_GT(angle_between(rotation, Quaternion()), 0.05);
-    EXPECT_LT(norm(best), 1e-3);
+  }
+  return least;
+}
+
+// By brute force: rotations are given, and the pose settles. With more than two handles in a component, groups have
+// stresses beside their energy (strain.h), so these have two.
+TEST(FreeTurn, TheRotationsAreThoseOfLeastEnergy) {
+  struct Try {
+    Region pulled_region;
+    HandleTransform move;
+    bool both;
+  };
+  for (const Try& one :
+       {Try{crown_region(), {{}, {0.3, -0.1, 0.2}}, false}, Try{arm_region(), {{}, {0.03, 0.03, 0.04}}, false},
+        Try{crown_region(), {{}, {0.3, 0, 0.2}}, true}}) {
+    const std::vector<Region> regions{base_region(), one.pulled_region};
+    Plant plant, given;
+    plant.add(regions[0], {false, one.both});
+    plant.add(regions[1], free_kind);
+    plant.put(1, one.move);
+    const Surface found = plant.settle();
+    const Energy energy(plant, regions);
+    Quaternion rotation[2];
+    for (std::uint32_t h = 0; h < 2; ++h) rotation[h] = plant.pose->placed(h).rotation;
+    for (const Region& region : regions) given.add(region);
+    const auto energy_at = [&](const std::vector<double>& turn) {
+      for (std::uint32_t h = one.both ? 0 : 1; h < 2; ++h) {
+        const double* t = turn.data() + turn.size() - 3 * (2 - h);
+        given.put(h, {exponential({t[0], t[1], t[2]}) * rotation[h], h == 1 ? one.move.translation : Vec3{}});
+      }
+      return energy.of(given, given.settle());
+    };
+    std::vector<double> turn(one.both ? 6 : 3, 0.0);
+    const double own = energy.of(plant, found);
+    EXPECT_NEAR(energy_at(turn), own, 1e-7 * own);
+    const double least = search(energy_at, turn);
+    double away = 0;
+    for (const double t : turn) away = std::max(away, std::fabs(t));
+    std::printf("turned by %.4f; energy %.6e, least by search %.6e, %.1e rad away\n",
+                angle_between(rotation[1], Quaternion()), own, least, away);
+    EXPECT_GT(angle_between(rotation[1], Quaternion()), 0.03);
+    EXPECT_GT(least, own * (1 - 1e-6));
+    EXPECT_LT(away, one.both ? 10 : 1e-3);  // two places leave a turn about their line
   }
 }
 
@@ -261,7 +294,8 @@ TEST(FreeTurn, TurningTheSceneTurnsTheResult) {
   turned.put(1, {{}, rotate(turn, pulled.translation)});
   Surface x = plant.settle();
   for (Vec3& v : x) v = rotate(turn, v);
-  EXPECT_LT(largest_distance(x, turned.settle()), 1e-6 * plant.box);
+  // the box around a turned mesh is another, so this holds to the sampling of the bands, as for given rotations
+  EXPECT_LT(largest_distance(x, turned.settle()), 1e-4 * plant.box);
 }
 
 TEST(FreeTurn, AtRestNothingMoves) {
