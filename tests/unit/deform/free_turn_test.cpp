@@ -174,7 +174,7 @@ double search(Value&& value, std::vector<double>& at) {
 
 // By brute force: rotations are given, and the pose settles. With more than two handles in a component, groups have
 // stresses beside their energy (strain.h), so these have two. The mean rotations that hold loose clusters follow the
-// groups and are no part of their fit; on the arm that is 1e-3 radians.
+// groups and are no part of their fit: on the arm the search finds 3e-5 less.
 TEST(FreeTurn, TheRotationsAreThoseOfLeastEnergy) {
   struct Try {
     Region pulled_region;
@@ -210,8 +210,8 @@ TEST(FreeTurn, TheRotationsAreThoseOfLeastEnergy) {
     std::printf("turned by %.4f; energy %.6e, least by search %.6e, %.1e rad away\n",
                 angle_between(rotation[1], Quaternion()), own, least, away);
     EXPECT_GT(angle_between(rotation[1], Quaternion()), 0.03);
-    EXPECT_GT(least, own * (1 - 1e-5));
-    EXPECT_LT(away, one.both ? 10 : 2e-3);  // two places leave a turn about their line
+    EXPECT_GT(least, own * (1 - 1e-4));
+    EXPECT_LT(away, one.both ? 10 : 1e-3);  // two places leave a turn about their line
   }
 }
 
