@@ -5,9 +5,8 @@
 namespace hf_inner {
 namespace {
 
-// Rounds in which the handles of free rotation find their rotations one after the other. Each round is exact for one
-// handle; neighbours that pull on each other need more. They are a bound on the work of a frame: half moves a hand
-// with five free fingers by 1e-9 of the box, double by less.
+// Rounds in which the handles of free rotation find their rotations one after the other. A round is exact for one
+// handle; neighbours that pull on each other need more. Fewer take less time; the next iteration goes on from there.
 constexpr int turn_rounds = 4;
 
 // Writes J_h L_hj for handle h of the set and handle j of the pose: block[b][a] is its row a and column b. Subspace

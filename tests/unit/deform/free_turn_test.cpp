@@ -8,6 +8,7 @@
 #include "cases.h"
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
+#include "deform/skin.h"
 
 namespace {
 
@@ -332,6 +333,34 @@ TEST(FreeTurn, FreeingARotationDoesNotJumpAndLetsItGoAsTheHandleMoves) {
   EXPECT_LT(largest_distance(fresh.settle(), plant.settle()), 1e-5 * plant.box);
   plant.set_free(arm, false);
   EXPECT_LT(largest_distance(fresh.settle(), plant.settle()), 1e-5 * plant.box);
+}
+
+TEST(FreeTurn, AddedInPlaceItMovesNothingUntilItIsPulled) {
+  Plant plant;
+  plant.add(base_region());
+  const std::uint32_t crown = plant.add(crown_region());
+  plant.put(crown, scene().motion(1, 1, plant.centroid(crown)));
+  const Surface before = plant.settle();
+  const std::uint32_t arm = plant.add(arm_region(), {true, true});
+  EXPECT_LT(largest_distance(before, plant.settle()), 1e-6 * plant.box);
+  const HandleTransform stands = plant.pose->placed(arm);
+  Vec3 mean;
+  for (const std::int32_t v : arm_region()) mean = mean + before[v];
+  mean = (1.0 / static_cast<double>(arm_region().size())) * mean;
+  EXPECT_LT(norm(mean - plant.centroid(arm) - stands.translation), 1e-9 * plant.box);
+  plant.put(arm, {{}, stands.translation + (0.002 * plant.box) * Vec3{0, 1, 0}});
+  EXPECT_LT(largest_distance(before, plant.frame()), 0.01 * plant.box);
+}
+
+TEST(FreeTurn, ASkinsJointTurnsAsTheHandle) {
+  Plant plant;
+  plant.add(base_region());
+  plant.add(arm_region(), free_kind);
+  plant.put(1, pulled);
+  plant.settle();
+  const Skin skin = make_skin(plant.pose->base(), 4, false, *plant.core->memory);
+  EXPECT_LT(angle_between(skin.rotation[1], plant.pose->placed(1).rotation), 1e-6);
+  EXPECT_GT(angle_between(skin.rotation[1], Quaternion()), 0.1);
 }
 
 TEST(FreeTurn, RestartAndClonesHaveTheBitsOfAFreshPose) {
