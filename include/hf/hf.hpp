@@ -324,6 +324,8 @@ struct HandlesOptions {
   uint32_t layer = 0;
   // 1: handles of layer 0 start where the posed surface stands, not at rest; see below
   bool in_place = false;
+  // 1: you give the places of the handles only; see Pose::set_free_rotations
+  bool free_rotation = false;
   // none, or an object to poll and cancel through
   const Progress* progress = nullptr;
   hf_handles_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
@@ -2236,10 +2238,11 @@ class Pose {
   // below 1 % of the box makes regions of 2 vertices or more
   // layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
   // in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+  // free_rotation: 1: you give the places of the handles only; see Pose::set_free_rotations
   // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-  // HF_ERROR_TOO_LARGE.
+  // HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
   std::vector<uint32_t> add_handles(const std::vector<std::vector<uint32_t>>& region_vertices = {},
       const HandlesOptions& options = {}) {
     Call c(counts_);
@@ -2255,7 +2258,7 @@ class Pose {
   // point: 3 numbers.
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-  // HF_ERROR_TOO_LARGE.
+  // HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
   uint32_t add_handle_at(const std::vector<double>& point, double radius) {
     Call c(counts_);
     const double* point_ = c.array(point, true, "point", {"3"});
@@ -2283,7 +2286,7 @@ class Pose {
   // far. The transforms take effect at the next Pose.deform.
   //
   // handles: handle_count numbers.
-  // rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity
+  // rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
   // translations: up to 1e15 box diagonals
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
@@ -2301,7 +2304,7 @@ class Pose {
 
   // Places one handle.
   //
-  // rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity
+  // rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
   // translation: up to 1e15 box diagonals
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
@@ -2312,6 +2315,26 @@ class Pose {
     if (rotation) std::copy(rotation->begin(), rotation->end(), transform.rotation);
     if (translation) std::copy(translation->begin(), translation->end(), transform.translation);
     check(hf_pose_set_transform(get(), handle, &transform));
+  }
+
+  // Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands exactly
+  // where its transform puts it; the rotation of the transform is ignored. Each Pose.deform finds the rotation of least
+  // elastic energy for that place, together with the pose (as-rigid-as-possible energy with positional constraints,
+  // Sorkine and Alexa 2007). Pose::handle writes it. Drag with a free rotation: the wrist follows the hand. Give the
+  // rotation when the user turns a ring. A given rotation starts as the handle stands, so the pose does not change.
+  // Where you free a rotation on layer 0 the surface stays as it is and lets the old rotation go as handles move, as
+  // with in_place; place the handles after that call. On a higher layer a changed handle moves the surface at the next
+  // frame. A handle alone in its component keeps the rotation it has. restart also starts free rotations anew. refine
+  // keeps the rotation of the smooth pose.
+  //
+  // handles: handle_count numbers.
+  // free_rotation: 1: the solve finds the rotations; 0: you give them.
+  //
+  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+  void set_free_rotations(const std::vector<uint32_t>& handles, bool free_rotation = false) {
+    Call c(counts_);
+    const uint32_t* handles_ = c.array(handles, true, "handles", {"handle_count"});
+    check(hf_pose_set_free_rotations(get(), c.count("handle_count", 1), handles_, free_rotation ? 1 : 0));
   }
 
   // Places handles by 4 x 4 matrices M.
@@ -3174,7 +3197,7 @@ class Transfer {
   // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-  // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+  // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
   std::vector<uint32_t> add_pairs(const std::vector<std::vector<uint32_t>>& source_vertices,
       const std::vector<std::vector<uint32_t>>& target_vertices, const std::vector<uint32_t>& flags = {},
       const Pairs& options = {}) {
@@ -3892,6 +3915,7 @@ inline hf_handles_desc HandlesOptions::fill([[maybe_unused]] Call& c, [[maybe_un
   auto desc = make<hf_handles_desc>();
   desc.layer = layer;
   desc.in_place = in_place ? 1 : 0;
+  desc.free_rotation = free_rotation ? 1 : 0;
   c.lists(region_vertices, false, &desc.region_counts, &desc.region_vertices, "region_vertices",
       {prefix + "handle_count"});
   desc.points = c.array(points, false, "points", {prefix + "handle_count", "3"});

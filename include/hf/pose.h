@@ -1,10 +1,11 @@
 /* hf/pose.h - grab the surface with handles and pose it; add and remove handles at any time.
  *
- * A handle is a region of vertices that moves rigidly; every other vertex follows. Each handle has one harmonic field,
- * which is 1 on the handle and 0 on the others. It says how much a vertex follows the handle. The vertices between two
- * levels of a field form a cluster, and clusters overlap. A small prefactored solve finds the motion of each cluster,
- * and each vertex blends these motions. HF_DEFORM_PAPER does this exactly as Section 5 of Xu, Zhang, Cohen-Or and Xiong
- * (2009) describes.
+ * A handle is a region of vertices that moves rigidly; every other vertex follows. You give its place, and its rotation
+ * too or leave that free (free_rotation): then the solve finds it, as for a hand that is pulled. Each handle has one
+ * harmonic field, which is 1 on the handle and 0 on the others. It says how much a vertex follows the handle. The
+ * vertices between two levels of a field form a cluster, and clusters overlap. A small prefactored solve finds the
+ * motion of each cluster, and each vertex blends these motions. HF_DEFORM_PAPER does this exactly as Section 5 of Xu,
+ * Zhang, Cohen-Or and Xiong (2009) describes.
  *
  * Handles have layers. Handles of layer 0 move the rest pose. Handles of a higher layer edit the surface that the lower
  * layers produce. They do not move the lower layers, so you can add and remove them freely. */
@@ -76,13 +77,15 @@ typedef struct hf_handles_desc {
   const uint32_t* region_counts; /* [handle_count] vertices of each region, >= 1; repeats are allowed, up to four times
                                     the vertices of the mesh in all */
   const uint32_t* region_vertices; /* [sum(region_counts)] all regions one after the other; NULL: points are given */
-  const double* points; /* [handle_count][3] at rest. The region is the vertex nearest to the point and what is
-                           edge-connected to it within the radius. NULL: regions are given */
-  const double* radii;  /* [handle_count] of the regions of points, in the unit of the mesh; NULL: regions are given.
-                           A radius below 1 % of the box makes regions of 2 vertices or more */
-  uint32_t layer;       /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
-  int32_t in_place;     /* 1: handles of layer 0 start where the posed surface stands, not at rest; see below */
-  hf_progress progress; /* NULL, or an object to poll and cancel through */
+  const double* points;  /* [handle_count][3] at rest. The region is the vertex nearest to the point and what is
+                            edge-connected to it within the radius. NULL: regions are given */
+  const double* radii;   /* [handle_count] of the regions of points, in the unit of the mesh; NULL: regions are given.
+                            A radius below 1 % of the box makes regions of 2 vertices or more */
+  uint32_t layer;        /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
+  int32_t in_place;      /* 1: handles of layer 0 start where the posed surface stands, not at rest; see below */
+  int32_t free_rotation; /* 1: you give the places of the handles only; see hf_pose_set_free_rotations */
+  uint32_t reserved;     /* 0 */
+  hf_progress progress;  /* NULL, or an object to poll and cancel through */
 } hf_handles_desc;
 
 /* Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a posed
@@ -96,8 +99,9 @@ typedef struct hf_handles_desc {
  * the handles to a clone in another thread and pose the old one meanwhile. Then set the transforms of the clone. No two
  * regions may overlap, on any layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and
  * HF_ERROR_CONFLICT (index = position in region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT
- * (isolated vertex, layer, in_place, a radius, regions and points at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE
- * (HF_HANDLE_LIMIT, a point two boxes or more away). Thread safety: changes `pose`. Since 0.1. */
+ * (isolated vertex, layer, in_place, free_rotation, a radius, regions and points at once), HF_ERROR_NON_FINITE,
+ * HF_ERROR_TOO_LARGE (HF_HANDLE_LIMIT, a point two boxes or more away), HF_ERROR_UNSUPPORTED (free_rotation with
+ * HF_DEFORM_PAPER). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
 
 /* Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
@@ -116,7 +120,7 @@ HF_API hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, con
  * translation. The centroid is the mean of the region's rest positions, in the unit of the mesh (hf_pose_get_handle
  * writes it). */
 typedef struct hf_transform {
-  double rotation[4];    /* unit quaternion x, y, z, w; normalised inside; all zero = identity */
+  double rotation[4]; /* unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free */
   double translation[3]; /* up to 1e15 box diagonals */
 } hf_transform;
 
@@ -130,6 +134,23 @@ HF_API hf_result hf_pose_set_transforms(hf_pose pose, uint32_t handle_count, con
 
 /* Places one handle. Errors: as hf_pose_set_transforms. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_transform* transform);
+
+/* Frees the rotations of handles, or gives them. handles: uint32_t[handle_count]. free_rotation: 1: the solve finds the
+ * rotations; 0: you give them.
+ *
+ * A handle of free rotation is a place. Its centroid lands exactly where its transform puts it; the rotation of the
+ * transform is ignored. Each hf_deform finds the rotation of least elastic energy for that place, together with the
+ * pose (as-rigid-as-possible energy with positional constraints, Sorkine and Alexa 2007). hf_pose_get_handle writes it.
+ * Drag with a free rotation: the wrist follows the hand. Give the rotation when the user turns a ring. A given rotation
+ * starts as the handle stands, so the pose does not change. Where you free a rotation on layer 0 the surface stays as
+ * it is and lets the old rotation go as handles move, as with in_place; place the handles after that call. On a higher
+ * layer a changed handle moves the surface at the next frame. A handle alone in its component keeps the rotation it
+ * has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose. Cost: one iteration of a
+ * solve for each free handle, at this call and when handles are added or removed; little in a frame. Errors:
+ * HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (free_rotation), HF_ERROR_UNSUPPORTED (HF_DEFORM_PAPER). Thread safety:
+ * changes `pose`. Since 0.1. */
+HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
+                                            int32_t free_rotation);
 
 /* Places handles by 4 x 4 matrices M. handles: uint32_t[handle_count]. matrices: double[handle_count][16], column by
  * column, elements 12 to 14 the translation. M
@@ -151,7 +172,7 @@ typedef struct hf_handle_info {
                             what the layers below did to it */
   double translation[3]; /* the same of its translation */
   uint32_t layer;
-  uint32_t reserved;
+  int32_t free_rotation; /* 1: the solve finds the rotation */
 } hf_handle_info;
 
 /* Writes the info of a handle. Errors: HF_ERROR_NOT_FOUND. Thread safety: reads `pose`. Since 0.1. */

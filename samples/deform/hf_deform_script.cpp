@@ -33,6 +33,7 @@ const char* usage =
     "  --tiles N          frames on the sheet, 2 to 23 (default 7)\n"
     "  --frames-obj DIR   every key frame as DIR/frame_0000.obj ..., in the vertex order of MESH\n"
     "  --mode MODE        smooth or paper, instead of the script's\n"
+    "  --given-rotations  a drag without a turn keeps the rotation of its handle; otherwise the rotation is free\n"
     "  --no-links         pieces of the surface stay apart; otherwise links join them\n"
     "  --refine           one full-mesh step on every frame\n"
     "  --lengths          keeps lengths: the full-mesh steps go on from frame to frame\n"
@@ -47,7 +48,8 @@ struct Command {
   double keys = 8;
   uint32_t tiles = 7, threads = 1;
   glm::dvec3 up{0, 1, 0};
-  bool propose = false, refine = false, lengths = false, links = true, quiet = false, help = false;
+  bool propose = false, refine = false, lengths = false, links = true, given_rotations = false, quiet = false,
+       help = false;
 };
 
 glm::dvec3 axis_of(const std::string& word) {
@@ -89,6 +91,8 @@ Command parse(Words words) {
       out.refine = true;
     } else if (words.is("--lengths")) {
       out.lengths = true;
+    } else if (words.is("--given-rotations")) {
+      out.given_rotations = true;
     } else if (words.is("--no-links")) {
       out.links = false;
     } else if (words.is("--quiet")) {
@@ -251,6 +255,7 @@ void run(const Command& command) {
   options.paper = script.paper;
   options.threads = command.threads;
   options.links = command.links;
+  options.given_rotations = command.given_rotations;
   options.model = mesh.model.skins.empty() ? nullptr : &mesh.model;
   Posable posable(mesh.flat, options);
   bar.end(std::to_string(mesh.flat.vertex_count()) + " vertices");

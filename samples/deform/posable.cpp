@@ -51,6 +51,7 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   upper_ = box.high;
   diagonal_ = box.diagonal();
   own_ = !options.on;
+  frees_ = !options.given_rotations && !options.paper;
   if (own_)
     make_surface(mesh, options);
   else
@@ -170,6 +171,18 @@ void Posable::begin(const Step& step) {
     found->motion = motion;
     found->from = found->now;
     found->moving = true;
+    found->from_place = false;
+    const bool free = frees_ && motion.degrees == 0 && !motion.bend;
+    if (free == found->free_rotation) continue;
+    expect_ok(hf_pose_set_free_rotations(pose_, 1, &found->number, free), "dragging \"" + name + "\"");
+    found->free_rotation = free;
+    if (free) continue;
+    // the given rotation begins as the handle stands
+    hf_handle_info info = HF_INIT(hf_handle_info);
+    expect_ok(hf_pose_get_handle(pose_, found->number, &info), "dragging \"" + name + "\"");
+    found->from.rotation = glm::dquat(info.rotation[3], info.rotation[0], info.rotation[1], info.rotation[2]);
+    found->from_rest = false;
+    found->from_place = true;
   }
 }
 
@@ -179,7 +192,8 @@ void Posable::drag(double t) {
     const MotionEntry &a = live.before, &b = live.motion;
     if (live.from_rest) {
       live.now = place(live, b, t);
-    } else if (a.axis == b.axis && a.bend == b.bend && a.has_pivot == b.has_pivot && a.pivot == b.pivot) {
+    } else if (!live.from_place && a.axis == b.axis && a.bend == b.bend && a.has_pivot == b.has_pivot &&
+               a.pivot == b.pivot) {
       MotionEntry between = b;
       between.degrees = (1 - t) * a.degrees + t * b.degrees;
       between.move = (1 - t) * a.move + t * b.move;

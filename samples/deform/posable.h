@@ -41,6 +41,7 @@ class Posable {
  public:
   struct Options {
     bool paper = false, links = true;
+    bool given_rotations = false;  // a drag without a turn keeps the rotation of its handle
     uint32_t bands = 0, threads = 1;
     const Model* model = nullptr;  // its skin helps to link pieces; may be NULL
     const Posable* on = nullptr;   // of the same mesh: its surface is used again, and it outlives this object
@@ -53,7 +54,8 @@ class Posable {
   // Throw std::runtime_error naming the handle.
   void add(const std::vector<HandleEntry>& handles);
   void remove(const std::vector<std::string>& names);
-  // The motions of a step start where the handles stand. `t` is the share of the way, from 0 to 1.
+  // The motions of a step start where the handles stand. A motion without a turn frees the rotation of its handle, one
+  // with a turn gives it. `t` is the share of the way, from 0 to 1.
   void begin(const Step& step);
   void drag(double t);
   // Plays a step frame by frame. Its drags continue by equal parts. frame(f, count) is called after each part, f from 1
@@ -81,7 +83,7 @@ class Posable {
     glm::dvec3 centroid;
     MotionEntry motion;     // asked for last
     HandlePlace from, now;  // where the drag at hand began
-    bool moving = false, from_rest = true;
+    bool moving = false, from_rest = true, from_place = false, free_rotation = false;
     MotionEntry before;
   };
   const std::vector<Live>& handles() const { return live_; }
@@ -100,6 +102,7 @@ class Posable {
   const FlatMesh& mesh_;
   hf_surface surface_ = nullptr;
   bool own_ = true;  // the surface
+  bool frees_ = true;
   hf_pose pose_ = nullptr;
   glm::dvec3 lower_{0}, upper_{0};
   double diagonal_ = 1;

@@ -229,6 +229,17 @@ hf_result hf_pose_set_matrices(hf_pose pose, uint32_t handle_count, const uint32
   });
 }
 
+hf_result hf_pose_set_free_rotations(hf_pose handle, uint32_t handle_count, const uint32_t* handles,
+                                     int32_t free_rotation) {
+  return guarded("hf_pose_set_free_rotations", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    check_handles(handle_count, handles);
+    check_flag(free_rotation, "free_rotation");
+    const Changing changing(*pose);
+    pose->pose->set_free_turns({handles, handle_count}, free_rotation != 0);
+  });
+}
+
 hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* out_info) {
   return guarded("hf_pose_get_handle", [&] {
     const auto pose = get<PoseObject>(handle, "pose");
@@ -245,6 +256,7 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
     std::copy_n(placed.rotation.coeffs().data(), 4, info.rotation);  // x y z w
     put(placed.translation, info.translation);
     info.layer = pose->pose->layer_of(number);
+    info.free_rotation = pose->pose->free_turn(number);
     write_struct(out_info, info);
   });
 }

@@ -28,6 +28,7 @@ double way_from_rest(Span<const RigidMotion> placed) noexcept {
 double share_left(const Crossfade& crossfade, Span<const RigidMotion> now) noexcept {
   const double left = 1 - largest_way(crossfade.placed, now) / crossfade_reach;
   if (!(left > 0)) return 0;
+  if (!(crossfade.from_rest > 0)) return left * left;
   return left * left * std::min(1.0, way_from_rest(now) / crossfade.from_rest);
 }
 

@@ -2,7 +2,8 @@
 //
 // New handles have other fields, so their best pose differs from the pose before by 2e-3 to 7e-3 of the box. The
 // difference D_v = old position - new position is added to the surface, times a share. The share is 1 where the handles
-// stood then. It falls as they move away, to 0 over crossfade_reach, and as they come back to rest:
+// stood then. It falls as they move away, to 0 over crossfade_reach, and as they come back to rest. After a rotation
+// was freed it does not fall at rest, where the given rotation is part of the surface:
 //     share = (1 - way / crossfade_reach)^2 min(1, rest way / rest way then)
 // A way is the largest over all handles: the move of the centroid plus crossfade_turn times the angle. Cost: one
 // product and sum per vertex. Allocates only when it is made.
@@ -16,7 +17,7 @@ struct Crossfade {
   Crossfade(std::size_t vertices, Memory& memory) : offset(memory, 3 * vertices), placed(&memory) {}
   Buffer<float> offset;        // three per vertex, in the unit of the mesh as given
   Vector<RigidMotion> placed;  // the handles then: rotation, and move of the centroid in box diagonals
-  double from_rest = 0;        // the largest way of a handle from rest then
+  double from_rest = 0;        // the largest way of a handle from rest then; 0: rest does not count
 };
 
 // Returns the largest way of a handle between two places.

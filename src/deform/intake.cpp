@@ -45,9 +45,12 @@ void check_skeleton(const hf_handle_proposals_desc& desc) {
 HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& memory) {
   check_region_count(0, desc.handle_count, "handle");  // before lists of that length are read
   check_flag(desc.in_place, "in_place");
+  check_flag(desc.free_rotation, "free_rotation");
+  require_zero(desc.reserved);
   HandleInput input(&memory);
   input.layer = desc.layer;
-  input.in_place = desc.in_place != 0;
+  input.kind.in_place = desc.in_place != 0;
+  input.kind.free_turn = desc.free_rotation != 0;
   input.by_points = desc.points || desc.radii;
   if (input.by_points) {
     if (desc.region_counts || desc.region_vertices)
@@ -67,7 +70,7 @@ HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& 
 
 void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> out_numbers) {
   try {
-    pose.add_handles(input.start, input.vertices, input.layer, out_numbers, input.in_place);
+    pose.add_handles(input.start, input.vertices, input.layer, out_numbers, input.kind);
   } catch (const Error& error) {
     if (!input.by_points || error.code() != HF_ERROR_CONFLICT) throw;
     const auto after = std::upper_bound(input.start.begin(), input.start.end(), error.index());

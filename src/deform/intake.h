@@ -13,7 +13,7 @@ struct HandleInput {
   Vector<std::int32_t> vertices;  // inner; Mesh::none for an isolated one
   bool by_points = false;         // the regions lie around points
   std::uint32_t layer = 0;
-  bool in_place = false;
+  HandleKind kind;
 };
 // Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_INVALID_DESC, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NULL_POINTER,
 // HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE as hf_pose_add_handles says.

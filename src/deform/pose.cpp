@@ -119,8 +119,9 @@ void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_
 }
 
 void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices,
-                       Span<std::uint32_t> out_numbers, bool in_place) {
+                       Span<std::uint32_t> out_numbers, const HandleKind& kind) {
   check_regions(start, vertices);
+  check_free_turn(kind.free_turn);
   Handles handles(&memory());
   if (layout_) handles.assign(layout_->handles.begin(), layout_->handles.end());
   const std::size_t first = handles.size();
@@ -134,8 +135,11 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
     handles.push_back({number, std::move(region)});
   }
   std::shared_ptr<const Layout> layout = make_layout(handles);
-  std::shared_ptr<State> state = carry_over(*layout);
-  if (in_place && posed_) keep_in_place(*layout, *state);
+  std::shared_ptr<State> state = carry_over(*layout, kind.free_turn);
+  if (kind.in_place && posed_) {
+    fit_new_handles(*layout, *state);
+    keep_in_place(*layout, *state, true);
+  }
   previous_layout_ = layout_;
   previous_state_ = state_;
   install(std::move(layout), std::move(state));
@@ -186,7 +190,10 @@ bool Pose::restore_previous(const Handles& remaining) {
     then.rotation = now.rotation;
     then.translation = now.translation;
     then.turn = now.turn;
+    state->changed = state->changed || then.free_turn != now.free_turn;
+    then.free_turn = now.free_turn;
   }
+  prepare_turns(*previous_layout_, *state);
   std::shared_ptr<const Layout> layout = std::move(previous_layout_);
   previous_layout_.reset();
   previous_state_.reset();
@@ -254,63 +261,7 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) co
   return layout;
 }
 
-// Returns the rigid motion from rest that the posed surface has at a handle's region, in the unit of the scaled mesh.
-RigidMotion Pose::fit_region(const Handle& handle) const {
-  ensure_surface();
-  Vector<Vec3> rest(&memory()), posed(&memory());
-  for (const std::int32_t v : handle.region->vertices) {
-    rest.push_back(core_->mesh.positions[v]);
-    posed.push_back(core_->mesh.to_inner(positions_[v]));
-  }
-  return fit_rigid(rest, posed, {}, Quaternion());
-}
-
-// Places the new handles where the surface stands, solves, and notes how far the new pose is from the surface. It moves
-// the handles of `state` alone.
-void Pose::keep_in_place(const Layout& layout, State& state) {
-  for (std::size_t i = 0; i < layout.handles.size(); ++i) {
-    if (find(layout.handles[i].number) >= 0) continue;
-    const RigidMotion motion = fit_region(layout.handles[i]);
-    HandleState& handle = state.handles[i];
-    const Vec3 centroid = layout.handles[i].region->centroid;
-    handle.rotation = motion.rotation;
-    handle.translation = apply(motion, centroid) - centroid;
-    handle.turn = handle.solved_turn = logarithm(motion.rotation);
-    handle.solved = motion.rotation;
-  }
-  if (!layout.smooth) return;
-  place_handles(layout, state);
-  Vector<Vec3> turns(&memory());
-  for (const HandleState& handle : state.handles) turns.push_back(handle.turn);
-  set_turn_limit(*layout.smooth, turns, state.smooth);
-  solve_pose(*layout.smooth, crossfade_iterations, settled_change, state.smooth, state.transforms.data());
-  state.started = true;
-  state.changed = false;  // no frame solves again before a handle moves
-  const std::size_t n = positions_.size();
-  Buffer<Vec3> fresh(memory(), n);
-  blend(core_->mesh, layout.weights, state.transforms.data(), state.columns.data(), core_->mesh.centre,
-        core_->mesh.scale, fresh.data(), nullptr, *core_->jobs);
-  if (state.followed) state.followed->lead(fresh.data(), positions_.data());
-  if (refined_ > 0) {
-    make_refinement(layout, refined_, state.followed.get());
-    refine(layout, state, state.followed ? 0 : refined_, fresh.data());
-  }
-  auto crossfade = make_shared_in<Crossfade>(memory(), n, memory());
-  const Span<const RigidMotion> now = placed(state);
-  crossfade->placed.assign(now.begin(), now.end());
-  crossfade->from_rest = way_from_rest(now);
-  if (!(crossfade->from_rest > 0)) return;
-  for (std::size_t v = 0; v < n; ++v) {
-    const Vec3 d = positions_[v] - fresh[v];
-    float* offset = crossfade->offset.data() + 3 * v;
-    offset[0] = static_cast<float>(d.x);
-    offset[1] = static_cast<float>(d.y);
-    offset[2] = static_cast<float>(d.z);
-  }
-  state.crossfade = std::move(crossfade);
-}
-
-std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
+std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout, bool free_turn) const {
   auto state = make_shared_in<State>(memory(), memory());
   state->transforms.assign(static_cast<std::size_t>(layout.weights.cluster_count), Affine());
   state->columns.allocate(memory(), column_count(layout.weights));
@@ -319,11 +270,19 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
     HandleState carried;
     if (old >= 0 && layout_->handles[old].region == handle.region) {
       carried = state_->handles[old];
-    } else if (posed_) {
+      state->handles.push_back(carried);
+      continue;
+    }
+    carried.free_turn = free_turn;
+    if (posed_) {
       // A new handle gets the rotation that the surface has at its region. So the step that predicts the next rotations
       // also works when the host turns the handle back to rest.
       carried.solved = fit_region(handle).rotation;
       carried.solved_turn = logarithm(carried.solved);
+      if (free_turn) {
+        carried.rotation = carried.solved;
+        carried.turn = carried.solved_turn;
+      }
     }
     state->handles.push_back(carried);
   }
@@ -346,6 +305,7 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout) const {
   }
   if (state_) state->smooth.rotation.assign(state_->smooth.rotation.begin(), state_->smooth.rotation.end());
   state->smooth.fit(*layout.smooth, *layout.groups);
+  prepare_turns(layout, *state);
   // In components with a single handle so far, rotations start from the handles' whole turns and fields.
   Vector<Vec3> turns(&memory());
   for (const HandleState& handle : state->handles) turns.push_back(handle.solved_turn);

@@ -25,10 +25,10 @@ enum class DeformMode : std::int32_t { smooth = 0, paper = 1 };
 // Options of a pose. Zeros mean defaults; the ranges are those of hf_pose_desc.
 struct PoseOptions {
   DeformMode mode = DeformMode::smooth;
-  std::uint32_t band_count = 0;        // 2 to 64; 10 (smooth) or 12 (paper)
-  std::uint32_t iteration_count = 0;   // 1 to 1000; 10 or 200
-  std::uint32_t rim_site_count = 0;  // sites per handle on its boundary ring; 0: all its vertices
-  std::uint32_t group_count = 0;       // 1 to 2000; 250
+  std::uint32_t band_count = 0;       // 2 to 64; 10 (smooth) or 12 (paper)
+  std::uint32_t iteration_count = 0;  // 1 to 1000; 10 or 200
+  std::uint32_t rim_site_count = 0;   // sites per handle on its boundary ring; 0: all its vertices
+  std::uint32_t group_count = 0;      // 1 to 2000; 250
 };
 
 // The motion p -> rotation (p - centroid) + centroid + translation, in the unit of the mesh as given. The quaternion
@@ -42,6 +42,11 @@ struct HandleTransform {
 // HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a motion that is not rigid within rigid_tolerance; index:
 // position.
 HandleTransform rigid_transform(const double* matrix, Vec3 centroid, std::uint32_t position);
+
+struct HandleKind {
+  bool in_place = false;   // the handle starts where the posed surface stands
+  bool free_turn = false;  // its rotation is part of the solve (free_turns.h)
+};
 
 struct HandleReport {
   std::uint32_t vertex_count = 0, site_count = 0, component = 0;
@@ -78,16 +83,23 @@ class Pose {
   static std::shared_ptr<Pose> make(std::shared_ptr<const Core> core, const PoseOptions& options);
   std::shared_ptr<Pose> clone() const;
 
-  // Adds handles at rest, or in place: where the posed surface stands, which stays there (crossfade.h). Region r holds
+  // Adds handles at rest, or in place: the posed surface stays where it stands (crossfade.h). Region r holds
   // vertices[start[r] .. start[r + 1]), which are inner vertices; Mesh::none stands for an isolated vertex and is an
   // error. out_numbers: empty or one per region. Throws HF_ERROR_EMPTY, _OUT_OF_RANGE, _INVALID_ARGUMENT or _OVERLAP
   // (index: position in vertices), or _TOO_LARGE.
   void add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, Span<std::uint32_t> out_numbers,
-                   bool in_place = false);
+                   const HandleKind& kind = {});
   // Throws HF_ERROR_EMPTY or _NO_SUCH_HANDLE (index: position; also for a number named twice).
   void remove_handles(Span<const std::uint32_t> numbers);
-  // Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE or _NON_FINITE (index: position).
+  // Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE or _NON_FINITE (index: position). The rotation of a free handle is where the
+  // next solve starts.
   void set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms);
+
+  // Frees the rotations of handles, or gives them: where they stand. With in_place the surface stays where it is, as
+  // after add_handles. Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE (index: position), or HF_ERROR_UNSUPPORTED in the paper's
+  // mode.
+  void set_free_turns(Span<const std::uint32_t> numbers, bool free_turn, bool in_place = true);
+  bool free_turn(std::uint32_t number) const;
 
   // Solves the pose and writes the surface. Throws HF_ERROR_EMPTY when the pose has no handle. The returned spans stay
   // valid until the next change of the pose.
@@ -143,6 +155,7 @@ class Pose {
     Vec3 turn;            // rotation vector of the motion so far, with full turns
     Quaternion solved;    // rotation in the last solve
     Vec3 solved_turn;
+    bool free_turn = false;  // rotation and turn are those of the last solve
   };
   struct State {
     explicit State(Memory& memory) : handles(&memory), transforms(&memory), smooth(memory), paper(memory) {}
@@ -175,14 +188,20 @@ class Pose {
   Memory& memory() const noexcept { return *core_->memory; }
   std::int32_t find(std::uint32_t number) const noexcept;
   std::int32_t require(std::uint32_t number, std::uint32_t position) const;
+  void check_free_turn(bool free_turn) const;
   void check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const;
   std::shared_ptr<const Groups> meet(const Layout& layout) const;
   std::shared_ptr<const Layout> make_layout(const Handles& handles) const;
   // Returns a state for `layout` (handles and the clusters they make). Handles and clusters of the present state keep
   // their motions, so the surface does not jump.
-  std::shared_ptr<State> carry_over(const Layout& layout) const;
+  std::shared_ptr<State> carry_over(const Layout& layout, bool free_turn = false) const;
+  void prepare_turns(const Layout& layout, State& state) const;
+  void start_turns(State& state) const noexcept;
+  void take_turns(State& state) const noexcept;
+  void follow_turns(State& state, Span<Vec3> turns, bool whole) const noexcept;
   RigidMotion fit_region(const Handle& handle) const;
-  void keep_in_place(const Layout& layout, State& state);
+  void fit_new_handles(const Layout& layout, State& state) const;
+  void keep_in_place(const Layout& layout, State& state, bool fades_at_rest);
   void place_handles(const Layout& layout, State& state) const noexcept;
   Span<const RigidMotion> placed(const State& state) const noexcept;
   double crossfade_share() const noexcept;

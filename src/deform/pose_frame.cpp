@@ -97,25 +97,29 @@ Span<const RigidMotion> Pose::placed(const State& state) const noexcept {
 void Pose::solve_smooth(std::uint32_t iterations) noexcept {
   State& state = *state_;
   const std::size_t count = state.handles.size();
+  const Span<Vec3> turns{turns_.data(), count};
   double largest = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    turns_[i] = logarithm(state.handles[i].rotation * state.handles[i].solved.conjugate());
-    largest = std::max(largest, norm(turns_[i]));
+    turns[i] = logarithm(state.handles[i].rotation * state.handles[i].solved.conjugate());
+    largest = std::max(largest, norm(turns[i]));
   }
   if (!state.started || largest > jump_turn) {
     if (state.followed) state.followed->forget();
-    for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
-    start_rotations(*layout_->smooth, *layout_->groups, -1, {turns_.data(), count}, state.smooth);
+    follow_turns(state, turns, true);
+    start_rotations(*layout_->smooth, *layout_->groups, -1, turns, state.smooth);
   } else if (largest > 0) {
-    predict_rotations(*layout_->smooth, {turns_.data(), count}, state.smooth);
+    follow_turns(state, turns, false);
+    predict_rotations(*layout_->smooth, turns, state.smooth);
   }
-  for (std::size_t i = 0; i < count; ++i) turns_[i] = state.handles[i].turn;
-  set_turn_limit(*layout_->smooth, {turns_.data(), count}, state.smooth);
+  for (std::size_t i = 0; i < count; ++i) turns[i] = state.handles[i].turn;
+  set_turn_limit(*layout_->smooth, turns, state.smooth);
+  start_turns(state);
+  report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
+  take_turns(state);
   for (HandleState& handle : state.handles) {
     handle.solved = handle.rotation;
     handle.solved_turn = handle.turn;
   }
-  report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
 }
 
 void Pose::solve_paper(std::uint32_t iterations) noexcept {
@@ -337,7 +341,9 @@ DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const 
     state.smooth.anderson.forget();
     predict_rotations(*layout_->smooth, turns, state.smooth);
     state.smooth.turn_limit = SmoothState::no_turn_limit;  // the start is close enough
+    start_turns(state);
     report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
+    take_turns(state);
   } else {
     std::copy(start.start_.motion.begin(), start.start_.motion.end(), state.paper.motion.begin());
     report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state.paper,

@@ -167,13 +167,15 @@ Mat3 rest_moments(const Subspace& s, std::size_t g) noexcept {
 }
 
 void read_transforms(const SmoothSystem& system, const SmoothState& state, Affine* transforms) noexcept {
-  for (std::int32_t c = system.handle_count; c < system.handle_count + system.free_count; ++c) {
+  const auto read = [&](std::int32_t c) {
     const double* x = state.rows.data() + 16 * static_cast<std::size_t>(c);
     auto& a = transforms[c].a;
     for (int i = 0; i < 4; ++i) {
       for (int k = 0; k < 3; ++k) a[k][i] = x[4 * i + k];
     }
-  }
+  };
+  for (std::int32_t c = system.handle_count; c < system.handle_count + system.free_count; ++c) read(c);
+  for (std::size_t k = 0; state.turns && k < state.turns->count(); ++k) read(state.turns->handle[k]);
 }
 
 // Returns the handles' turns at vertex group g, blended by the handles' fields phi_i at the group's first vertex
@@ -312,8 +314,15 @@ void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, 
 
 void set_turn_limit(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept {
   double apart = 0;
+  const auto is_free = [&](std::size_t i) {
+    return state.turns &&
+           std::binary_search(state.turns->handle.begin(), state.turns->handle.end(), static_cast<std::int32_t>(i));
+  };
   for (std::size_t i = 0; i < turns.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) apart = std::max(apart, norm(turns[i] - turns[j]));
+    if (is_free(i)) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!is_free(j)) apart = std::max(apart, norm(turns[i] - turns[j]));
+    }
   }
   const double share = (apart - turn_limit_from) / (turn_limit_full - turn_limit_from);
   state.turn_limit =
@@ -331,11 +340,17 @@ SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, dou
   for (std::size_t g = 0; g < s.group.size(); ++g) set_target(system, g, state);
   state.anderson.break_off();
   set_handle_rows(system, transforms, state);
+  const FreeTurns* const turns = state.turns.get();
+  if (turns) begin_turns(*turns, s, state.rows.data(), state.free);
   set_known(system, state);
+  double* const solved = state.rows.data() + 16 * static_cast<std::size_t>(system.handle_count);
+  const std::size_t size = 4 * static_cast<std::size_t>(system.free_count);
   while (report.iterations < iterations) {
     ++report.iterations;
     set_right_hand_side(system, state);
-    s.factor.solve(state.rows.data() + 16 * static_cast<std::size_t>(system.handle_count));
+    if (turns) find_turns(*turns, solved, size, state.columns.data(), state.rows.data(), state.free);
+    s.factor.solve(solved);
+    if (turns) respond_to_turns(*turns, state.free, solved, size);
     report.last_change = fit_rotations(system, state);
     if (report.last_change < tolerance) break;
   }

@@ -14,6 +14,7 @@
 #pragma once
 #include "deform/anderson.h"
 #include "deform/blend.h"
+#include "deform/free_turns.h"
 #include "deform/strain.h"
 #include "deform/subspace.h"
 
@@ -41,7 +42,8 @@ struct SmoothState {
         known(&memory),
         iterate(&memory),
         residual(&memory),
-        anderson(memory) {}
+        anderson(memory),
+        free(memory) {}
   SmoothState(const SmoothState& other, Memory& memory)
       : rotation(other.rotation, &memory),
         anchor(other.anchor, &memory),
@@ -52,7 +54,9 @@ struct SmoothState {
         iterate(other.iterate, &memory),
         residual(other.residual, &memory),
         anderson(other.anderson, memory),
-        turn_limit(other.turn_limit) {}
+        turn_limit(other.turn_limit),
+        turns(other.turns),
+        free(other.free, memory) {}
   // Makes room for a system. Groups of vertices that existed before keep their rotations, and no group has a stress.
   void fit(const SmoothSystem& system, const Groups& groups);
   Vector<Quaternion> rotation;       // per group of vertices (groups.h)
@@ -63,7 +67,9 @@ struct SmoothState {
   Vector<double> known;              // the handles' part of the right-hand side
   Vector<double> iterate, residual;  // seven numbers per group in use: its rotation and its stress
   Anderson anderson;
-  double turn_limit = no_turn_limit;  // radians between a rotation and its anchor
+  double turn_limit = no_turn_limit;       // radians between a rotation and its anchor
+  std::shared_ptr<const FreeTurns> turns;  // null: the rotations of all handles are given
+  FreeTurnsState free;
 };
 
 struct SolveReport {
@@ -78,10 +84,12 @@ struct SolveReport {
 void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns,
                      SmoothState& state) noexcept;
 void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, SmoothState& state) noexcept;
-// Sets turn_limit and the rotations from which it is measured (anchor), for the accumulated turns of the handles.
+// Sets turn_limit and the rotations from which it is measured (anchor), for the accumulated turns of the handles. The
+// limit follows from the handles of given rotation alone: a handle of free rotation may unwind.
 void set_turn_limit(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept;
-// Solves the pose. transforms: one per cluster of vertices; those of handles are read, the others are written. It stops
-// early when last_change falls below `tolerance`.
+// Solves the pose. transforms: one per cluster of vertices; those of handles are read, the others are written. The
+// rotations of free handles start from state.free and end there. Their transforms are written too. It stops early when
+// last_change falls below `tolerance`.
 SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state,
                        Affine* transforms) noexcept;
 

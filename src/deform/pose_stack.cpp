@@ -9,20 +9,6 @@
 #include "deform/normals.h"
 
 namespace hf_inner {
-namespace {
-
-// These two functions convert a motion p -> R (p - c) + c + t about a centroid c to p -> R p + t' about the origin, and
-// back.
-RigidMotion motion_of(const HandleTransform& transform, Vec3 centroid) noexcept {
-  return {transform.rotation, centroid - rotate(transform.rotation, centroid) + transform.translation};
-}
-
-HandleTransform transform_of(const RigidMotion& motion, Vec3 centroid) noexcept {
-  return {motion.rotation, apply(motion, centroid) - centroid};
-}
-
-}  // namespace
-
 PoseStack::PoseStack(std::shared_ptr<const Core> core, std::shared_ptr<Pose> base)
     : core_(std::move(core)), base_(std::move(base)), entries_(core_->memory.get()) {}
 
@@ -100,7 +86,7 @@ std::shared_ptr<PoseStack::Layer> PoseStack::make_layer(std::shared_ptr<Pose> pl
 }
 
 void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, std::uint32_t layer,
-                            Span<std::uint32_t> out_numbers, bool in_place) {
+                            Span<std::uint32_t> out_numbers, const HandleKind& kind) {
   if (layer >= layer_limit)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %u", layer, layer_limit - 1);
   const std::size_t added = start.size() < 2 ? 0 : start.size() - 1, first = entries_.size();
@@ -115,10 +101,11 @@ void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int
     entries.push_back({});
     entries.back().number = number;
     entries.back().layer = layer;
+    entries.back().free_turn = kind.free_turn;
   }
   Vector<std::uint32_t> inner(added, 0u, &memory());
   const auto enter = [&](Pose& pose, std::uint32_t k) {
-    pose.add_handles(start, vertices, inner, in_place && k == 0);
+    pose.add_handles(start, vertices, inner, {kind.in_place && k == 0, kind.free_turn && k == layer});
     for (std::size_t r = 0; r < added; ++r) {
       entries[first + r].inner[k] = inner[r];
       entries[first + r].centroid = pose.handle(inner[r]).centroid;
@@ -189,7 +176,7 @@ void PoseStack::set_transforms(Span<const std::uint32_t> numbers, Span<const Han
   }
   for (std::uint32_t k = 0; k < numbers.size(); ++k) {
     Entry& entry = entries_[require(numbers[k], k)];
-    const Quaternion rotation = normalised(transforms[k].rotation);
+    const Quaternion rotation = entry.free_turn ? entry.edit.rotation : normalised(transforms[k].rotation);
     entry.edit = {rotation, transforms[k].translation};
     entry.turn = continued_logarithm(rotation, entry.turn);
     if (entry.layer == 0) {
@@ -263,6 +250,8 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
     turn = Vec3();
     if (entry.layer == k) {
       found = fit_region(entry, layer.plain->region(inner), below.data());
+      if (entry.free_turn) entry.edit.rotation = Quaternion();
+      if (entry.free_turn) entry.turn = Vec3();
       const RigidMotion edit = motion_of(entry.edit, entry.centroid);
       entry.placed = {normalised(found.rotation * edit.rotation),
                       rotate(found.rotation, edit.translation) + found.translation};
@@ -272,7 +261,7 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
     }
     const HandleTransform unedited = transform_of(found, entry.centroid),
                           edited = transform_of(entry.placed, entry.centroid);
-    layer.plain->set_transforms({&inner, 1}, {&unedited, 1});
+    if (layer.plain_stale) layer.plain->set_transforms({&inner, 1}, {&unedited, 1});
     layer.edited->set_transforms({&inner, 1}, {&edited, 1});
   }
   if (layer.plain_stale) layer.plain->take_start(below);
@@ -280,6 +269,7 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
   DeformReport unedited;
   if (layer.plain_stale) unedited = layer.plain->deform_from(*layer.plain, layer.zeros, own);
   layer.report = layer.edited->deform_from(*layer.plain, layer.turns, own);
+  take_turns(k);
   const Timer combine_timer;
   combine(layer, below);
   layer.report.solve_ms += unedited.solve_ms + place_ms;
@@ -338,7 +328,9 @@ DeformReport PoseStack::deform(const DeformRequest& request) {
 DeformReport PoseStack::deform_all(const DeformRequest& request) {
   if (!has_layers()) {
     base_stale_ = true;  // layers that are added later must not reuse old poses
-    return base_->deform(request);
+    const DeformReport report = base_->deform(request);
+    take_base_turns();
+    return report;
   }
   const std::size_t n = static_cast<std::size_t>(core_->size());
   Buffer<NormalSum> sums;
@@ -365,6 +357,7 @@ DeformReport PoseStack::deform_all(const DeformRequest& request) {
     own.surface = true;
     own.packed_positions = nullptr;
     report = base_->deform(own);
+    take_base_turns();
     surface = report.positions;
     changed = changed || report.iteration_count > 0 || request.refine_from_last;
   } else {

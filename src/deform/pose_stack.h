@@ -11,6 +11,8 @@
 // it back, undoes its edit exactly. In layer k the handles of lower layers are fixed. A moved handle carries its part
 // of the surface rigidly.
 //
+// A handle of free rotation is free in U and E of its own layer. D_h gives its place there, and it turns by q.
+//
 // X_k depends only on X_{k-1} and the transforms of its layer, not on the order of edits. While only handles of one
 // layer move, U is reused, so a frame costs one solve and one blend. A failed call changes nothing. Repeated deform()
 // calls allocate nothing. Results do not depend on the number of threads.
@@ -21,6 +23,15 @@
 
 namespace hf_inner {
 
+// These two functions convert a motion p -> R (p - c) + c + t about a centroid c to p -> R p + t' about the origin, and
+// back.
+inline RigidMotion motion_of(const HandleTransform& transform, Vec3 centroid) noexcept {
+  return {transform.rotation, centroid - rotate(transform.rotation, centroid) + transform.translation};
+}
+inline HandleTransform transform_of(const RigidMotion& motion, Vec3 centroid) noexcept {
+  return {motion.rotation, apply(motion, centroid) - centroid};
+}
+
 class PoseStack {
  public:
   static std::shared_ptr<PoseStack> make(std::shared_ptr<const Core> core, const PoseOptions& options);
@@ -29,11 +40,15 @@ class PoseStack {
   // Adds handles to a layer (0 coarsest), like Pose::add_handles. Throws HF_ERROR_INVALID_ARGUMENT for a layer beyond
   // layer_limit. Regions must not overlap, even in different layers.
   void add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, std::uint32_t layer,
-                   Span<std::uint32_t> out_numbers, bool in_place = false);
+                   Span<std::uint32_t> out_numbers, const HandleKind& kind = {});
   void remove_handles(Span<const std::uint32_t> numbers);
   // On layer 0 a transform starts from the rest shape. On higher layers it starts where the lower layers put the
   // handle, in the frame of its rest shape.
   void set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms);
+
+  // Frees the rotations of handles, or gives them as they stand. On layer 0 the surface stays where it is.
+  void set_free_turns(Span<const std::uint32_t> numbers, bool free_turn);
+  bool free_turn(std::uint32_t number) const { return entries_[require(number, HF_NO_INDEX)].free_turn; }
 
   // Solves all layers that changed and writes the surface. request.surface = false only has an effect while there is
   // one layer.
@@ -60,9 +75,10 @@ class PoseStack {
     // The handle's number in the poses of its own layer and of the layers above.
     std::array<std::uint32_t, layer_limit> inner{};
     Vec3 centroid;         // of the rest region, in the given frame
-    HandleTransform edit;  // D_h, the transform that the user set
-    Vec3 turn;             // rotation vector of D_h, with full turns
-    RigidMotion placed;    // F_h D_h in the given frame, F_h the motion by lower layers; on layer 0 D_h
+    HandleTransform edit;  // D_h, the transform that the user set; of a free handle with the rotation it took
+    bool free_turn = false;
+    Vec3 turn;           // rotation vector of D_h, with full turns
+    RigidMotion placed;  // F_h D_h in the given frame, F_h the motion by lower layers; on layer 0 D_h
   };
   struct Layer {
     explicit Layer(Memory& memory) : relative(&memory), turns(&memory), zeros(&memory) {}
@@ -81,6 +97,8 @@ class PoseStack {
   std::shared_ptr<Pose> make_plain(Vector<Entry>& entries, std::uint32_t k) const;
   std::shared_ptr<Layer> make_layer(std::shared_ptr<Pose> plain) const;
   void mark_stale(std::uint32_t layer) noexcept;
+  void take_base_turns();
+  void take_turns(std::uint32_t k);
   DeformReport deform_all(const DeformRequest& request);
   RigidMotion fit_region(const Entry& entry, Span<const std::int32_t> region, const Vec3* surface) const noexcept;
   // Updates layer k from the surface below it. Returns whether the layer's own surface may have changed.

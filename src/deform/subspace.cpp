@@ -63,14 +63,15 @@ struct Sample {
   double weight;
 };
 
-// The 4 x 4 blocks of the system matrix. Each cluster that is no handle has one row of blocks.
+// The 4 x 4 blocks of the system matrix. Each cluster that is no handle has one row of blocks in lower and coupling, a
+// handle has one in between.
 struct Blocks {
-  double *lower, *coupling;
+  double *lower, *coupling, *between;
   std::size_t handles, free;
 };
 
-// Adds the 4 x 4 matrices L_cd (subspace.h) of every edge. They couple each free cluster (no handle) c with itself, the
-// free clusters before it, and the handles.
+// Adds the 4 x 4 matrices L_cd (subspace.h) of every edge. They couple each cluster c with itself and the clusters
+// before it. Handles come first.
 HF_FOUR_LANES
 void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count, EdgeRow row,
                 const Blocks& out) noexcept {
@@ -79,7 +80,8 @@ void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count,
     fill_row(rows, samples[e].i, samples[e].j, row);
     for (std::int32_t r = 0; r < row.count; ++r) {
       const std::size_t own = static_cast<std::size_t>(row.cluster[r]);
-      if (own < out.handles) continue;
+      double* const handle_rows = own < out.handles ? out.between + 4 * own * handle_stride
+                                                    : out.coupling + 4 * (own - out.handles) * handle_stride;
       double wz[4];
       for (int a = 0; a < 4; ++a) wz[a] = samples[e].weight * row.z[r].x[a];
       for (std::int32_t s = 0; s <= r; ++s) {
@@ -87,7 +89,7 @@ void add_blocks(const BlendRows& rows, const Sample* samples, std::size_t count,
         const bool handle = c < out.handles;
         const std::size_t stride = handle ? handle_stride : free_stride;
         double* block =
-            (handle ? out.coupling + 4 * c : out.lower + 4 * (c - out.handles)) + 4 * (own - out.handles) * stride;
+            handle ? handle_rows + 4 * c : out.lower + 4 * (c - out.handles) + 4 * (own - out.handles) * stride;
         Four z, line;
         std::memcpy(&z, row.z[s].x, sizeof z);
         for (std::size_t a = 0; a < 4; ++a) {
@@ -164,6 +166,9 @@ class Assembly {
     std::fill(lower_.begin(), lower_.end(), 0.0);
     out_.coupling.allocate(memory_, size * 4 * static_cast<std::size_t>(weights_.handle_count));
     std::fill(out_.coupling.begin(), out_.coupling.end(), 0.0);
+    const std::size_t handles = 4 * static_cast<std::size_t>(weights_.handle_count);
+    out_.between.allocate(memory_, handles * handles);
+    std::fill(out_.between.begin(), out_.between.end(), 0.0);
     list_uses();
     list_samples();
     // The sums of L (couples clusters) and Q (couples clusters with rotation groups) use the same edges, each in its
@@ -357,8 +362,8 @@ class Assembly {
   }
 
   void sum_blocks() {
-    const Blocks out{lower_.data(), out_.coupling.data(), static_cast<std::size_t>(weights_.handle_count),
-                     static_cast<std::size_t>(weights_.free_count())};
+    const Blocks out{lower_.data(), out_.coupling.data(), out_.between.data(),
+                     static_cast<std::size_t>(weights_.handle_count), static_cast<std::size_t>(weights_.free_count())};
     for_samples([&](const Sample* samples, std::size_t count, EdgeRow row) {
       add_blocks(blend_rows(), samples, count, row, out);
     });

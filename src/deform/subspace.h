@@ -68,6 +68,7 @@ struct Subspace {
   Vector<Share> mean;
   Vector<double> stiffness;  // eps_c, a small stiffness per free cluster
   Buffer<double> coupling;   // L between free (rows) and handle clusters (columns), 4 x 4 blocks, row-major
+  Buffer<double> between;    // L between handles, the blocks of a row up to its diagonal, likewise
   DenseFactor factor;        // factor of the part of L between free clusters
 };
 

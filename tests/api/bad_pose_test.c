@@ -135,6 +135,9 @@ static void bad_handles_are_not_added(void** state) {
   ADD("overlap on a higher layer", HF_ERROR_CONFLICT, 1, (region[1] = 0, handles.layer = 3));
   ADD("in_place 2", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.in_place = 2);
   ADD("in_place -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.in_place = -1);
+  ADD("free_rotation 2", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.free_rotation = 2);
+  ADD("free_rotation -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, handles.free_rotation = -1);
+  ADD("handles with reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, handles.reserved = 1);
   ADD("regions and points", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (handles.points = points, handles.radii = radii));
 #define NEAR(what, expected, index, change)                                                                    \
   ADD(what, expected, index,                                                                                   \
@@ -326,6 +329,15 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   MATRICES("row by row", HF_ERROR_INVALID_ARGUMENT, 1,
            (matrices[16 + 3] = 1, matrices[16 + 7] = 2, matrices[16 + 12] = matrices[16 + 13] = matrices[16 + 14] = 0));
   MATRICES("too far", HF_ERROR_NON_FINITE, 0, matrices[12] = 1e300);
+
+#define FREE(what, expected, index, change, count, list, flag) \
+  ROW(what, expected, index, change, hf_pose_set_free_rotations(scene.pose, count, list, flag))
+  FREE("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, 0, numbers, 1);
+  FREE("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, 2, NULL, 1);
+  FREE("257 of them", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, 257, numbers, 1);
+  FREE("free_rotation 2", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, 2, numbers, 2);
+  FREE("free_rotation -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, 2, numbers, -1);
+  FREE("no such handle", HF_ERROR_NOT_FOUND, 1, numbers[1] = 9, 2, numbers, 1);
 
 #define POSE_SKIN(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_get_skin(scene.pose, &skin))
   POSE_SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.influence_count = 5);

@@ -279,12 +279,15 @@ Rows run_deform(const Run& run, Report& report) {
       Rig rig(*mesh, solver, regions);
       rig.deform(true);
       const FrameTimes plain = drag(rig, 20 * run.repetitions, false), refined = drag(rig, 2 * run.repetitions, true);
+      check(hf_pose_set_free_rotations(rig.pose, 1, &rig.handles[1], 1));
+      const FrameTimes free = drag(rig, 20 * run.repetitions, false);
       const double n = mesh->vertex_count(), frame = median(plain.frame);
       std::printf(
           "%-12s %u handles: frame %6.2f ms (solve %5.2f, blend %5.2f = %4.1f ns a vertex, normals %5.2f), refined "
-          "%6.2f ms (%.2f us a vertex)\n",
+          "%6.2f ms (%.2f us a vertex), with a free rotation %6.2f ms (solve %5.2f)\n",
           mesh->name.c_str(), handles, frame, median(plain.solve), median(plain.blend), 1e6 * median(plain.blend) / n,
-          median(plain.normal), median(refined.frame), 1e3 * median(refined.refine) / n);
+          median(plain.normal), median(refined.frame), 1e3 * median(refined.refine) / n, median(free.frame),
+          median(free.solve));
       std::fflush(stdout);
       const std::string key = "handles_" + std::to_string(handles);
       row[key] = {{"frame_ms", frame},
@@ -292,7 +295,8 @@ Rows run_deform(const Run& run, Report& report) {
                   {"blend_ms", median(plain.blend)},
                   {"normal_ms", median(plain.normal)},
                   {"refined_frame_ms", median(refined.frame)},
-                  {"refine_ms", median(refined.refine)}};
+                  {"refine_ms", median(refined.refine)},
+                  {"free_frame_ms", median(free.frame)}};
       if (handles == 2) continue;
       const bool counted = size == Size::k84 ? run.threads == 1 : size == Size::k304 && run.threads == 2;
       char note[64];

@@ -12,6 +12,7 @@ struct Handle {
   std::vector<std::uint32_t> region;  // empty: by a point
   double point[3] = {0, 0, 0}, radius = 0;
   hf_transform transform = {{0, 0, 0, 1}, {0, 0, 0}};
+  bool free_rotation = false;
   std::vector<double> matrix;  // 16 numbers instead of the transform, or none
 };
 
@@ -187,6 +188,8 @@ hf_result fill(hf_pose fresh, const PoseBranch& b, bool batches) {
   }
   for (std::size_t i = 0; i < numbers.size() && result == HF_OK; ++i) {
     const Handle& h = b.handles[i];
+    if (h.free_rotation) result = hf_pose_set_free_rotations(fresh, 1, &numbers[i], 1);
+    if (result != HF_OK) break;
     result = h.matrix.empty() ? hf_pose_set_transform(fresh, numbers[i], &h.transform)
                               : hf_pose_set_matrices(fresh, 1, &numbers[i], h.matrix.data());
   }
@@ -334,6 +337,24 @@ struct PoseCalls {
       if (result == HF_OK && h.number == number) h.matrix.assign(m, m + 16);
     return result;
   }
+  static hf_result free(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    PoseBranch& b = s.any(random);
+    const std::uint32_t number = s.number(b, random);
+    const std::int32_t wanted = random.pick({0, 1, 1, 1, 2});
+    hf_result result = hf_pose_set_free_rotations(b.handle, 1, &number, wanted);
+    for (Handle& h : b.handles) {
+      if (result != HF_OK || h.number != number) continue;
+      // a rotation that is given starts where the handle stands; a fresh pose needs one that is known
+      const bool known = h.free_rotation && wanted == 0;
+      h.free_rotation = wanted == 1;
+      if (!known) continue;
+      h.transform = {{0, 0, 0.6, 0.8}, {0.1, -0.2, 0.3}};
+      h.matrix.clear();
+      result = hf_pose_set_transform(b.handle, number, &h.transform);
+    }
+    return result;
+  }
   static hf_result deform(Subject& subject, Random& random) {
     Poses& s = of(subject);
     PoseBranch& b = s.any(random);
@@ -398,6 +419,7 @@ const std::vector<Command>& Poses::commands() const {
       {"hf_pose_remove_handles", 3, PoseCalls::remove},
       {"hf_pose_set_transforms", 5, PoseCalls::place},
       {"hf_pose_set_matrices", 1, PoseCalls::matrices},
+      {"hf_pose_set_free_rotations", 4, PoseCalls::free},
       {"hf_pose_deform", 8, PoseCalls::deform},
       {"hf_pose_clone", 2, PoseCalls::clone},
       {"hf_pose_create", 1, PoseCalls::make},

@@ -58,6 +58,10 @@ void Run::pose_and_transfer() {
     call(hf_pose_remove_handles(copy, 1, &layered), "hf_pose_remove_handles");
     const std::uint32_t count = hf_pose_get_handle_count(copy);
     take(&count, 1);
+    const bool smooth = mode == HF_DEFORM_SMOOTH;
+    call(hf_pose_set_free_rotations(copy, 1, &handles[1], 1), "hf_pose_set_free_rotations",
+         smooth ? HF_OK : HF_ERROR_UNSUPPORTED);
+    call(hf_pose_deform(copy, &deform, nullptr), "hf_pose_deform, a free rotation");
     hf_pose_destroy(pose);
     hf_pose_destroy(copy);
   }

@@ -1205,6 +1205,8 @@ namespace Hf
         /// <summary>the same of its translation</summary>
         public double[] Translation = new double[3];
         public uint Layer;
+        /// <summary>1: the solve finds the rotation</summary>
+        public bool FreeRotation;
 
         internal HandleInfo(hf_handle_info* raw)
         {
@@ -1216,6 +1218,7 @@ namespace Hf
             for (int i = 0; i < 4; ++i) Rotation[i] = raw->rotation[i];
             for (int i = 0; i < 3; ++i) Translation[i] = raw->translation[i];
             Layer = raw->layer;
+            FreeRotation = raw->free_rotation != 0;
         }
     }
 
@@ -4241,17 +4244,18 @@ namespace Hf
         ///     radius below 1 % of the box makes regions of 2 vertices or more
         /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
         /// inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+        /// freeRotation: 1: you give the places of the handles only; see Pose.SetFreeRotations
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-        /// HF_ERROR_TOO_LARGE.</summary>
+        /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
         public uint[] AddHandles(uint[][] regionVertices = null, double[] points = null, double[] radii = null,
-                uint layer = 0, bool inPlace = false, Progress progress = null)
+                uint layer = 0, bool inPlace = false, bool freeRotation = false, Progress progress = null)
         {
             using (var c = new Call(this))
             {
                 var descStruct = new hf_handles_desc { struct_size = (uint)sizeof(hf_handles_desc), layer = layer,
-                    in_place = inPlace ? 1 : 0 };
+                    in_place = inPlace ? 1 : 0, free_rotation = freeRotation ? 1 : 0 };
                 hf_handles_desc* desc = &descStruct;
                 c.Lists(regionVertices, "regionVertices", "handle_count", out desc->region_counts,
                     out desc->region_vertices);
@@ -4272,7 +4276,7 @@ namespace Hf
         /// point: 3 numbers.
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-        /// HF_ERROR_TOO_LARGE.</summary>
+        /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
         public uint AddHandleAt(double[] point, double radius)
         {
             using (var c = new Call(this))
@@ -4307,7 +4311,7 @@ namespace Hf
         /// past 180 degrees stays turned that far. The transforms take effect at the next Pose.Deform.
         ///
         /// handles: handleCount numbers.
-        /// rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity
+        /// rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
         /// translations: up to 1e15 box diagonals
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.</summary>
@@ -4327,7 +4331,7 @@ namespace Hf
 
         /// <summary>Places one handle.
         ///
-        /// rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity
+        /// rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
         /// translation: up to 1e15 box diagonals
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.</summary>
@@ -4340,6 +4344,31 @@ namespace Hf
                 c.Fixed(rotation, "rotation", 4, transform->rotation);
                 c.Fixed(translation, "translation", 3, transform->translation);
                 HfException.Check(Functions.hf_pose_set_transform(RawHandle, handle, transform));
+            }
+        }
+
+        /// <summary>Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands
+        /// exactly where its transform puts it; the rotation of the transform is ignored. Each Pose.Deform finds
+        /// the rotation of least elastic energy for that place, together with the pose (as-rigid-as-possible energy
+        /// with positional constraints, Sorkine and Alexa 2007). Pose.Handle writes it. Drag with a free rotation:
+        /// the wrist follows the hand. Give the rotation when the user turns a ring. A given rotation starts as the
+        /// handle stands, so the pose does not change. Where you free a rotation on layer 0 the surface stays as it
+        /// is and lets the old rotation go as handles move, as with in_place; place the handles after that call. On
+        /// a higher layer a changed handle moves the surface at the next frame. A handle alone in its component
+        /// keeps the rotation it has. restart also starts free rotations anew. refine keeps the rotation of the
+        /// smooth pose.
+        ///
+        /// handles: handleCount numbers.
+        /// freeRotation: 1: the solve finds the rotations; 0: you give them.
+        ///
+        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
+        public void SetFreeRotations(uint[] handles, bool freeRotation = false)
+        {
+            using (var c = new Call(this))
+            {
+                void* handles_ = c.Array(handles, "handles", "handle_count");
+                HfException.Check(Functions.hf_pose_set_free_rotations(RawHandle, (uint)c.Count("handle_count", 1),
+                    handles_, freeRotation ? 1 : 0));
             }
         }
 
@@ -5701,7 +5730,7 @@ namespace Hf
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-        /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
         public uint[] AddPairs(uint[][] sourceVertices = null, uint[][] targetVertices = null, uint[] flags = null,
                 Progress progress = null)
         {

@@ -805,6 +805,8 @@ namespace Hf.Native
         public IntPtr radii;
         public uint layer;
         public int in_place;
+        public int free_rotation;
+        public uint reserved;
         public IntPtr progress;
     }
 
@@ -827,7 +829,7 @@ namespace Hf.Native
         public fixed double rotation[4];
         public fixed double translation[3];
         public uint layer;
-        public uint reserved;
+        public int free_rotation;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1428,6 +1430,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_remove_handles(IntPtr pose, uint handle_count, void* handles);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_transforms(IntPtr pose, uint handle_count, void* handles, void* transforms);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_transform(IntPtr pose, uint handle, void* transform);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_free_rotations(IntPtr pose, uint handle_count, void* handles, int free_rotation);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_matrices(IntPtr pose, uint handle_count, void* handles, void* matrices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_handle(IntPtr pose, uint handle, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_pose_get_handle_count(IntPtr pose);

@@ -195,10 +195,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const handlesDesc = (c, prefix, options) => {
-    const { regionVertices = null, points = null, radii = null, layer = 0, inPlace = false, progress = null,
-            ...more } = options;
+    const { regionVertices = null, points = null, radii = null, layer = 0, inPlace = false, freeRotation = false,
+            progress = null, ...more } = options;
     none(more);
-    const desc = c.struct('hf_handles_desc', { layer, in_place: inPlace });
+    const desc = c.struct('hf_handles_desc', { layer, in_place: inPlace, free_rotation: freeRotation });
     c.ragged(desc, 'region_counts', 'region_vertices', 'regionVertices', regionVertices, prefix + 'handle_count');
     c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'handle_count', 3]);
     c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'handle_count']);
@@ -1126,6 +1126,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       c.fixed(transform, 'rotation', 'rotation', rotation);
       c.fixed(transform, 'translation', 'translation', translation);
       call('hf_pose_set_transform', this._handle, handle, transform);
+    }
+
+    setFreeRotations(handles, freeRotation = false) {
+      const c = new Call(this);
+      const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
+      call('hf_pose_set_free_rotations', this._handle, (c.n.handle_count ??= 1), handles_, freeRotation);
     }
 
     setMatrices(handles, matrices) {

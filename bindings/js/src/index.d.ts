@@ -561,7 +561,7 @@ export interface PoseInfo {
  * writes it).
  */
 export interface Transform {
-  /** unit quaternion x, y, z, w; normalised inside; all zero = identity */
+  /** unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free */
   rotation: number[];
   /** up to 1e15 box diagonals */
   translation: number[];
@@ -586,6 +586,8 @@ export interface HandleInfo {
   /** the same of its translation */
   translation: number[];
   layer: number;
+  /** 1: the solve finds the rotation */
+  freeRotation: number;
 }
 
 /** Counts and times of a deform. */
@@ -1770,13 +1772,14 @@ export interface Pose extends Recorded {
    *     radius below 1 % of the box makes regions of 2 vertices or more
    * layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
    * inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+   * freeRotation: 1: you give the places of the handles only; see Pose.setFreeRotations
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-   * HF_ERROR_TOO_LARGE.
+   * HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   addHandles(regionVertices?: ReadonlyArray<Numbers> | null,
-          options?: { points?: Rows | null; radii?: Rows | null; layer?: number; inPlace?: boolean | number; progress?: Progress | null }): Uint32Array;
+          options?: { points?: Rows | null; radii?: Rows | null; layer?: number; inPlace?: boolean | number; freeRotation?: boolean | number; progress?: Progress | null }): Uint32Array;
   /**
    * Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
    * edge-connected to it within `radius` of the point.
@@ -1784,7 +1787,7 @@ export interface Pose extends Recorded {
    * point: 3 numbers.
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-   * HF_ERROR_TOO_LARGE.
+   * HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   addHandleAt(point: Rows, radius: number): number;
   /**
@@ -1804,7 +1807,7 @@ export interface Pose extends Recorded {
    * stays turned that far. The transforms take effect at the next Pose.deform.
    *
    * handles: handleCount numbers.
-   * rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity
+   * rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
    * translations: up to 1e15 box diagonals
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
@@ -1813,12 +1816,29 @@ export interface Pose extends Recorded {
   /**
    * Places one handle.
    *
-   * rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity
+   * rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
    * translation: up to 1e15 box diagonals
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
    */
   setTransform(handle: number, options?: { rotation?: Rows | null; translation?: Rows | null }): void;
+  /**
+   * Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands
+   * exactly where its transform puts it; the rotation of the transform is ignored. Each Pose.deform finds the
+   * rotation of least elastic energy for that place, together with the pose (as-rigid-as-possible energy with
+   * positional constraints, Sorkine and Alexa 2007). Pose.handle writes it. Drag with a free rotation: the wrist
+   * follows the hand. Give the rotation when the user turns a ring. A given rotation starts as the handle stands,
+   * so the pose does not change. Where you free a rotation on layer 0 the surface stays as it is and lets the old
+   * rotation go as handles move, as with in_place; place the handles after that call. On a higher layer a changed
+   * handle moves the surface at the next frame. A handle alone in its component keeps the rotation it has. restart
+   * also starts free rotations anew. refine keeps the rotation of the smooth pose.
+   *
+   * handles: handleCount numbers.
+   * freeRotation: 1: the solve finds the rotations; 0: you give them.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+   */
+  setFreeRotations(handles: Rows, freeRotation?: boolean | number): void;
   /**
    * Places handles by 4 x 4 matrices M.
    *
@@ -2210,7 +2230,7 @@ export interface Transfer extends Handle {
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   addPairs(sourceVertices?: ReadonlyArray<Numbers> | null, targetVertices?: ReadonlyArray<Numbers> | null,
           flags?: Rows | null, options?: { progress?: Progress | null }): Uint32Array;

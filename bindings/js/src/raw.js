@@ -663,7 +663,7 @@ export const layouts = {
     handle_count: ['u32', [24, 24], 0],
     vertex_count: ['u32', [28, 28], 0],
   } },
-  hf_handles_desc: { size: [36, 56], fields: {
+  hf_handles_desc: { size: [44, 64], fields: {
     struct_size: ['u32', [0, 0], 0],
     handle_count: ['u32', [4, 4], 0],
     region_counts: ['ptr', [8, 8], 0],
@@ -672,7 +672,9 @@ export const layouts = {
     radii: ['ptr', [20, 32], 0],
     layer: ['u32', [24, 40], 0],
     in_place: ['i32', [28, 44], 0],
-    progress: ['ptr', [32, 48], 0],
+    free_rotation: ['i32', [32, 48], 0],
+    reserved: ['u32', [36, 52], 0],
+    progress: ['ptr', [40, 56], 0],
   } },
   hf_transform: { size: [56, 56], fields: {
     rotation: ['f64', [0, 0], 4],
@@ -688,7 +690,7 @@ export const layouts = {
     rotation: ['f64', [48, 48], 4],
     translation: ['f64', [80, 80], 3],
     layer: ['u32', [104, 104], 0],
-    reserved: ['u32', [108, 108], 0],
+    free_rotation: ['i32', [108, 108], 0],
   } },
   hf_deform_info: { size: [56, 56], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -1186,6 +1188,7 @@ export const functions = {
   hf_pose_remove_handles: ['i32', ['handle', 'u32', 'ptr']],
   hf_pose_set_transforms: ['i32', ['handle', 'u32', 'ptr', 'ptr']],
   hf_pose_set_transform: ['i32', ['handle', 'u32', 'ptr']],
+  hf_pose_set_free_rotations: ['i32', ['handle', 'u32', 'ptr', 'i32']],
   hf_pose_set_matrices: ['i32', ['handle', 'u32', 'ptr', 'ptr']],
   hf_pose_get_handle: ['i32', ['handle', 'u32', 'ptr']],
   hf_pose_get_handle_count: ['u32', ['handle']],

@@ -801,8 +801,8 @@ def _pose_desc(c: Call, prefix: str = '', *, mode: int = DeformMode.SMOOTH, band
 
 def _handles_desc(c: Call, prefix: str = '', *, region_vertices: Optional[Sequence[ArrayLike]] = None,
         points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False,
-        progress: Optional[Progress] = None) -> Any:
-    desc = c.struct(_raw.hf_handles_desc, {'layer': layer, 'in_place': in_place})
+        free_rotation: bool = False, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_handles_desc, {'layer': layer, 'in_place': in_place, 'free_rotation': free_rotation})
     c.ragged(desc, 'region_counts', 'region_vertices', region_vertices, prefix + 'handle_count')
     c.rows(desc, 'points', points, 'f8', (prefix + 'handle_count', 3))
     c.rows(desc, 'radii', radii, 'f8', (prefix + 'handle_count',))
@@ -2233,7 +2233,7 @@ class Pose(Recorded):
         return info
 
     def add_handles(self, region_vertices: Optional[Sequence[ArrayLike]] = None, *, points: Optional[ArrayLike] = None,
-            radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False,
+            radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False, free_rotation: bool = False,
             progress: Optional[Progress] = None) -> np.ndarray:
         """Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a
         posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
@@ -2250,13 +2250,14 @@ class Pose(Recorded):
             below 1 % of the box makes regions of 2 vertices or more
         layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
         in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+        free_rotation: 1: you give the places of the handles only; see Pose.set_free_rotations
         progress: an object to poll and cancel through
 
-        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
+        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, UnsupportedError.
         """
         c = Call(self)
         desc = _handles_desc(c, region_vertices=region_vertices, points=points, radii=radii, layer=layer,
-                in_place=in_place, progress=progress)
+                in_place=in_place, free_rotation=free_rotation, progress=progress)
         handles, _ = c.out(None, 'u4', ('handle_count',))
         call('hf_pose_add_handles', self._handle, ref(desc), address(handles))
         return handles
@@ -2267,7 +2268,7 @@ class Pose(Recorded):
 
         point: (3,).
 
-        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
+        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, UnsupportedError.
         """
         c = Call(self)
         point_ = c.array('point', point, 'f8', (3,))
@@ -2296,7 +2297,7 @@ class Pose(Recorded):
         stays turned that far. The transforms take effect at the next Pose.deform.
 
         handles: (handle_count,).
-        rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity
+        rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
         translations: up to 1e15 box diagonals
 
         Raises NonFiniteError, NotFoundError.
@@ -2311,7 +2312,7 @@ class Pose(Recorded):
             translation: Optional[ArrayLike] = None) -> None:
         """Places one handle.
 
-        rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity
+        rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
         translation: up to 1e15 box diagonals
 
         Raises NonFiniteError, NotFoundError.
@@ -2321,6 +2322,27 @@ class Pose(Recorded):
         c.fixed(transform, 'rotation', rotation)
         c.fixed(transform, 'translation', translation)
         call('hf_pose_set_transform', self._handle, number(handle, 'handle', ctypes.c_uint32), ref(transform))
+
+    def set_free_rotations(self, handles: ArrayLike, free_rotation: bool = False) -> None:
+        """Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands
+        exactly where its transform puts it; the rotation of the transform is ignored. Each Pose.deform finds the
+        rotation of least elastic energy for that place, together with the pose (as-rigid-as-possible energy with
+        positional constraints, Sorkine and Alexa 2007). Pose.handle writes it. Drag with a free rotation: the wrist
+        follows the hand. Give the rotation when the user turns a ring. A given rotation starts as the handle stands,
+        so the pose does not change. Where you free a rotation on layer 0 the surface stays as it is and lets the old
+        rotation go as handles move, as with in_place; place the handles after that call. On a higher layer a changed
+        handle moves the surface at the next frame. A handle alone in its component keeps the rotation it has. restart
+        also starts free rotations anew. refine keeps the rotation of the smooth pose.
+
+        handles: (handle_count,).
+        free_rotation: 1: the solve finds the rotations; 0: you give them.
+
+        Raises InvalidArgumentError, NotFoundError, UnsupportedError.
+        """
+        c = Call(self)
+        handles_ = c.array('handles', handles, 'u4', ('handle_count',))
+        call('hf_pose_set_free_rotations', self._handle, c.n.setdefault('handle_count', 1), handles_,
+                number(free_rotation, 'free_rotation', ctypes.c_int32))
 
     def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
         """Places handles by 4 x 4 matrices M.
@@ -2958,7 +2980,8 @@ class Transfer(Object):
         flags: (pair_count,) PairFlag, or None for none
         progress: an object to poll and cancel through
 
-        Raises CancelledError, ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
+        Raises CancelledError, ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
+        UnsupportedError.
         """
         c = Call(self)
         desc = _pairs_desc(c, source_vertices=source_vertices, target_vertices=target_vertices, flags=flags,

@@ -1276,6 +1276,8 @@ class hf_handles_desc(Struct):
     radii: int
     layer: int
     in_place: int
+    free_rotation: int
+    reserved: int
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1286,6 +1288,8 @@ class hf_handles_desc(Struct):
         ("radii", c_void_p),
         ("layer", c_uint32),
         ("in_place", c_int32),
+        ("free_rotation", c_int32),
+        ("reserved", c_uint32),
         ("progress", c_void_p),
     ]
 
@@ -1311,7 +1315,7 @@ class hf_handle_info(Struct):
     rotation: object
     translation: object
     layer: int
-    reserved: int
+    free_rotation: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -1322,7 +1326,7 @@ class hf_handle_info(Struct):
         ("rotation", c_double * 4),
         ("translation", c_double * 3),
         ("layer", c_uint32),
-        ("reserved", c_uint32),
+        ("free_rotation", c_int32),
     ]
 
 
@@ -2286,6 +2290,7 @@ PROTOTYPES = {
     "hf_pose_remove_handles": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_set_transforms": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_pose_set_transform": (c_int32, [c_void_p, c_uint32, c_void_p]),
+    "hf_pose_set_free_rotations": (c_int32, [c_void_p, c_uint32, c_void_p, c_int32]),
     "hf_pose_set_matrices": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_pose_get_handle": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_get_handle_count": (c_uint32, [c_void_p]),

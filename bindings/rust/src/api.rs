@@ -630,6 +630,8 @@ pub struct HandlesOptions<'a> {
     pub layer: u32,
     /// 1: handles of layer 0 start where the posed surface stands, not at rest; see below
     pub in_place: bool,
+    /// 1: you give the places of the handles only; see `Pose::set_free_rotations`
+    pub free_rotation: bool,
     /// `None`, or an object to poll and cancel through
     pub progress: Option<&'a Progress>,
 }
@@ -639,6 +641,7 @@ impl<'a> HandlesOptions<'a> {
         match name {
             "layer" => self.layer = Number::fit(name, value)?,
             "in_place" => self.in_place = Number::fit(name, value)?,
+            "free_rotation" => self.free_rotation = Number::fit(name, value)?,
             _ => return Err(unknown(name)),
         }
         Ok(())
@@ -648,7 +651,7 @@ impl<'a> HandlesOptions<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str,
             region_vertices: Option<&[&[u32]]>) -> Result<raw::hf_handles_desc> {
         let mut desc = raw::hf_handles_desc { layer: self.layer, in_place: i32::from(self.in_place),
-            ..Default::default() };
+            free_rotation: i32::from(self.free_rotation), ..Default::default() };
         (desc.region_counts, desc.region_vertices) = c.lists(region_vertices, "region_vertices",
             &[&format!("{prefix}handle_count")])?;
         desc.points = c.array(self.points, "points", &[&format!("{prefix}handle_count"), "3"])?;
@@ -3043,10 +3046,11 @@ impl Pose {
     /// below 1 % of the box makes regions of 2 vertices or more
     /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
     /// in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+    /// free_rotation: 1: you give the places of the handles only; see `Pose::set_free_rotations`
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
-    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_handles(&mut self, region_vertices: Option<&[&[u32]]>, handles: &HandlesOptions) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
@@ -3063,7 +3067,7 @@ impl Pose {
     /// point: 3 numbers.
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
-    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_handle_at(&mut self, point: &[f64], radius: f64) -> Result<u32> {
         let mut c = Call::new(&self.counts);
@@ -3096,7 +3100,7 @@ impl Pose {
     /// that far. The transforms take effect at the next Pose.deform.
     ///
     /// handles: handle_count numbers.
-    /// rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity
+    /// rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
     /// translations: up to 1e15 box diagonals
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
@@ -3126,7 +3130,7 @@ impl Pose {
 
     /// Places one handle.
     ///
-    /// rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity
+    /// rotation: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
     /// translation: up to 1e15 box diagonals
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
@@ -3139,6 +3143,30 @@ impl Pose {
         if let Some(given) = translation { transform.translation = given; }
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_set_transform(self.handle, handle, &transform) })?;
+        Ok(())
+    }
+
+    /// Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands exactly
+    /// where its transform puts it; the rotation of the transform is ignored. Each Pose.deform finds the rotation of
+    /// least elastic energy for that place, together with the pose (as-rigid-as-possible energy with positional
+    /// constraints, Sorkine and Alexa 2007). `Pose::handle` writes it. Drag with a free rotation: the wrist follows the
+    /// hand. Give the rotation when the user turns a ring. A given rotation starts as the handle stands, so the pose does
+    /// not change. Where you free a rotation on layer 0 the surface stays as it is and lets the old rotation go as
+    /// handles move, as with in_place; place the handles after that call. On a higher layer a changed handle moves the
+    /// surface at the next frame. A handle alone in its component keeps the rotation it has. restart also starts free
+    /// rotations anew. refine keeps the rotation of the smooth pose.
+    ///
+    /// handles: handle_count numbers.
+    /// free_rotation: 1: the solve finds the rotations; 0: you give them.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_free_rotations(&mut self, handles: &[u32], free_rotation: bool) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_set_free_rotations(self.handle, c.count("handle_count", 1)?, handles_,
+            i32::from(free_rotation)) })?;
         Ok(())
     }
 
@@ -3994,7 +4022,8 @@ impl Transfer {
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
-    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
+    /// [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_pairs(&mut self, source_vertices: &[&[u32]], target_vertices: &[&[u32]], flags: Option<&[u32]>,
             pairs: &Pairs) -> Result<Vec<u32>> {

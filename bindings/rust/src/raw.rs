@@ -1506,6 +1506,8 @@ pub struct hf_handles_desc {
     pub radii: *const f64,
     pub layer: u32,
     pub in_place: i32,
+    pub free_rotation: i32,
+    pub reserved: u32,
     pub progress: hf_progress,
 }
 impl Default for hf_handles_desc {
@@ -1544,7 +1546,7 @@ pub struct hf_handle_info {
     pub rotation: [f64; 4],
     pub translation: [f64; 3],
     pub layer: u32,
-    pub reserved: u32,
+    pub free_rotation: i32,
 }
 impl Default for hf_handle_info {
     fn default() -> Self {
@@ -1564,7 +1566,7 @@ impl hf_handle_info {
             "component" => f64::from(self.component),
             "leak" => self.leak,
             "layer" => f64::from(self.layer),
-            "reserved" => f64::from(self.reserved),
+            "free_rotation" => f64::from(self.free_rotation),
             _ => return None,
         })
     }
@@ -2634,6 +2636,7 @@ extern "C" {
     pub fn hf_pose_remove_handles(pose: hf_pose, handle_count: u32, handles: *const u32) -> i32;
     pub fn hf_pose_set_transforms(pose: hf_pose, handle_count: u32, handles: *const u32, transforms: *const hf_transform) -> i32;
     pub fn hf_pose_set_transform(pose: hf_pose, handle: u32, transform: *const hf_transform) -> i32;
+    pub fn hf_pose_set_free_rotations(pose: hf_pose, handle_count: u32, handles: *const u32, free_rotation: i32) -> i32;
     pub fn hf_pose_set_matrices(pose: hf_pose, handle_count: u32, handles: *const u32, matrices: *const f64) -> i32;
     pub fn hf_pose_get_handle(pose: hf_pose, handle: u32, out_info: *mut hf_handle_info) -> i32;
     pub fn hf_pose_get_handle_count(pose: hf_pose) -> u32;

@@ -50,7 +50,7 @@ struct Plant {
   std::uint32_t add(const std::vector<std::int32_t>& region, bool in_place, std::uint32_t layer = 0) {
     const std::uint32_t start[2] = {0, static_cast<std::uint32_t>(region.size())};
     std::uint32_t number = 0;
-    pose->add_handles({start, 2}, region, layer, {&number, 1}, in_place);
+    pose->add_handles({start, 2}, region, layer, {&number, 1}, {in_place});
     return number;
   }
   std::uint32_t add_arm(bool in_place = true) {

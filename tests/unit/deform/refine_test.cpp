@@ -207,7 +207,7 @@ TEST(RefineFromLast, HandlesAddedAndRemovedKeepTheSurface) {
   const std::vector<std::int32_t> middle = select(*d.core, [](Vec3 p) { return norm(p - Vec3{0.5, 3, 0}) < 0.35; });
   const std::uint32_t start[] = {0, static_cast<std::uint32_t>(middle.size())};
   std::uint32_t number = 0;
-  d.pose->add_handles({start, 2}, {middle.data(), middle.size()}, {&number, 1}, true);
+  d.pose->add_handles({start, 2}, {middle.data(), middle.size()}, {&number, 1}, {true});
   const std::vector<Vec3> placed = positions(d.pose->deform(steps(1, true)));
   EXPECT_LT(largest_distance(before, placed), 1e-6 * d.core->mesh.scale);  // corrections are in single precision
   EXPECT_LT(largest_distance(placed, positions(d.pose->deform(steps(1, true)))), 1e-6 * d.core->mesh.scale);
