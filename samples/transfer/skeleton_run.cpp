@@ -195,7 +195,7 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
     report.depths.push_back(depth_of(source, target, scale, source_out, target_out, played[c].source_frames,
                                      played[c].target_frames));
     faults.confidence = confidence_of(faults, played[c].target_frames.size());
-    if ((!known || !has_source) && faults.confidence > unseen_confidence) {
+    if ((!known || fit.compared == 0 || !has_source) && faults.confidence > unseen_confidence) {
       faults.confidence = unseen_confidence;
       report.warnings.push_back(
           "clip \"" + played[c].clip.name + "\": the confidence stops at 0.8, as " +

@@ -158,7 +158,9 @@ double slide_of(const StandingBody& source, const StandingBody& target, double s
   double sum = 0, count = 0;
   for (const Step& step : steps) {
     if (glm::length(step.source - ground) > standing_speed * a.height) continue;
-    sum += glm::length(step.target - scale * (across * step.source));
+    const glm::dvec3 still = scale * (across * ground);
+    const double own = glm::length(scale * (across * step.source) - still);
+    sum += std::max(0.0, glm::length(step.target - still) - own);
     count += 1;
   }
   return count > 0 ? sum / count / SurfaceBox(target.mesh).diagonal() : -1;

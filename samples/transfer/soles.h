@@ -22,8 +22,8 @@ struct StandingBody {
 // a plane of ground.
 std::vector<uint8_t> beside_body(const StandingBody& body);
 
-// How far soles of the target go, beside the scaled way of the source's soles that stand, in boxes of the target a
-// second: the mean over feet and frames. Below 0: nothing stands, or the feet are not known.
+// How fast soles of the target slide on the ground while the source's stand, beyond what the source's slide themselves,
+// in boxes of the target a second: the mean over feet and frames. Below 0: nothing stands, or the feet are not known.
 double slide_of(const StandingBody& source, const StandingBody& target, double scale, const std::vector<double>& times,
                 const std::vector<std::vector<double>>& source_frames,
                 const std::vector<std::vector<double>>& target_frames);

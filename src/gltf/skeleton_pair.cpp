@@ -109,7 +109,7 @@ struct Body {
     for (const Chain& chain : c.chains) {
       if (chain.role != Role::arm && chain.role != Role::leg) continue;
       if (chain.role == Role::leg) ++(chain.side == Side::left ? left : right);
-      if (const Limb limb = limb_of(chain, globals); limb.nodes[2] >= 0) limbs.push_back(limb);
+      limbs.push_back(limb_of(chain, globals));
     }
     leg_pairs = std::min(left, right);
     upright = c.trunk > upright_trunk && leg_pairs <= 1;
@@ -117,23 +117,31 @@ struct Body {
 
   Limb limb_of(const Chain& chain, const std::vector<glm::dmat4>& globals) const {
     const Character& c = *character;
-    Limb out{chain.role, chain.side, chain.number, {}};
+    Limb out{chain.role, chain.side, chain.number, {-1, -1, -1}};
     std::vector<int> path;
     for (std::uint32_t k = 0; k < chain.count; ++k) path.push_back(static_cast<int>(c.chain_joints[chain.first + k]));
     const auto index = static_cast<std::int32_t>(&chain - c.chains.data());
     const Role end = chain.role == Role::arm ? Role::hand : Role::foot;
-    for (const Chain& next : c.chains)
-      if (next.parent == index && next.role == end)
-        path.push_back(static_cast<int>(c.chain_joints[next.first]));
+    bool ended = false;
+    for (const Chain& next : c.chains) {
+      if (ended || next.parent != index || next.role != end) continue;
+      path.push_back(static_cast<int>(c.chain_joints[next.first]));
+      ended = true;
+    }
+    out.nodes[0] = path[0];
     if (path.size() < 2) return out;
+    // A limb without a hand or foot, of two joints: where its second bone ends is not known.
+    if (!ended && path.size() == 2) {
+      out.nodes[1] = path[1];
+      return out;
+    }
     std::vector<double> along(1, 0.0);
     for (size_t k = 1; k < path.size(); ++k)
       along.push_back(along.back() + glm::distance(place_of(globals, path[k]), place_of(globals, path[k - 1])));
     size_t middle = 0;
     for (size_t k = 1; k + 1 < path.size(); ++k)
       if (middle == 0 || std::abs(along[k] - along.back() / 2) < std::abs(along[middle] - along.back() / 2)) middle = k;
-    out.nodes[0] = path[0];
-    out.nodes[1] = middle > 0 ? path[middle] : -1;
+    if (middle > 0) out.nodes[1] = path[middle];
     out.nodes[2] = path.back();
     return out;
   }
@@ -332,12 +340,10 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
                              (b.leg_pairs > 1 && limb.role == Role::leg ? " " + std::to_string(limb.number + 1) : ""),
                          0, 0});
     const size_t index = out.limbs.size() - 1;
-    if (limb.nodes[1] >= 0 && by->nodes[1] >= 0) {
-      bones.push_back({index, {by->nodes[0], by->nodes[1]}, {limb.nodes[0], limb.nodes[1]}});
-      bones.push_back({index, {by->nodes[1], by->nodes[2]}, {limb.nodes[1], limb.nodes[2]}});
-    } else {
-      bones.push_back({index, {by->nodes[0], by->nodes[2]}, {limb.nodes[0], limb.nodes[2]}});
-    }
+    const auto both = [&](size_t k) { return limb.nodes[k] >= 0 && by->nodes[k] >= 0; };
+    if (both(1)) bones.push_back({index, {by->nodes[0], by->nodes[1]}, {limb.nodes[0], limb.nodes[1]}});
+    if (both(2) && both(1)) bones.push_back({index, {by->nodes[1], by->nodes[2]}, {limb.nodes[1], limb.nodes[2]}});
+    if (both(2) && !both(1)) bones.push_back({index, {by->nodes[0], by->nodes[2]}, {limb.nodes[0], limb.nodes[2]}});
   }
   const auto way = [](const std::vector<glm::dmat4>& globals, const int (&ends)[2]) {
     return place_of(globals, ends[1]) - place_of(globals, ends[0]);
@@ -362,10 +368,13 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
     out.trunk_degrees += angle / frames;
     out.trunk_worst = std::max(out.trunk_worst, angle);
   }
-  for (const LimbFit& limb : out.limbs) {
-    out.degrees += limb.mean / static_cast<double>(out.limbs.size());
-    out.worst = std::max(out.worst, limb.worst);
+  for (size_t k = 0; k < out.limbs.size(); ++k) {
+    if (std::none_of(bones.begin(), bones.end(), [&](const Bone& bone) { return bone.limb == k; })) continue;
+    ++out.compared;
+    out.degrees += out.limbs[k].mean;
+    out.worst = std::max(out.worst, out.limbs[k].worst);
   }
+  out.degrees = out.compared > 0 ? out.degrees / static_cast<double>(out.compared) : -1;
   return out;
 }
 

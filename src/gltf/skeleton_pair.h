@@ -52,8 +52,9 @@ struct LimbFit {
   double mean = 0, worst = 0;
 };
 struct PoseFit {
-  std::vector<LimbFit> limbs;
-  double degrees = 0, worst = 0;              // mean over limbs; worst frame of the worst limb
+  std::vector<LimbFit> limbs;                 // those with a partner
+  size_t compared = 0;                        // limbs with a bone whose both ends are joints
+  double degrees = -1, worst = 0;             // mean over them, below 0: unknown; worst frame of the worst limb
   double trunk_degrees = 0, trunk_worst = 0;  // hips to neck, since rest
   size_t source_limbs = 0, target_limbs = 0;  // arms and legs
 };
