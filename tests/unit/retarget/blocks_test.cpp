@@ -105,7 +105,13 @@ TEST(Blocks, LegsOfOneBoneLiftTheBodyOverTheGround) {
   Retarget retarget(source.side(), target.side(), options, memory);
   std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
   for (const auto& [leg, angle] : {std::pair<const char*, double>("leg.l", 40), {"leg.r", -40}}) {
-    const Turn turn = hf_inner::turn_about({1, 0, 0}, angle * degree);
+    const auto world = world_of(source.placed->parents, pose.data());
+    const auto turn_at = [&](std::size_t j) {
+      const double* p = &world[12 * j];
+      return hf_inner::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
+    };
+    const Turn own = turn_at(static_cast<std::size_t>(source.rig.find(leg)));
+    const Turn turn = inverse(turn_at(0)) * (hf_inner::turn_about({1, 0, 0}, angle * degree) * own);
     const double numbers[] = {turn.x, turn.y, turn.z, turn.w};
     std::copy(numbers, numbers + 4, &pose[10 * static_cast<std::size_t>(source.rig.find(leg)) + 3]);
   }
