@@ -26,10 +26,10 @@ constexpr double spikes_limit = 0.02, acceleration_limit = 0.5, stretch_limit = 
                  gap_limit = 0.02, lost_limit = 0.25;
 // The same for degrees of limbs and trunk, boxes a second that standing soles slide, and a share of limbs without a
 // partner.
-constexpr double limbs_limit = 20, trunk_limit = 25, slide_limit = 0.25, unmatched_limit = 0.5;
+constexpr double limbs_limit = 20, trunk_limit = 25, slide_limit = 0.5, unmatched_limit = 0.5;
 // Faults that a report names, one by one.
 constexpr double named_acceleration = 1.5, named_stretch = 0.4, named_sunk = 0.01, named_gap = 0.01, named_limbs = 10,
-                 named_trunk = 12, named_slide = 0.1;
+                 named_trunk = 12, named_slide = 0.2;
 
 using Frames = std::vector<std::vector<double>>;
 

@@ -185,10 +185,11 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
         to.push_back(sample(written, written.animations[c], time));
       }
       fit = models.pair.fit(from, to);
-      faults.limbs = fit.degrees;
+      if (models.pair.two_legged()) faults.limbs = fit.degrees;  // legs of animals bend each in a way of their own
       faults.trunk = fit.trunk_degrees;
       if (fit.target_limbs > 0)
-        faults.unmatched = 1 - static_cast<double>(fit.limbs.size()) / static_cast<double>(fit.target_limbs);
+        faults.unmatched =
+            1 - static_cast<double>(fit.limbs.size()) / static_cast<double>(fit.target_limbs);
     }
     report.fits.push_back(fit);
     faults.slide = slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
@@ -256,7 +257,7 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
   const FlatMesh again = flatten(written);
   const StandingBody source{models.source, models.source_mesh, models.source_known},
       target{models.target, models.target_mesh, models.target_known};
-  const std::vector<uint8_t> source_out = beside_body(source), target_out = beside_body(target);
+  const std::vector<uint8_t> source_out = beside_flesh(source), target_out = beside_flesh(target);
   for (size_t c = 0; c < played.size(); ++c) {
     if (report.written_as != "frames")
       played[c].target_frames = frames_of(written, again, written.animations[c], played[c].clip.times);

@@ -125,6 +125,20 @@ std::vector<uint8_t> beside_body(const StandingBody& body) {
   return std::all_of(out.begin(), out.end(), [](uint8_t is) { return is != 0; }) ? body.mesh.loose : out;
 }
 
+std::vector<uint8_t> beside_flesh(const StandingBody& body) {
+  std::vector<uint8_t> out = beside_body(body);
+  if (body.known.nodes.empty()) return out;
+  const std::vector<int> owners = owners_of(body.model, body.mesh);
+  const auto part = [&](int node) { return body.known.nodes[static_cast<size_t>(node)].part; };
+  for (size_t v = 0; v < out.size(); ++v) {
+    int node = owners[v];
+    if (part(node) != BodyPart::other) continue;
+    while (node >= 0 && part(node) == BodyPart::other) node = body.model.nodes[static_cast<size_t>(node)].parent;
+    out[v] = out[v] || (node >= 0 && (part(node) == BodyPart::hand || part(node) == BodyPart::finger));
+  }
+  return std::all_of(out.begin(), out.end(), [](uint8_t is) { return is != 0; }) ? body.mesh.loose : out;
+}
+
 double slide_of(const StandingBody& source, const StandingBody& target, double scale, const std::vector<double>& times,
                 const std::vector<std::vector<double>>& source_frames,
                 const std::vector<std::vector<double>>& target_frames) {
@@ -155,11 +169,20 @@ double slide_of(const StandingBody& source, const StandingBody& target, double s
     for (const Step& step : steps) list.push_back(step.source[c]);
     ground[c] = middle_value(std::move(list));
   }
+  const double speed = glm::length(ground);
+  double along = 0, squares = 0;
+  for (const Step& step : steps) {
+    if (glm::length(step.source - ground) > standing_speed * a.height) continue;
+    const glm::dvec3 by = scale * (across * step.source);
+    along += glm::dot(step.target, by);
+    squares += glm::dot(by, by);
+  }
+  const bool on_the_spot = speed > 0.1 * a.height && squares > 0;
+  const glm::dvec3 still = (on_the_spot ? std::clamp(along / squares, 0.5, 1.5) : 1.0) * scale * (across * ground);
   double sum = 0, count = 0;
   for (const Step& step : steps) {
     if (glm::length(step.source - ground) > standing_speed * a.height) continue;
-    const glm::dvec3 still = scale * (across * ground);
-    const double own = glm::length(scale * (across * step.source) - still);
+    const double own = scale * glm::length(step.source - ground);
     sum += std::max(0.0, glm::length(step.target - still) - own);
     count += 1;
   }

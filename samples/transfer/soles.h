@@ -21,9 +21,12 @@ struct StandingBody {
 // By flat vertex: 1 for those that are no part of the body: loose ones, and pieces that hang on no joint of it, such as
 // a plane of ground.
 std::vector<uint8_t> beside_body(const StandingBody& body);
+// The same and what the hands hold.
+std::vector<uint8_t> beside_flesh(const StandingBody& body);
 
 // How fast soles of the target slide on the ground while the source's stand, beyond what the source's slide themselves,
-// in boxes of the target a second: the mean over feet and frames. Below 0: nothing stands, or the feet are not known.
+// in boxes of the target a second: the mean over feet and frames. Under a clip on the spot the ground
+// goes as fast as suits the target. Below 0: nothing stands, or the feet are not known.
 double slide_of(const StandingBody& source, const StandingBody& target, double scale, const std::vector<double>& times,
                 const std::vector<std::vector<double>>& source_frames,
                 const std::vector<std::vector<double>>& target_frames);

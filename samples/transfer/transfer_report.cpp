@@ -163,7 +163,7 @@ void add_joints(const RunReport& report, std::string& out) {
 void add_quality(const RunReport& report, std::string& out) {
   for (size_t c = 0; c < report.fits.size(); ++c) {
     const PoseFit& fit = report.fits[c];
-    if (fit.limbs.empty()) continue;
+    if (fit.compared == 0) continue;
     const auto worst = std::max_element(fit.limbs.begin(), fit.limbs.end(),
                                         [](const LimbFit& a, const LimbFit& b) { return a.mean < b.mean; });
     print(out,
@@ -174,6 +174,8 @@ void add_quality(const RunReport& report, std::string& out) {
   }
   for (size_t c = 0; c < report.depths.size(); ++c) {
     print(out, "  ground        deepest vertex %.2f %% of the box under it", 100 * report.depths[c]);
+    if (report.faults[c].sunk < 0.9 * report.depths[c])
+      print(out, " (%.2f %% without what hands hold or what may sink)", 100 * report.faults[c].sunk);
     if (report.faults[c].slide >= 0) print(out, ", standing soles slide %.3f boxes a second", report.faults[c].slide);
     print(out, " in \"%s\"\n", report.clip_names[c].c_str());
   }
@@ -251,7 +253,7 @@ nlohmann::json to_json(const RunReport& report) {
                            {"surface_sunk", feet.surface_sunk}});
     }
     if (c < report.depths.size()) clips.back()["depth"] = report.depths[c];
-    if (c < report.fits.size() && !report.fits[c].limbs.empty()) {
+    if (c < report.fits.size() && report.fits[c].compared > 0) {
       const PoseFit& fit = report.fits[c];
       nlohmann::json limbs;
       for (const LimbFit& limb : fit.limbs) limbs[limb.name] = {{"mean", limb.mean}, {"worst", limb.worst}};

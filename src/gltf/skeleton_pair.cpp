@@ -321,15 +321,16 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
   out.source_limbs = a.limbs.size();
   out.target_limbs = b.limbs.size();
   const glm::dmat3 across = b.axes() * glm::transpose(a.axes());
-  const bool upright = a.upright && b.upright;
   const std::vector<glm::dmat4> a_rest = global_matrices(a.side.model, a.rest_of()),
                                 b_rest = global_matrices(b.side.model, b.rest_of());
   // Where a bone of the target should point.
   const auto wanted = [&](const glm::dvec3& now, const glm::dvec3& was, const glm::dvec3& own) {
     return turn_between(across * was, across * now) * own;
   };
+  // The retarget brings limbs together whose rests stand alike: then bones point the same way.
   struct Bone {
     size_t limb;
+    bool alike;
     int a[2], b[2];
   };
   std::vector<Bone> bones;
@@ -340,10 +341,11 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
                              (b.leg_pairs > 1 && limb.role == Role::leg ? " " + std::to_string(limb.number + 1) : ""),
                          0, 0});
     const size_t index = out.limbs.size() - 1;
+    const bool alike = limb.role == Role::arm ? a.upright == b.upright : a.upright && b.upright;
     const auto both = [&](size_t k) { return limb.nodes[k] >= 0 && by->nodes[k] >= 0; };
-    if (both(1)) bones.push_back({index, {by->nodes[0], by->nodes[1]}, {limb.nodes[0], limb.nodes[1]}});
-    if (both(2) && both(1)) bones.push_back({index, {by->nodes[1], by->nodes[2]}, {limb.nodes[1], limb.nodes[2]}});
-    if (both(2) && !both(1)) bones.push_back({index, {by->nodes[0], by->nodes[2]}, {limb.nodes[0], limb.nodes[2]}});
+    if (both(1)) bones.push_back({index, alike, {by->nodes[0], by->nodes[1]}, {limb.nodes[0], limb.nodes[1]}});
+    if (both(2) && both(1)) bones.push_back({index, alike, {by->nodes[1], by->nodes[2]}, {limb.nodes[1], limb.nodes[2]}});
+    if (both(2) && !both(1)) bones.push_back({index, alike, {by->nodes[0], by->nodes[2]}, {limb.nodes[0], limb.nodes[2]}});
   }
   const auto way = [](const std::vector<glm::dmat4>& globals, const int (&ends)[2]) {
     return place_of(globals, ends[1]) - place_of(globals, ends[0]);
@@ -355,7 +357,7 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
     for (const Bone& bone : bones) {
       const glm::dvec3 from = way(now_a, bone.a), to = way(now_b, bone.b), was = way(a_rest, bone.a);
       if (!(glm::length(from) > 0) || !(glm::length(to) > 0) || !(glm::length(was) > 0)) continue;
-      const double angle = angle_between(upright ? across * from : wanted(from, was, way(b_rest, bone.b)), to);
+      const double angle = angle_between(bone.alike ? across * from : wanted(from, was, way(b_rest, bone.b)), to);
       LimbFit& limb = out.limbs[bone.limb];
       const bool two = std::count_if(bones.begin(), bones.end(), [&](const Bone& o) { return o.limb == bone.limb; }) > 1;
       limb.mean += angle / frames / (two ? 2 : 1);

@@ -45,8 +45,8 @@ struct JointClip {
   bool moves = false;          // the body moves at all in this clip
 };
 
-// How far bones of arms and legs point elsewhere than the source's, in degrees, over all frames. Between bodies that
-// do not both stand upright the turns since rest are compared.
+// How far bones of arms and legs point elsewhere than the source's, in degrees, over all frames. Where
+// the bodies do not stand alike the turns since rest are compared.
 struct LimbFit {
   std::string name;  // "left arm"
   double mean = 0, worst = 0;
