@@ -169,7 +169,7 @@ void add_quality(const RunReport& report, std::string& out) {
     print(out,
           "  limbs         follow the source to %.0f degrees in \"%s\" (%s %.0f; trunk %.0f; %zu of %zu arms and legs "
           "have a partner)\n",
-          fit.degrees, report.clip_names[c].c_str(), worst->name.c_str(), worst->mean, fit.trunk_degrees,
+          std::abs(fit.degrees), report.clip_names[c].c_str(), worst->name.c_str(), worst->mean, fit.trunk_degrees,
           fit.limbs.size(), fit.target_limbs);
   }
   for (size_t c = 0; c < report.depths.size(); ++c) {
