@@ -353,7 +353,14 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   bar.end();
   if (!has_surface(own_target)) throw std::runtime_error(own_target.name + " has no surface: TARGET needs one");
   if (!has_surface(own_source) && command.clips.empty()) {
-    json = put_clips(rested(own_source, source_rest), rested(own_target, target_rest), command);
+    try {
+      json = put_clips(rested(own_source, source_rest), rested(own_target, target_rest), command);
+    } catch (const std::runtime_error&) {  // another skeleton
+      const JointModels models(own_source, own_target, command, source_rest, target_rest);
+      if (!models.pair.refusal().empty() || !choose_way(command, models.pair).joints) throw;
+      return transfer_joints(models, "SOURCE has no surface, and " + models.pair.limbs_text() + " have partners",
+                             command, bar, json);
+    }
     if (!command.json.empty()) write_json(command.json, json);
     return 0;
   }
@@ -390,6 +397,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
     pair.sinks =
         pair.sinks || std::find(command.sinking.begin(), command.sinking.end(), pair.name) != command.sinking.end();
   Session session(source, target, pairs, command.threads, command.links, bar, command.ground);
+  session.set_proposed(command.pairs.empty());
   for (const auto& [model, surface] :
        {std::pair<const Model*, hf_surface>{&source, session.source_surface()}, {&target, session.target_surface()}}) {
     if (const std::string sentence = links_sentence(surface); !sentence.empty())
