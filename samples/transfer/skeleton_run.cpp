@@ -187,10 +187,11 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
       fit = models.pair.fit(from, to);
       if (models.pair.two_legged()) faults.limbs = fit.degrees;  // legs of animals bend each in a way of their own
       faults.trunk = fit.trunk_degrees;
-      if (fit.target_limbs > 0)
-        faults.unmatched =
-            1 - static_cast<double>(fit.limbs.size()) / static_cast<double>(fit.target_limbs);
     }
+    // limbs that nothing leads are as wrong when the surface carries the motion
+    if (const PoseFit plain = models.pair.fit({}, {}); models.pair.understood() && plain.target_limbs > 0)
+      faults.unmatched =
+          1 - static_cast<double>(plain.limbs.size()) / static_cast<double>(plain.target_limbs);
     report.fits.push_back(fit);
     faults.slide = slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
     report.depths.push_back(depth_of(source, target, scale, source_out, target_out, played[c].source_frames,

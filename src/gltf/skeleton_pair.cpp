@@ -211,6 +211,7 @@ SkeletonPair::SkeletonPair(const JointSide& source, const JointSide& target)
 }
 
 SkeletonPair::~SkeletonPair() = default;
+bool SkeletonPair::understood() const { return in_->understood(); }
 const std::string& SkeletonPair::refusal() const { return in_->refusal; }
 bool SkeletonPair::two_legged() const { return in_->source.leg_pairs <= 1 && in_->target.leg_pairs <= 1; }
 

@@ -65,7 +65,9 @@ class SkeletonPair {
   ~SkeletonPair();
   // Why joints cannot lead, a sentence; empty: they can.
   const std::string& refusal() const;
-  // Whether both bodies have as many pairs of legs, one pair or none.
+  // Whether both skeletons are understood, alike or not.
+  bool understood() const;
+  // Whether both bodies have one pair of legs or none.
   bool two_legged() const;
   // "2 legs and 2 arms"
   std::string limbs_text() const;
