@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "../skeleton/rig_family.h"
 #include "base/memory.h"
@@ -20,7 +21,7 @@ using hf_inner::Turn;
 constexpr double degree = 3.14159265358979323846 / 180;
 
 // A box with a head, two arms and two legs. The arms hang by so many degrees; reach: how far the legs
-// reach forward and back.
+// reach forward and back. spread: of legs of two bones without feet; 0: legs are one bone.
 struct Blocks {
   Rig rig;
   std::unique_ptr<PlacedRig> placed;
@@ -28,7 +29,7 @@ struct Blocks {
   Memory memory;
   std::unique_ptr<hf_inner::Character> character;
 
-  explicit Blocks(double hang, double reach = 0.1) {
+  explicit Blocks(double hang, double reach = 0.1, double spread = 0) {
     const int body = rig.add("body", -1, {0, 0.4, 0}, Role::spine);
     rig.add_block(body, {-0.3, 0.4, -0.2}, {0.3, 1, 0.2});
     const int head = rig.add("head", body, {0, 1, 0}, Role::head);
@@ -39,7 +40,14 @@ struct Blocks {
       const int arm = rig.add(std::string("arm") + end, body, {side * 0.3, 0.9, 0}, Role::arm, s);
       rig.add_box(arm, {side * 0.3, 0.9, 0}, {side * 0.8, 0.9, 0}, 0.06);
       const int leg = rig.add(std::string("leg") + end, body, {side * 0.15, 0.4, 0}, Role::leg, s);
-      rig.add_block(leg, {side * 0.15 - 0.08, 0, -reach}, {side * 0.15 + 0.08, 0.4, reach});
+      if (spread > 0) {  // two bones
+        rig.add_block(leg, {side * 0.15 - 0.08, 0.2, -reach}, {side * 0.15 + 0.08, 0.4, reach});
+        const int shin = rig.add(std::string("shin") + end, leg, {side * 0.15, 0.2, 0}, Role::leg, s);
+        rig.add_block(shin, {side * 0.15 - 0.08, 0, -reach}, {side * 0.15 + 0.08, 0.2, reach});
+        rig.turn(leg, {0, 0, 1}, side * spread);
+      } else {
+        rig.add_block(leg, {side * 0.15 - 0.08, 0, -reach}, {side * 0.15 + 0.08, 0.4, reach});
+      }
       rig.turn(arm, {0, 0, 1}, -side * hang);
     }
     placed = std::make_unique<PlacedRig>(rig, Placing{});
@@ -94,6 +102,20 @@ TEST(Blocks, ArmsOfOneBoneMeetByTheirVertices) {
   for (const char* arm : {"arm.l", "arm.r"}) {
     const Vec3 a = source.bone(arm, pose), b = target.bone(arm, out);
     EXPECT_LT(std::atan2(norm(cross(a, b)), dot(a, b)) / degree, 0.5) << arm;
+  }
+}
+
+TEST(Blocks, LegsWithoutFeetMeetByTheirVertices) {
+  const Blocks source(0, 0.1, 1), target(0, 0.1, 15);
+  Memory memory;
+  hf_inner::RetargetOptions options;
+  options.copy_same = false;  // the joints are nearly equal
+  Retarget retarget(source.side(), target.side(), options, memory);
+  std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
+  retarget.frame(pose.data(), 0, out.data());
+  for (const char* bone : {"leg.l", "leg.r", "shin.l", "shin.r"}) {
+    const Vec3 a = source.bone(bone, pose), b = target.bone(bone, out);
+    EXPECT_LT(std::atan2(norm(cross(a, b)), dot(a, b)) / degree, 0.5) << bone;
   }
 }
 
