@@ -1,7 +1,8 @@
 // hf_make_assets OUTDIR [--vertices N] [--creature NAME]
 //
 // Writes the sample creatures as OUTDIR/NAME.glb. N counts vertices of the closed surface (default 20000). NAME may
-// also be face (with 52 morph targets) or face_other (another head without).
+// also be biped_tall or biped_small (the biped in other rigs, creature_rig.h), face (with 52 morph targets) or
+// face_other (another head without).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,6 +16,7 @@
 
 #include "assets/creature.h"
 #include "assets/creature_gltf.h"
+#include "assets/creature_rig.h"
 #include "assets/face_gltf.h"
 #include "gltf/file_name.h"
 #include "gltf/gltf_write.h"
@@ -84,6 +86,7 @@ int main(int count, char** arguments) {
           "  --vertices N     vertices of the closed surface, 500..2000000 (default 20000)\n"
           "  --creature NAME  one of:");
       for (const std::string& name : samples::creature_names()) std::printf(" %s", name.c_str());
+      for (const std::string& name : samples::rigged_names()) std::printf(" %s", name.c_str());
       std::printf(" face face_other (default: the creatures; may be repeated)\n");
       return 0;
     }
@@ -94,7 +97,10 @@ int main(int count, char** arguments) {
         continue;
       }
       const auto start = std::chrono::steady_clock::now();
-      const samples::Creature creature = samples::make_creature(name, options.vertices);
+      const std::vector<std::string> rigged = samples::rigged_names();
+      const samples::Creature creature = std::find(rigged.begin(), rigged.end(), name) != rigged.end()
+                                             ? samples::make_rigged(name, options.vertices)
+                                             : samples::make_creature(name, options.vertices);
       const std::filesystem::path file = hf_gltf::file_named(options.folder) / (name + ".glb");
       hf_gltf::write_gltf(samples::to_model(creature), file);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -44,11 +44,12 @@ std::string short_name(const Model& model) { return file_named(model.name).stem(
 
 Point point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
 
-void add_row(const Row& row, const std::vector<std::vector<double>>& frames, std::vector<Picture>& tiles) {
+void add_row(const Row& row, const glm::dvec3& from, const std::vector<std::vector<double>>& frames,
+             std::vector<Picture>& tiles) {
   View view;
   view.width = 300;
   view.height = 250;
-  view.direction = point(row.axes.right + 0.22 * row.axes.up + 0.45 * row.axes.forward);
+  view.direction = point(from);
   view.up = point(row.axes.up);
   view.fixed_box = true;
   view.ground = true;
@@ -116,27 +117,30 @@ void write_shape_sheet(const std::filesystem::path& file, const Session& session
                                          "shapes of " + short_name(source) + " on " + short_name(target)));
 }
 
-void write_clip_sheet(const std::filesystem::path& file, const Session& session, const Model& source,
-                      const Model& target, const std::vector<PlayedClip>& clips) {
-  const Row from{&session.source_flat(), colours_of(source, session.source_flat()), session.source_axes()};
-  const Row to{&session.target_flat(), colours_of(target, session.target_flat()), session.target_axes()};
+void write_clip_sheet(const std::filesystem::path& file, const SheetBody& source, const SheetBody& target,
+                      const std::vector<PlayedClip>& clips) {
   std::vector<Picture> tiles;
   std::vector<std::string> labels;
   for (const PlayedClip& clip : clips) {
-    add_row(from, clip.source_frames, tiles);
-    add_row(to, clip.target_frames, tiles);
-    for (const std::string& name : {short_name(source), short_name(target)}) {
-      labels.push_back(name + ", rest");
-      for (int k = 0; k < columns; ++k) {
-        char label[64];
-        std::snprintf(
-            label, sizeof label, "%.2f s",
-            clip.clip.times[static_cast<size_t>(k) * (clip.clip.times.size() - 1) / static_cast<size_t>(columns)]);
-        labels.emplace_back(label);
+    for (const SheetBody* body : {&source, &target}) {
+      if (body->mesh.triangles.empty()) continue;
+      const Row row{&body->mesh, colours_of(body->model, body->mesh), body->axes};
+      const Axes& axes = body->axes;
+      for (const bool side : {true, false}) {
+        add_row(row, side ? axes.right + 0.22 * axes.up + 0.45 * axes.forward : axes.forward + 0.12 * axes.up,
+                body == &source ? clip.source_frames : clip.target_frames, tiles);
+        labels.push_back(short_name(body->model) + (side ? ", rest" : ", from the front"));
+        for (int k = 0; k < columns; ++k) {
+          char label[64];
+          std::snprintf(
+              label, sizeof label, "%.2f s",
+              clip.clip.times[static_cast<size_t>(k) * (clip.clip.times.size() - 1) / static_cast<size_t>(columns)]);
+          labels.emplace_back(label);
+        }
       }
     }
   }
-  std::string title = short_name(source) + " on " + short_name(target) + ":";
+  std::string title = short_name(source.model) + " on " + short_name(target.model) + ":";
   for (const PlayedClip& clip : clips) title += " " + clip.clip.name;
   write_png(file.string(), contact_sheet(tiles, columns + 1, labels, title));
 }

@@ -22,10 +22,14 @@ constexpr double moving_limb = 0.02;
 constexpr double lost_cosine = 0.3, lost_ratio = 0.25;
 // The confidence is a product of 1 / (1 + (x / limit)^2) over the faults; these limits halve it: a share of frames that
 // spike, acceleration beyond the source's, stretch, depth under the ground, gap, and a share of lost limbs.
-constexpr double spikes_limit = 0.02, acceleration_limit = 0.5, stretch_limit = 0.5, sunk_limit = 0.02,
+constexpr double spikes_limit = 0.06, acceleration_limit = 0.5, stretch_limit = 0.5, sunk_limit = 0.02,
                  gap_limit = 0.02, lost_limit = 0.25;
+// The same for degrees of limbs and trunk, boxes a second that standing soles slide, and a share of limbs without a
+// partner.
+constexpr double limbs_limit = 20, trunk_limit = 25, slide_limit = 0.5, unmatched_limit = 0.5;
 // Faults that a report names, one by one.
-constexpr double named_acceleration = 1.5, named_stretch = 0.4, named_sunk = 0.01, named_gap = 0.01;
+constexpr double named_acceleration = 1.5, named_stretch = 0.4, named_sunk = 0.01, named_gap = 0.01, named_limbs = 10,
+                 named_trunk = 12, named_slide = 0.2;
 
 using Frames = std::vector<std::vector<double>>;
 
@@ -89,32 +93,48 @@ double fall(double fault, double limit) { return 1 / (1 + (fault / limit) * (fau
 
 }  // namespace
 
-ClipFaults find_faults(const Session& session, const PlayedClip& played) {
+double confidence_of(const ClipFaults& faults, size_t frame_count) {
+  const auto frames = static_cast<double>(std::max<size_t>(frame_count, 1));
+  const double lost =
+      faults.moving > 0 ? static_cast<double>(faults.lost.size()) / static_cast<double>(faults.moving) : 0;
+  return fall(static_cast<double>(faults.spikes) / frames, spikes_limit) *
+         fall(std::max(0.0, faults.acceleration - 1), acceleration_limit) * fall(faults.stretch, stretch_limit) *
+         fall(faults.sunk, sunk_limit) * fall(faults.gap, gap_limit) * fall(lost, lost_limit) *
+         fall(std::max(0.0, faults.limbs), limbs_limit) * fall(std::max(0.0, faults.trunk), trunk_limit) *
+         fall(std::max(0.0, faults.slide), slide_limit) * fall(faults.unmatched, unmatched_limit);
+}
+
+ClipFaults motion_faults(const Stage& stage, const PlayedClip& played) {
   ClipFaults out;
-  const double box = session.target_mesh().bounding_box_diagonal,
-               source_box = session.source_mesh().bounding_box_diagonal,
-               scale = std::max(session.scale(), box / source_box);
-  const Jerks from = jerks_of(played.source_frames, session.source_flat().loose, scale / box),
-              to = jerks_of(played.target_frames, session.target_flat().loose, 1 / box);
-  for (size_t f = 0; f < to.largest.size(); ++f)
+  const double box = SurfaceBox(stage.target).diagonal();
+  const bool has_source = !stage.source.triangles.empty();
+  const double source_box = has_source ? SurfaceBox(stage.source).diagonal() : box / stage.scale;
+  const double scale = std::max(stage.scale, box / source_box);
+  const Jerks from = jerks_of(played.source_frames, stage.source_out, scale / box),
+              to = jerks_of(played.target_frames, stage.target_out, 1 / box);
+  for (size_t f = 0; f < to.largest.size() && has_source; ++f)
     if (to.largest[f] > spike_share && to.largest[f] > spike_ratio * from.largest[f]) ++out.spikes;
   if (from.squares > least_squares) out.acceleration = std::sqrt(to.squares / from.squares);
-  out.stretch = std::max(0.0, stretch_of(session.target_flat(), played.target_frames, box) -
-                                  stretch_of(session.source_flat(), played.source_frames, source_box));
-  out.sunk = session.stretches() ? 0 : std::max(0.0, played.feet.surface_sunk);
+  out.stretch =
+      std::max(0.0, stretch_of(stage.target, played.target_frames, box) -
+                        (has_source ? stretch_of(stage.source, played.source_frames, source_box) : 0));
+  out.sunk = std::max(0.0, played.feet.surface_sunk);
   out.gap = played.gap;
-  size_t moving = 0;
+  out.confidence = confidence_of(out, played.target_frames.size());
+  return out;
+}
+
+ClipFaults find_faults(const Session& session, const PlayedClip& played) {
+  ClipFaults out = motion_faults({session.source_flat(), session.target_flat(), session.source_flat().loose,
+                                  session.target_flat().loose, session.scale()},
+                                 played);
+  if (session.stretches()) out.sunk = 0;
   for (const LimbMotion& limb : session.limbs_of(played)) {
     if (limb.source_moved < moving_limb) continue;
-    ++moving;
+    ++out.moving;
     if (limb.cosine < lost_cosine || limb.target_moved < lost_ratio * limb.source_moved) out.lost.push_back(limb.name);
   }
-  const auto frames = static_cast<double>(std::max<size_t>(played.target_frames.size(), 1));
-  out.confidence =
-      fall(static_cast<double>(out.spikes) / frames, spikes_limit) *
-      fall(std::max(0.0, out.acceleration - 1), acceleration_limit) * fall(out.stretch, stretch_limit) *
-      fall(out.sunk, sunk_limit) * fall(out.gap, gap_limit) *
-      fall(moving > 0 ? static_cast<double>(out.lost.size()) / static_cast<double>(moving) : 0, lost_limit);
+  out.confidence = confidence_of(out, played.target_frames.size());
   return out;
 }
 
@@ -141,6 +161,22 @@ std::vector<std::string> fault_sentences(const ClipFaults& faults, const std::st
   }
   if (faults.gap > named_gap) {
     std::snprintf(text, sizeof text, "linked pieces come apart by %.1f %% of the box", 100 * faults.gap);
+    out.push_back(name + text);
+  }
+  if (faults.limbs > named_limbs) {
+    std::snprintf(text, sizeof text, "arms and legs point %.0f degrees elsewhere than the source's", faults.limbs);
+    out.push_back(name + text);
+  }
+  if (faults.trunk > named_trunk) {
+    std::snprintf(text, sizeof text, "the trunk leans %.0f degrees away from the source's", faults.trunk);
+    out.push_back(name + text);
+  }
+  if (faults.slide > named_slide) {
+    std::snprintf(text, sizeof text, "standing feet slide by %.2f boxes a second", faults.slide);
+    out.push_back(name + text);
+  }
+  if (faults.unmatched > 0) {
+    std::snprintf(text, sizeof text, "%.0f %% of the target's arms and legs have no partner", 100 * faults.unmatched);
     out.push_back(name + text);
   }
   for (const std::string& limb : faults.lost) out.push_back(name + "\"" + limb + "\" does not move as its source does");

@@ -18,10 +18,26 @@ struct ClipFaults {
   double stretch = 0;       // 95 % of the edges' |log(length / rest length)| in the worst frame, beyond the source's
   double sunk = 0, gap = 0;
   std::vector<std::string> lost;  // pairs whose limb does not move as its source does
-  double confidence = 1;          // 0 to 1
+  size_t moving = 0;              // pairs whose limb moves on the source
+  // Of the joints, where both skeletons are known. Degrees that arms and legs, and the trunk, are off; below 0: unknown.
+  double limbs = -1, trunk = -1;
+  double unmatched = 0;   // share of the target's arms and legs without a partner
+  double slide = -1;      // of soles that stand on the source, in boxes a second; below 0: unknown
+  double confidence = 1;  // 0 to 1
+};
+
+// Two bodies whose frames are compared: their surfaces, vertices that do not count, and how lengths go over.
+struct Stage {
+  const FlatMesh &source, &target;
+  const std::vector<uint8_t> &source_out, &target_out;
+  double scale = 1;
 };
 
 ClipFaults find_faults(const Session& session, const PlayedClip& played);
+// The same without pairs.
+ClipFaults motion_faults(const Stage& stage, const PlayedClip& played);
+// From all faults; called again when some were added.
+double confidence_of(const ClipFaults& faults, size_t frames);
 
 // What went wrong, a sentence each; none if nothing did.
 std::vector<std::string> fault_sentences(const ClipFaults& faults, const std::string& clip, size_t frames);

@@ -23,6 +23,7 @@
 #include "transfer/outputs.h"
 #include "transfer/session.h"
 #include "transfer/shapes.h"
+#include "transfer/skeleton_run.h"
 #include "transfer/transfer_options.h"
 #include "transfer/transfer_report.h"
 
@@ -59,9 +60,9 @@ Model read_model(const std::filesystem::path& file) {
   return model;
 }
 
-// The model with the pose of a clip at a time as its rest pose. choice: CLIP@TIME, the time in seconds.
-Model rested(const Model& model, const std::string& choice, const std::string& option) {
-  if (choice.empty()) return model;
+// The pose of a clip at a time. choice: CLIP@TIME, the time in seconds; none if it is empty.
+std::optional<Pose> pose_of(const Model& model, const std::string& choice, const std::string& option) {
+  if (choice.empty()) return {};
   const size_t cut = choice.rfind('@');
   char* end = nullptr;
   const double time = cut == std::string::npos ? 0 : std::strtod(choice.c_str() + cut + 1, &end);
@@ -77,8 +78,13 @@ Model rested(const Model& model, const std::string& choice, const std::string& o
   if (!(time >= 0 && time <= clip_duration(clip)))
     throw std::runtime_error(option + ": clip \"" + clip.name + "\" lasts " + std::to_string(clip_duration(clip)) +
                              " s; the time must lie within it");
-  Model out = model;
-  const Pose pose = sample(model, clip, time);
+  return sample(model, clip, time);
+}
+
+// The model with a pose as its rest pose.
+Model rested(Model out, const std::optional<Pose>& chosen) {
+  if (!chosen) return out;
+  const Pose& pose = *chosen;
   for (size_t n = 0; n < pose.size(); ++n) {
     Node& node = out.nodes[n];
     if (pose[n].weights.size() == node.weights.size())
@@ -176,7 +182,7 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
     }
     written = written_clips(read_gltf(output), session, clips);
     if (command.root_motion) {  // the figures are those of the body in its place
-      add_root_motion(own, clips);
+      add_root_motion(own, root_of_skin(own), clips);
       write_gltf(own, output);
     }
   }
@@ -184,8 +190,6 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
     report.written_feet.push_back(clip.feet);
     report.gaps.push_back(clip.gap);
     report.faults.push_back(find_faults(session, clip));
-    for (const std::string& sentence : fault_sentences(report.faults.back(), clip.clip.name, clip.target_frames.size()))
-      report.warnings.push_back(sentence);
   }
   if (report.written_as == "skin" || report.written_as == "morph") {
     const char* const advice = has_skin(target) ? "; --as own-skin keeps them" : "";
@@ -208,8 +212,8 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
 }
 
 // Plays the clips, writes file and sheet, reads the file again.
-RunReport run(Session& session, const Model& source, const Model& target, const Motion& motion,
-              const TransferCommand& command, bool edited, ProgressBar& bar) {
+RunReport run(Session& session, const JointModels& models, const Model& source, const Model& target,
+              const Motion& motion, const TransferCommand& command, bool edited, ProgressBar& bar) {
   const auto name = [&](const std::filesystem::path& file) { return edited ? edited_name(file) : file; };
   Contacts contacts;
   std::vector<PlayedClip> clips;
@@ -233,11 +237,18 @@ RunReport run(Session& session, const Model& source, const Model& target, const 
   report.contacts = contacts.lines;
   for (PairReport& pair : report.pairs) pair.contact = contacts.names.count(pair.name) > 0;
   const std::vector<PlayedClip> written = write_output(session, target, command, output, clips, report);
+  const bool joints = report.written_as == "own-skin";
+  judge_pose(models, joints ? read_gltf(output) : target, motion.clips, written, joints, session.scale(), report);
+  for (size_t c = 0; c < written.size(); ++c)
+    for (const std::string& sentence :
+         fault_sentences(report.faults[c], written[c].clip.name, written[c].target_frames.size()))
+      report.warnings.push_back(sentence);
   bar.end();
   if (!command.sheet.empty()) {
     const std::filesystem::path sheet = name(command.sheet);
     bar.begin("drawing " + sheet.string());
-    write_clip_sheet(sheet, session, source, target, written);
+    write_clip_sheet(sheet, {source, session.source_flat(), session.source_axes()},
+                     {target, session.target_flat(), session.target_axes()}, written);
     bar.end();
   }
   return report;
@@ -316,27 +327,50 @@ int transfer_shapes(const TransferCommand& command, const Model& source, const M
   return 0;
 }
 
+// Joints lead.
+int transfer_joints(const JointModels& models, const std::string& why, const TransferCommand& command, ProgressBar& bar,
+                    nlohmann::json& json) {
+  RunReport report = run_by_joints(models, choose_clips(models.source, command.clip), command, bar);
+  report.way_why = why;
+  const std::string text = to_text(report, models.source.name + " on " + models.target.name);
+  std::fputs(text.c_str(), stdout);
+  json = to_json(report);
+  if (!command.report.empty()) write_bytes(command.report, text);
+  if (!command.json.empty()) write_json(command.json, json);
+  return 0;
+}
+
 int transfer(TransferCommand command, nlohmann::json& json) {
   ProgressBar bar(command.quiet);
   PairsFile pairs;
   if (!command.pairs.empty()) pairs = read_pairs(command.pairs);
   const EditsFile edits = command.edits.empty() ? EditsFile() : read_edits(command.edits);
   bar.begin("reading models");
-  Model source = rested(read_model(command.source), command.source_rest, "--source-rest");
-  const Model target = rested(read_model(command.target), command.target_rest, "--target-rest");
+  Model own_source = read_model(command.source);
+  const Model own_target = read_model(command.target);
+  const std::optional<Pose> source_rest = pose_of(own_source, command.source_rest, "--source-rest"),
+                            target_rest = pose_of(own_target, command.target_rest, "--target-rest");
   bar.end();
-  if (!has_surface(target)) throw std::runtime_error(target.name + " has no surface: TARGET needs one");
-  if (!has_surface(source) && command.clips.empty()) {
-    json = put_clips(source, target, command);
+  if (!has_surface(own_target)) throw std::runtime_error(own_target.name + " has no surface: TARGET needs one");
+  if (!has_surface(own_source) && command.clips.empty()) {
+    try {
+      json = put_clips(rested(own_source, source_rest), rested(own_target, target_rest), command);
+    } catch (const std::runtime_error&) {  // another skeleton
+      const JointModels models(own_source, own_target, command, source_rest, target_rest);
+      if (!models.pair.refusal().empty() || !choose_way(command, models.pair).joints) throw;
+      return transfer_joints(models, "SOURCE has no surface, and " + models.pair.limbs_text() + " have partners",
+                             command, bar, json);
+    }
     if (!command.json.empty()) write_json(command.json, json);
     return 0;
   }
   if (!command.clips.empty()) {
-    BoundClips bound = bind_clips(source, read_gltf(command.clips), command.clip);
+    BoundClips bound = bind_clips(own_source, read_gltf(command.clips), command.clip);
     bound.model.animations.resize(bound.clips);
-    source = std::move(bound.model);
+    own_source = std::move(bound.model);
     command.clip = "all";
   }
+  const Model source = rested(own_source, source_rest), target = rested(own_target, target_rest);
   if (!command.suggest.empty()) {
     write_json(command.suggest, propose(source, target, command).file);
     return 0;
@@ -345,7 +379,12 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   if (pairs.settings.stretch && (command.kind == "skin" || (command.kind.empty() && !has_skin(target))))
     throw std::runtime_error("mode \"stretch\" gives no skin: take --as own-skin, --as morph or --out-poses");
   const Motion motion = read_motion(source, command);  // a model without a clip is refused before surfaces are made
-  std::string source_axes, target_axes;                // how they were found
+  bar.begin("looking at the skeletons");
+  const JointModels models(own_source, own_target, command, source_rest, target_rest);
+  bar.end();
+  const ChosenWay way = choose_way(command, models.pair);
+  if (way.joints) return transfer_joints(models, way.why, command, bar, json);
+  std::string source_axes, target_axes;  // how they were found
   if (command.pairs.empty()) {
     const Suggestion suggestion = propose(source, target, command);
     pairs = parse_pairs(suggestion.file, "the proposed pairs");
@@ -358,6 +397,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
     pair.sinks =
         pair.sinks || std::find(command.sinking.begin(), command.sinking.end(), pair.name) != command.sinking.end();
   Session session(source, target, pairs, command.threads, command.links, bar, command.ground);
+  session.set_proposed(command.pairs.empty());
   for (const auto& [model, surface] :
        {std::pair<const Model*, hf_surface>{&source, session.source_surface()}, {&target, session.target_surface()}}) {
     if (const std::string sentence = links_sentence(surface); !sentence.empty())
@@ -366,9 +406,10 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   const auto with_axes = [&](RunReport report) {
     if (!source_axes.empty()) report.source.said = source_axes;
     if (!target_axes.empty()) report.target.said = target_axes;
+    report.way_why = way.why;
     return report;
   };
-  const RunReport first = with_axes(run(session, source, target, motion, command, false, bar));
+  const RunReport first = with_axes(run(session, models, source, target, motion, command, false, bar));
   std::string text = to_text(first, source.name + " on " + target.name);
   json = to_json(first);
   bool factorised_again = false;
@@ -378,7 +419,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
     bar.begin("editing pairs");
     session.edit(edits);
     bar.end(std::to_string(edits.remove.size()) + " out, " + std::to_string(edits.add.size()) + " in");
-    const RunReport second = with_axes(run(session, source, target, motion, command, true, bar));
+    const RunReport second = with_axes(run(session, models, source, target, motion, command, true, bar));
     char heading[256];
     std::snprintf(heading, sizeof heading,
                   "edited in the session: %zu pairs out, %zu in, %.2f ms and %.2f ms for fields and clusters; "

@@ -150,10 +150,14 @@ void reduce_clips(Model& model, const FlatMesh& mesh, size_t clips, double toler
   }
 }
 
-void add_root_motion(Model& model, const std::vector<PlayedClip>& clips) {
+int root_of_skin(const Model& model) {
   if (model.skins.empty()) throw std::runtime_error(model.name + " has no skin, so there is no root for its travel");
   int root = model.skins.front().joints.front();
   while (model.nodes[static_cast<size_t>(root)].parent >= 0) root = model.nodes[static_cast<size_t>(root)].parent;
+  return root;
+}
+
+void add_root_motion(Model& model, int root, const std::vector<PlayedClip>& clips) {
   Node& node = model.nodes[static_cast<size_t>(root)];
   split_matrix(node);
   for (size_t c = 0; c < clips.size(); ++c) {

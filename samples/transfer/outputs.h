@@ -23,9 +23,10 @@ struct OutputFigures {
 Model own_skin_model(const Model& target, const Session& session, const std::vector<PlayedClip>& clips, double box,
                      double key_tolerance, OutputFigures& figures);
 
-// Gives the travel that was taken out of the first clips to the topmost node over the target's joints, as two keys.
-// Throws std::runtime_error without a skin.
-void add_root_motion(Model& model, const std::vector<PlayedClip>& clips);
+// The topmost node over the target's joints. Throws std::runtime_error without a skin.
+int root_of_skin(const Model& model);
+// Gives the travel that was taken out of the first clips to a node, as two keys.
+void add_root_motion(Model& model, int root, const std::vector<PlayedClip>& clips);
 
 // A written model's first clips, played: the source's frames, and what the model gives at the same times.
 std::vector<PlayedClip> written_clips(const Model& written, const Session& session,

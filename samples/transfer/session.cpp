@@ -464,7 +464,7 @@ std::vector<std::string> Session::warnings() {
                     "\": few source vertices stand behind its clusters; the motion there may be coarse");
     if (pair.source_leak > 1e-6 || pair.target_leak > 1e-6)
       out.push_back("pair \"" + pair.name + "\": its fields leak; report it with the model");
-    if (pair.crossed) {
+    if (pair.crossed && !proposed_) {  // of the program's own proposals the user changes nothing
       ++crossed;
       out.push_back("pair \"" + pair.name +
                     "\" lies on one side of the source and on the other of the target: left and right are crossed");

@@ -88,6 +88,8 @@ class Session {
 
   // Whether clips lose their travel along the ground before they are transferred (take_travel).
   void set_in_place(bool in_place) { in_place_ = in_place; }
+  // The pairs are the program's own: their crossings are no news for the user.
+  void set_proposed(bool proposed) { proposed_ = proposed; }
   // rate: frames per second; below 0: the clip's own key times.
   PlayedClip play(const Animation& animation, double rate, ProgressBar& bar);
   // Returns posed copies of the source (x y z of every flat vertex).
@@ -161,7 +163,7 @@ class Session {
   hf_transfer transfer_ = nullptr;
   std::vector<Live> live_;
   std::vector<uint8_t> sinking_;
-  bool in_place_ = false;
+  bool in_place_ = false, proposed_ = false;
   bool ground_ = true;
   double scale_ = 1, setup_ms_ = 0, prepare_ms_ = 0, edit_ms_ = 0;
 };

@@ -87,6 +87,8 @@ const char* usage() {
          "  --clips FILE    take the clips of this file, which needs no surface; SOURCE has its skeleton\n"
          "  --fps N         keys per second, 1 to 240 (default 30; 60 for clips below a second), or keys: the source's "
          "own\n"
+         "  --way WAY       skeleton: joints of TARGET turn as those of SOURCE; surface: pairs and clusters carry the\n"
+         "                  motion. Default: skeleton where both skeletons are understood and their limbs match\n"
          "  --as KIND       own-skin (TARGET's joints turn; the default where it has a skin), skin (a new one),\n"
          "                  morph (morph targets), frames (with --out-poses)\n"
          "  --onto-skin     the same as --as own-skin\n"
@@ -171,6 +173,10 @@ TransferCommand parse_command(int count, char** arguments) {
       out.kind = value();
       if (out.kind != "skin" && out.kind != "own-skin" && out.kind != "morph" && out.kind != "frames")
         throw std::runtime_error("--as takes skin, own-skin, morph or frames, not \"" + out.kind + "\"");
+    } else if (word == "--way") {
+      out.way = value();
+      if (out.way != "skeleton" && out.way != "surface")
+        throw std::runtime_error("--way takes skeleton or surface, not \"" + out.way + "\"");
     } else if (word == "--out-poses") {
       out.frames = file_named(value());
       out.kind = "frames";
@@ -241,6 +247,7 @@ TransferCommand parse_command(int count, char** arguments) {
   }
   if (out.shapes) {
     for (const auto& [given, option] : {std::pair<bool, const char*>(!out.kind.empty(), "--as and --out-poses"),
+                                        {!out.way.empty(), "--way"},
                                         {!out.poses.empty(), "--poses"},
                                         {!out.clips.empty(), "--clips"},
                                         {!out.edits.empty(), "--edit"},

@@ -26,6 +26,7 @@ struct TransferCommand {
   double rate = 0;  // frames per second; 0: 30, or 60 for clips below a second; -1: the source's own keys
   unsigned threads = 1;
   std::string kind;                              // skin, own-skin, morph, frames; empty: own-skin where there is a skin
+  std::string way;                               // skeleton, surface; empty: chosen by what the skeletons say
   std::filesystem::path frames;                  // folder of --out-poses
   std::vector<std::filesystem::path> poses;      // posed copies of the source's mesh
   std::vector<std::string> contacts;             // empty: found

@@ -112,16 +112,14 @@ RunReport make_report(Session& session, const std::vector<PlayedClip>& clips, co
   return out;
 }
 
-std::string to_text(const RunReport& report, const std::string& heading) {
-  std::string out = heading + "\n";
-  print(out, "  output        %s\n", report.output.c_str());
-  out += "  source        " + report.source.said + "\n";
-  out += "  target        " + report.target.said + "\n";
-  print(out, "  clusters      %u, scale %.4f from %s\n", report.clusters, report.scale, report.scale_from.c_str());
+namespace {
+
+void add_pairs(const RunReport& report, std::string& out) {
+  print(out, "  clusters      %u\n", report.clusters);
   print(out, "  factorisation %.1f ms both surfaces; numeric factorisations so far: source %u, target %u\n",
         report.setup_ms, report.source_factorisations, report.target_factorisations);
   print(out, "  pairs         %.1f ms fields, clusters and translations\n", report.prepare_ms);
-  print(out, "  pair                     vertices     leak      rest angle  confidence  kind\n");
+  print(out, "  pair                     vertices     leak      rest angle  support  kind\n");
   for (const PairReport& pair : report.pairs) {
     std::string kind;
     for (const auto& [is, word] : {std::pair<bool, const char*>(pair.foot, " foot"),
@@ -134,37 +132,83 @@ std::string to_text(const RunReport& report, const std::string& heading) {
     if (pair.alignment_share > 0) kind += " aligned " + std::to_string(std::lround(100 * pair.alignment_share)) + " %";
     const std::string angle =
         pair.alignment_degrees < 0 ? "-" : std::to_string(static_cast<int>(pair.alignment_degrees + 0.5));
-    print(out, "  %-22s %5zu %5zu   %.1e   %10s  %10.2f %s\n", pair.name.c_str(), pair.source_vertices,
+    print(out, "  %-22s %5zu %5zu   %.1e   %10s  %7.2f %s\n", pair.name.c_str(), pair.source_vertices,
           pair.target_vertices, std::max(pair.source_leak, pair.target_leak), angle.c_str(), pair.confidence,
           kind.c_str());
   }
   for (size_t c = 0; c < report.clip_names.size(); ++c) {
     print(out,
-          "  clip \"%s\": %zu frames, %.3f ms each; feet off their scaled path by %.4f (largest %.4f; standing "
-          "they slide %.4f, %.4f), sunk by %.4f of the box, the surface by %.4f\n",
-          report.clip_names[c].c_str(), report.frames[c], report.frame_ms[c], report.feet[c].path_mean,
-          report.feet[c].path_max, report.feet[c].planted_mean, report.feet[c].planted_max, report.feet[c].sunk,
-          report.feet[c].surface_sunk);
+          "  clip \"%s\": %zu frames, %.3f ms each; feet off their scaled path by %.2f %% of the box (largest %.2f; "
+          "standing they slide %.2f, %.2f)\n",
+          report.clip_names[c].c_str(), report.frames[c], report.frame_ms[c], 100 * report.feet[c].path_mean,
+          100 * report.feet[c].path_max, 100 * report.feet[c].planted_mean, 100 * report.feet[c].planted_max);
   }
+}
+
+void add_joints(const RunReport& report, std::string& out) {
+  if (report.same_skeleton) out += "  same skeleton, its keys are copied\n";
+  print(out, "  joints        %zu of the target follow", report.joints);
+  if (!report.unmatched.empty()) {
+    print(out, "; %zu of the source have no partner:", report.unmatched.size());
+    for (size_t k = 0; k < std::min<size_t>(report.unmatched.size(), 12); ++k) out += " " + report.unmatched[k];
+    if (report.unmatched.size() > 12) out += " ...";
+  }
+  out += "\n";
+  for (size_t c = 0; c < report.clip_names.size(); ++c)
+    print(out, "  clip \"%s\": %zu frames, %.3f ms each\n", report.clip_names[c].c_str(), report.frames[c],
+          report.frame_ms[c]);
+  if (report.drop > 0.001) print(out, "  hips          sink by %.1f %% of the box so that feet reach\n", 100 * report.drop);
+}
+
+void add_quality(const RunReport& report, std::string& out) {
+  for (size_t c = 0; c < report.fits.size(); ++c) {
+    const PoseFit& fit = report.fits[c];
+    if (fit.compared == 0) continue;
+    const auto worst = std::max_element(fit.limbs.begin(), fit.limbs.end(),
+                                        [](const LimbFit& a, const LimbFit& b) { return a.mean < b.mean; });
+    print(out,
+          "  limbs         follow the source to %.0f degrees in \"%s\" (%s %.0f; trunk %.0f; %zu of %zu arms and legs "
+          "have a partner)\n",
+          std::abs(fit.degrees), report.clip_names[c].c_str(), worst->name.c_str(), worst->mean, fit.trunk_degrees,
+          fit.limbs.size(), fit.target_limbs);
+  }
+  for (size_t c = 0; c < report.depths.size(); ++c) {
+    print(out, "  ground        deepest vertex %.2f %% of the box under it", 100 * report.depths[c]);
+    if (report.faults[c].sunk < 0.9 * report.depths[c])
+      print(out, " (%.2f %% without what hands hold or what may sink)", 100 * report.faults[c].sunk);
+    if (report.faults[c].slide >= 0) print(out, ", standing soles slide %.3f boxes a second", report.faults[c].slide);
+    print(out, " in \"%s\"\n", report.clip_names[c].c_str());
+  }
+  for (size_t c = 0; c < report.faults.size(); ++c)
+    print(out, "  confidence    %.2f in \"%s\": %zu frames jump, acceleration %.2f times the source's, stretch %.2f\n",
+          report.faults[c].confidence, report.clip_names[c].c_str(), report.faults[c].spikes,
+          report.faults[c].acceleration, report.faults[c].stretch);
+}
+
+}  // namespace
+
+std::string to_text(const RunReport& report, const std::string& heading) {
+  std::string out = heading + "\n";
+  print(out, "  output        %s\n", report.output.c_str());
+  out += "  way           " + report.way + ": " + report.way_why + "\n";
+  out += "  source        " + report.source.said + "\n";
+  out += "  target        " + report.target.said + "\n";
+  print(out, "  scale         %.4f from %s\n", report.scale, report.scale_from.c_str());
+  if (report.way == "surface")
+    add_pairs(report, out);
+  else
+    add_joints(report, out);
   if (report.written_as == "skin")
     print(out, "  read back     %.1e of the box at keys; half-way between keys about %.1e\n", report.replay.key_max,
           report.replay.half_rms);
   if (report.written_parts > 0)
     print(out,
-          "  written as    %s, %zu parts: %.5f of the box from the computed frames (root mean square; largest %.4f)\n",
-          report.written_as.c_str(), report.written_parts, report.written_rms, report.written_max);
-  for (size_t c = 0; c < report.written_feet.size(); ++c)
-    print(out, "  written clip \"%s\": standing feet slide %.4f (largest %.4f), the surface sinks by %.4f of the box\n",
-          report.clip_names[c].c_str(), report.written_feet[c].planted_mean, report.written_feet[c].planted_max,
-          report.written_feet[c].surface_sunk);
+          "  written as    %s, %zu parts: %.3f %% of the box from the computed frames (root mean square; largest "
+          "%.2f)\n",
+          report.written_as.c_str(), report.written_parts, 100 * report.written_rms, 100 * report.written_max);
   if (report.all_keys > 0)
     print(out, "  keys          %zu of %zu are written; the others follow from them\n", report.keys, report.all_keys);
-  for (size_t c = 0; c < report.faults.size(); ++c)
-    print(out,
-          "  confidence    %.2f in \"%s\": %zu frames jump, acceleration %.2f times the source's, stretch %.2f, limbs "
-          "that lost their source %zu\n",
-          report.faults[c].confidence, report.clip_names[c].c_str(), report.faults[c].spikes,
-          report.faults[c].acceleration, report.faults[c].stretch, report.faults[c].lost.size());
+  add_quality(report, out);
   for (size_t c = 0; c < report.gaps.size(); ++c) {
     if (report.gaps[c] > 0)
       print(out, "  gaps          %.2f %% of the box at most between linked pieces in \"%s\"\n", 100 * report.gaps[c],
@@ -197,14 +241,30 @@ nlohmann::json to_json(const RunReport& report) {
   for (size_t c = 0; c < report.clip_names.size(); ++c) {
     clips.push_back({{"name", report.clip_names[c]},
                      {"frames", report.frames[c]},
-                     {"ms_per_frame", report.frame_ms[c]},
-                     {"foot_path_mean", report.feet[c].path_mean},
-                     {"foot_path_max", report.feet[c].path_max},
-                     {"foot_sunk", report.feet[c].sunk},
-                     {"planted", report.feet[c].planted},
-                     {"planted_mean", report.feet[c].planted_mean},
-                     {"planted_max", report.feet[c].planted_max},
-                     {"surface_sunk", report.feet[c].surface_sunk}});
+                     {"ms_per_frame", report.frame_ms[c]}});
+    if (c < report.feet.size()) {
+      const FootReport& feet = report.feet[c];
+      clips.back().update({{"foot_path_mean", feet.path_mean},
+                           {"foot_path_max", feet.path_max},
+                           {"foot_sunk", feet.sunk},
+                           {"planted", feet.planted},
+                           {"planted_mean", feet.planted_mean},
+                           {"planted_max", feet.planted_max},
+                           {"surface_sunk", feet.surface_sunk}});
+    }
+    if (c < report.depths.size()) clips.back()["depth"] = report.depths[c];
+    if (c < report.fits.size() && report.fits[c].compared > 0) {
+      const PoseFit& fit = report.fits[c];
+      nlohmann::json limbs;
+      for (const LimbFit& limb : fit.limbs) limbs[limb.name] = {{"mean", limb.mean}, {"worst", limb.worst}};
+      clips.back()["limbs"] = {{"degrees", fit.degrees},
+                               {"worst", fit.worst},
+                               {"trunk_degrees", fit.trunk_degrees},
+                               {"trunk_worst", fit.trunk_worst},
+                               {"partners", fit.limbs.size()},
+                               {"of", fit.target_limbs},
+                               {"each", limbs}};
+    }
     if (c < report.faults.size()) {
       const ClipFaults& faults = report.faults[c];
       clips.back()["confidence"] = faults.confidence;
@@ -214,6 +274,7 @@ nlohmann::json to_json(const RunReport& report) {
                                 {"sunk", faults.sunk},
                                 {"gap", faults.gap},
                                 {"lost", faults.lost},
+                                {"slide", faults.slide < 0 ? nlohmann::json() : nlohmann::json(faults.slide)},
                                 {"sentences", fault_sentences(faults, report.clip_names[c], report.frames[c])}};
     }
     if (c < report.written_feet.size()) {
@@ -222,6 +283,11 @@ nlohmann::json to_json(const RunReport& report) {
     }
   }
   return {{"output", report.output},
+          {"way", report.way},
+          {"way_why", report.way_why},
+          {"same_skeleton", report.same_skeleton},
+          {"joints", report.joints},
+          {"unmatched", report.unmatched},
           {"clusters", report.clusters},
           {"scale", report.scale},
           {"scale_from", report.scale_from},

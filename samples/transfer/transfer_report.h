@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/skeleton_pair.h"
 #include "transfer/faults.h"
 #include "transfer/session.h"
 
@@ -29,6 +30,15 @@ struct BodyReport {
 
 struct RunReport {
   std::string output;
+  std::string way = "surface", way_why;  // which way the motion went, skeleton or surface
+  // Of joints that lead.
+  bool same_skeleton = false;
+  size_t joints = 0;                   // of the target that follow
+  std::vector<std::string> unmatched;  // joints of the source without a partner
+  double drop = 0;                     // how far the hips sank so that feet reach, in boxes
+  // Of each written clip, where both skeletons are known.
+  std::vector<PoseFit> fits;
+  std::vector<double> depths;  // of the deepest vertex, deeper than the source's, in boxes
   std::vector<PairReport> pairs;
   std::vector<std::string> warnings;
   std::vector<std::string> clip_names;

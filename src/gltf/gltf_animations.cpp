@@ -237,13 +237,13 @@ void convert_animations(Conversion& in) {
     Animation to;
     to.name = animations[a].name;
     std::set<std::pair<int, Path>> seen;
-    size_t cut = 0;
+    size_t cut = 0, twice = 0;
     for (size_t c = 0; c < animations[a].channels.size(); ++c) {
       const std::string inner = where + ".channels[" + std::to_string(c) + "]";
       Channel channel;
       if (!ChannelReader(in, animations[a], inner).run(animations[a].channels[c], channel)) continue;
       if (!seen.insert({channel.node, channel.path}).second) {
-        in.warn(inner + " animates what an earlier channel does and is skipped");
+        ++twice;
         continue;
       }
       if (channel.path != Path::weights && in.model.nodes[static_cast<size_t>(channel.node)].matrix) {
@@ -252,6 +252,8 @@ void convert_animations(Conversion& in) {
       cut += begin_at_zero(channel);
       to.channels.push_back(std::move(channel));
     }
+    if (twice > 0)
+      in.warn(where + " has " + std::to_string(twice) + " channels that animate what an earlier one does; they are skipped");
     if (cut > 0)
       in.warn(where + " has keys before 0 s in " + std::to_string(cut) + " channels; the clip begins at 0 s");
     CarriedDocument& carried = in.source.carried;

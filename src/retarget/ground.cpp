@@ -43,6 +43,7 @@ bool is_head(Role role) {
          role == Role::antenna;
 }
 bool is_tail(Role role) { return role == Role::tail; }
+bool is_leg(Role role) { return role == Role::leg || role == Role::foot || role == Role::toe; }
 bool is_hand(Role role) { return role == Role::hand || role == Role::finger || role == Role::arm; }
 
 // Turns the part about its root until its lowest point is on the ground.
@@ -85,6 +86,18 @@ void bend_up(Retargeter& r, GroundPart& part) {
 }  // namespace
 
 void Retargeter::find_parts(const RetargetSide& s, const RetargetSide& t) {
+  // A leg that no goal keeps over the ground, such as a leg of one bone, lifts the body.
+  for (const Chain& chain : t.character.chains) {
+    const Index root = static_cast<Index>(t.character.chain_joints[chain.first]);
+    const bool kept = std::any_of(feet.begin(), feet.end(), [&](const FootPair& foot) {
+      return target.legs[at(foot.target)].segments.joints[0] == root;
+    });
+    if (chain.role != Role::leg || kept) continue;
+    GroundPart leg(memory);
+    leg.root = root;
+    const Chain* by = find_chain(s.character, Role::leg, chain.side, chain.number);
+    add_part(*this, s, t, std::move(leg), by ? static_cast<Index>(s.character.chain_joints[by->first]) : -1, is_leg);
+  }
   GroundPart trunk(memory);
   trunk.root = target.mover;
   add_part(*this, s, t, std::move(trunk), source.mover, is_trunk);

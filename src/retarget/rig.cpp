@@ -152,6 +152,7 @@ Rig::Rig(const RetargetSide& side, const char* side_name, Memory& m)
       posts(&m),
       file_rest(m),
       rest(m),
+      ends(&m),
       trunk(&m),
       neck(&m),
       legs(&m) {
@@ -175,6 +176,7 @@ Rig::Rig(const RetargetSide& side, const char* side_name, Memory& m)
     stand(*this, rest);
   }
   find_flips(*this, rest);
+  find_ends(*this, side, m);
   find_legs(*this, side.character, m);
   find_trunk(*this, side.character, m);
   find_soles(*this, side, m);

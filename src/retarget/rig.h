@@ -67,6 +67,7 @@ struct Rig {
   Vector<Turn> posts;            // see local_turn
   Stance file_rest;              // in which the vertices are given
   Stance rest;
+  Vector<Vec3> ends;  // by joint, at rest: where a bone ends of which only the vertices are known; 0: nowhere
 
   Turn axes;  // takes x to left, y to up, z to forward
   Vec3 up, forward, left;
@@ -101,6 +102,8 @@ void find_trunk(Rig& rig, const Character& character, Memory& memory);
 Segments cut_chain(const Rig& rig, const Character& character, const Chain& chain, Memory& memory);
 void find_legs(Rig& rig, const Character& character, Memory& memory);
 void find_soles(Rig& rig, const RetargetSide& side, Memory& memory);
+// Twice the way from each joint to the middle of the vertices that it moves most.
+void find_ends(Rig& rig, const RetargetSide& side, Memory& memory);
 // The outermost points that the joints marked in `part` own.
 Vector<SkinPoint> outer_points(const Rig& rig, const RetargetSide& side, const Vector<std::uint8_t>& part,
                                Memory& memory);

@@ -28,7 +28,8 @@ Index first_joint(const Character& character, const Chain& chain) {
   return static_cast<Index>(character.chain_joints[chain.first]);
 }
 
-// A limb ends at the hand or foot. Other chains end in the middle of what hangs on their last joint.
+// A limb ends at the hand or foot. Other chains end in the middle of what hangs on their last joint, and limbs on
+// which nothing hangs where their vertices end. The end of a leg of one bone says little about a stride.
 Tip find_tip(const Rig& rig, const Character& character, const Chain& chain, Index last) {
   const Role next = chain.role == Role::arm ? Role::hand : chain.role == Role::leg ? Role::foot : Role::other;
   if (next != Role::other) {
@@ -43,7 +44,10 @@ Tip find_tip(const Rig& rig, const Character& character, const Chain& chain, Ind
   }
   const Vec3 offset = (1 / std::max(found, 1.0)) * sum - rig.rest.place[at(last)];
   const bool far = found > 0 && norm(offset) > same_rest * rig.height;
-  return far ? Tip{last, offset} : Tip{};
+  if (far) return {last, offset};
+  const Vec3 end = rig.ends[at(last)];
+  const bool limb = chain.role == Role::arm || (chain.role == Role::leg && chain.count > 1);
+  return limb && norm(end) > same_rest * rig.height ? Tip{last, end} : Tip{};
 }
 
 // Where a limb bends: at each joint with a clear bend; without one at the joint nearest to the middle.

@@ -117,6 +117,24 @@ void find_soles(Rig& rig, const RetargetSide& side, Memory& memory) {
   }
 }
 
+void find_ends(Rig& rig, const RetargetSide& side, Memory& memory) {
+  const CharacterInput& in = side.input;
+  rig.ends.assign(at(rig.count), {});
+  Vector<double> counts(at(rig.count), 0, &memory);
+  for (std::uint32_t v = 0; in.positions && v < in.vertex_count; ++v) {
+    const Vec3 p = vertex(in, v);
+    const Index j = influences_of(in, v).joints[0];
+    if (j < 0 || !std::isfinite(p.x + p.y + p.z)) continue;
+    rig.ends[at(j)] = rig.ends[at(j)] + (p - rig.file_rest.place[at(j)]);
+    counts[at(j)] += 1;
+  }
+  for (std::size_t j = 0; j < at(rig.count); ++j) {
+    if (!(counts[j] > 0)) continue;
+    const Turn turn = rig.rest.turn[j] * inverse(rig.file_rest.turn[j]);
+    rig.ends[j] = turn * ((2 / counts[j]) * rig.ends[j]);
+  }
+}
+
 Vector<SkinPoint> outer_points(const Rig& rig, const RetargetSide& side, const Vector<std::uint8_t>& part,
                                Memory& memory) {
   return outermost(

@@ -69,7 +69,7 @@ TEST(TransferAxes, TheScaleFollowsTheLengthsOfLegs) {
   const fs::path large = folder() / "large_biped.glb", report = folder() / "large_biped.json";
   hf_gltf::write_gltf(model, large);
   std::string said;
-  ASSERT_EQ(transfer(quoted(creature("biped")) + " " + quoted(large) + " --fps 5 -o " +
+  ASSERT_EQ(transfer(quoted(creature("biped")) + " " + quoted(large) + " --way surface --fps 5 -o " +
                          quoted(folder() / "large_biped_out.glb") + " --json " + quoted(report),
                      said),
             0)

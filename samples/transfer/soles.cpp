@@ -1,0 +1,210 @@
+// See soles.h.
+#include "transfer/soles.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "gltf/animate.h"
+#include "transfer/posed_region.h"
+
+namespace samples {
+namespace {
+
+// Shares of the height of the body: vertices of a leg below the first are its sole; it stands below the second; vertices
+// this near to the lowest carry it.
+constexpr double sole_height = 0.07, stands_below = 0.015, carries = 0.01;
+// A sole that goes faster against the ground than this, in heights a second, does not stand.
+constexpr double standing_speed = 0.5;
+
+// The joint or node that moves each vertex most.
+std::vector<int> owners_of(const Model& model, const FlatMesh& mesh) {
+  std::vector<int> out(mesh.positions.size(), -1);
+  for (const FlatPart& part : mesh.parts) {
+    const Node& node = model.nodes[static_cast<size_t>(part.node)];
+    const Primitive& primitive =
+        model.meshes[static_cast<size_t>(part.mesh)].primitives[static_cast<size_t>(part.primitive)];
+    for (uint32_t v = 0; v < part.vertex_count; ++v) {
+      int& owner = out[part.first_vertex + v];
+      owner = part.node;
+      if (node.skin < 0 || primitive.influences.empty()) continue;
+      const Influences& all = primitive.influences[v];
+      const auto most = std::max_element(all.weights.begin(), all.weights.end()) - all.weights.begin();
+      owner = model.skins[static_cast<size_t>(node.skin)].joints[all.joints[static_cast<size_t>(most)]];
+    }
+  }
+  return out;
+}
+
+struct Sole {
+  int side = 0;
+  double along = 0;  // forward of the middle
+  std::vector<uint32_t> vertices;
+};
+
+struct Standing {
+  const StandingBody& body;
+  std::vector<Sole> soles;
+  double ground = 0, height = 1;
+
+  explicit Standing(const StandingBody& given) : body(given) {
+    const std::vector<uint8_t> out = beside_body(body);
+    const std::vector<double> rest = double_positions(body.mesh.positions);
+    const glm::dvec3& up = body.known.axes.up;
+    ground = lowest_of(rest, up, out);
+    height = -lowest_of(rest, -up, out) - ground;
+    const std::vector<int> owners = owners_of(body.model, body.mesh);
+    std::map<int, Sole> found;
+    for (uint32_t v = 0; v < owners.size(); ++v) {
+      if (out[v] || owners[v] < 0 || body.known.nodes.empty()) continue;
+      const KnownNode& node = body.known.nodes[static_cast<size_t>(owners[v])];
+      if (node.part != BodyPart::leg || node.limb < 0) continue;
+      if (glm::dot(body.mesh.positions[v], up) > ground + sole_height * height) continue;
+      Sole& sole = found[node.limb];
+      sole.side = node.side;
+      sole.vertices.push_back(v);
+    }
+    for (auto& [limb, sole] : found) {
+      for (const uint32_t v : sole.vertices)
+        sole.along += glm::dot(body.mesh.positions[v], body.known.axes.forward) / static_cast<double>(sole.vertices.size());
+      soles.push_back(std::move(sole));
+    }
+    std::sort(soles.begin(), soles.end(), [](const Sole& a, const Sole& b) {
+      return a.side != b.side ? a.side < b.side : a.along < b.along;
+    });
+  }
+
+  double low(const Sole& sole, const std::vector<double>& frame) const {
+    double out = std::numeric_limits<double>::infinity();
+    for (const uint32_t v : sole.vertices) out = std::min(out, height_of(v, frame));
+    return out;
+  }
+  double height_of(uint32_t v, const std::vector<double>& frame) const {
+    return glm::dot(body.known.axes.up, glm::dvec3(frame[3 * v], frame[3 * v + 1], frame[3 * v + 2])) - ground;
+  }
+  // Along the ground, of the vertices that carry the foot in the first frame.
+  glm::dvec3 step(const Sole& sole, const std::vector<double>& from, const std::vector<double>& to) const {
+    const double least = low(sole, from);
+    glm::dvec3 sum(0);
+    double count = 0;
+    for (const uint32_t v : sole.vertices) {
+      if (height_of(v, from) > least + carries * height) continue;
+      for (int c = 0; c < 3; ++c) sum[c] += to[3 * v + static_cast<size_t>(c)] - from[3 * v + static_cast<size_t>(c)];
+      count += 1;
+    }
+    sum /= std::max(count, 1.0);
+    return sum - glm::dot(sum, body.known.axes.up) * body.known.axes.up;
+  }
+};
+
+double middle_value(std::vector<double> list) {
+  std::nth_element(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2), list.end());
+  return list[list.size() / 2];
+}
+
+}  // namespace
+
+std::vector<uint8_t> beside_body(const StandingBody& body) {
+  std::vector<uint8_t> out = body.mesh.loose;
+  // nodes of the body, and what hangs on them
+  std::vector<uint8_t> of_body(body.model.nodes.size(), 0);
+  for (size_t n = 0; n < body.known.nodes.size(); ++n) {
+    for (int k = static_cast<int>(n); k >= 0 && !of_body[n]; k = body.model.nodes[static_cast<size_t>(k)].parent)
+      of_body[n] = body.known.nodes[static_cast<size_t>(k)].part != BodyPart::other;
+  }
+  if (std::none_of(of_body.begin(), of_body.end(), [](uint8_t is) { return is != 0; })) return out;
+  const std::vector<int> owners = owners_of(body.model, body.mesh);
+  std::vector<uint8_t> skinned(body.model.nodes.size(), 0);
+  for (const Skin& skin : body.model.skins)
+    for (const int joint : skin.joints) skinned[static_cast<size_t>(joint)] = 1;
+  for (size_t v = 0; v < out.size(); ++v) {
+    const auto owner = static_cast<size_t>(owners[v]);
+    out[v] = out[v] || (!of_body[owner] && !skinned[owner]);
+  }
+  // a body of which nothing is left is taken whole
+  return std::all_of(out.begin(), out.end(), [](uint8_t is) { return is != 0; }) ? body.mesh.loose : out;
+}
+
+std::vector<uint8_t> beside_flesh(const StandingBody& body) {
+  std::vector<uint8_t> out = beside_body(body);
+  if (body.known.nodes.empty()) return out;
+  const std::vector<int> owners = owners_of(body.model, body.mesh);
+  const auto part = [&](int node) { return body.known.nodes[static_cast<size_t>(node)].part; };
+  for (size_t v = 0; v < out.size(); ++v) {
+    int node = owners[v];
+    if (part(node) != BodyPart::other) continue;
+    while (node >= 0 && part(node) == BodyPart::other) node = body.model.nodes[static_cast<size_t>(node)].parent;
+    out[v] = out[v] || (node >= 0 && (part(node) == BodyPart::hand || part(node) == BodyPart::finger));
+  }
+  return std::all_of(out.begin(), out.end(), [](uint8_t is) { return is != 0; }) ? body.mesh.loose : out;
+}
+
+double slide_of(const StandingBody& source, const StandingBody& target, double scale, const std::vector<double>& times,
+                const std::vector<std::vector<double>>& source_frames,
+                const std::vector<std::vector<double>>& target_frames) {
+  if (source.mesh.triangles.empty() || times.size() < 3) return -1;
+  const Standing a(source), b(target);
+  if (a.soles.empty() || a.soles.size() != b.soles.size()) return -1;
+  const Axes &x = source.known.axes, &y = target.known.axes;
+  const glm::dmat3 across = glm::dmat3(y.right, y.up, y.forward) * glm::transpose(glm::dmat3(x.right, x.up, x.forward));
+  struct Step {
+    glm::dvec3 source, target;  // a second
+  };
+  std::vector<Step> steps;
+  for (size_t k = 0; k < a.soles.size(); ++k) {
+    if (a.soles[k].side != b.soles[k].side) return -1;
+    for (size_t f = 0; f + 1 < times.size(); ++f) {
+      const double seconds = times[f + 1] - times[f];
+      if (a.low(a.soles[k], source_frames[f]) > stands_below * a.height ||
+          a.low(a.soles[k], source_frames[f + 1]) > stands_below * a.height)
+        continue;
+      steps.push_back({1 / seconds * a.step(a.soles[k], source_frames[f], source_frames[f + 1]),
+                       1 / seconds * b.step(b.soles[k], target_frames[f], target_frames[f + 1])});
+    }
+  }
+  if (steps.empty()) return -1;
+  glm::dvec3 ground(0);  // a clip on the spot walks on ground that moves
+  for (int c = 0; c < 3; ++c) {
+    std::vector<double> list;
+    for (const Step& step : steps) list.push_back(step.source[c]);
+    ground[c] = middle_value(std::move(list));
+  }
+  const double speed = glm::length(ground);
+  double along = 0, squares = 0;
+  for (const Step& step : steps) {
+    if (glm::length(step.source - ground) > standing_speed * a.height) continue;
+    const glm::dvec3 by = scale * (across * step.source);
+    along += glm::dot(step.target, by);
+    squares += glm::dot(by, by);
+  }
+  const bool on_the_spot = speed > 0.1 * a.height && squares > 0;
+  const glm::dvec3 still = (on_the_spot ? std::clamp(along / squares, 0.5, 1.5) : 1.0) * scale * (across * ground);
+  double sum = 0, count = 0;
+  for (const Step& step : steps) {
+    if (glm::length(step.source - ground) > standing_speed * a.height) continue;
+    const double own = scale * glm::length(step.source - ground);
+    sum += std::max(0.0, glm::length(step.target - still) - own);
+    count += 1;
+  }
+  return count > 0 ? sum / count / SurfaceBox(target.mesh).diagonal() : -1;
+}
+
+double depth_of(const StandingBody& source, const StandingBody& target, double scale,
+                const std::vector<uint8_t>& source_out, const std::vector<uint8_t>& target_out,
+                const std::vector<std::vector<double>>& source_frames,
+                const std::vector<std::vector<double>>& target_frames) {
+  const bool has_source = !source.mesh.triangles.empty();
+  const glm::dvec3 &up = target.known.axes.up, &source_up = source.known.axes.up;
+  const double ground = lowest_of(double_positions(target.mesh.positions), up, target_out),
+               source_ground =
+                   has_source ? lowest_of(double_positions(source.mesh.positions), source_up, source_out) : 0;
+  double out = 0;
+  for (size_t f = 0; f < target_frames.size(); ++f) {
+    const double sinks =
+        has_source ? std::min(0.0, lowest_of(source_frames[f], source_up, source_out) - source_ground) : 0;
+    out = std::max(out, ground + scale * sinks - lowest_of(target_frames[f], up, target_out));
+  }
+  return out / SurfaceBox(target.mesh).diagonal();
+}
+
+}  // namespace samples

@@ -1,0 +1,42 @@
+// Feet on the ground, measured on posed surfaces: what slides and what sinks. Vertices belong to the joints that move
+// them most.
+#ifndef HF_SAMPLES_TRANSFER_SOLES_H
+#define HF_SAMPLES_TRANSFER_SOLES_H
+
+#include <cstdint>
+#include <vector>
+
+#include "gltf/known_body.h"
+
+namespace samples {
+
+using namespace hf_gltf;
+
+struct StandingBody {
+  const Model& model;
+  const FlatMesh& mesh;
+  const KnownBody& known;
+};
+
+// By flat vertex: 1 for those that are no part of the body: loose ones, and pieces that hang on no joint of it, such as
+// a plane of ground.
+std::vector<uint8_t> beside_body(const StandingBody& body);
+// The same and what the hands hold.
+std::vector<uint8_t> beside_flesh(const StandingBody& body);
+
+// How fast soles of the target slide on the ground while the source's stand, beyond what the source's slide themselves,
+// in boxes of the target a second: the mean over feet and frames. Under a clip on the spot the ground
+// goes as fast as suits the target. Below 0: nothing stands, or the feet are not known.
+double slide_of(const StandingBody& source, const StandingBody& target, double scale, const std::vector<double>& times,
+                const std::vector<std::vector<double>>& source_frames,
+                const std::vector<std::vector<double>>& target_frames);
+
+// How deep the deepest vertex goes, deeper than the source's scaled, in boxes of the target.
+double depth_of(const StandingBody& source, const StandingBody& target, double scale,
+                const std::vector<uint8_t>& source_out, const std::vector<uint8_t>& target_out,
+                const std::vector<std::vector<double>>& source_frames,
+                const std::vector<std::vector<double>>& target_frames);
+
+}  // namespace samples
+
+#endif

@@ -1,0 +1,90 @@
+// Two models whose skeletons are understood: the clip of one on the joints of the other, and how well a pose follows.
+//
+//   const SkeletonPair pair({source, source_mesh}, {target, target_mesh});
+//   if (pair.refusal().empty()) JointClip clip = pair.play(source.animations[0], times, {});
+//
+// The room retarget turns the joints (retarget/retarget.h); this library has a copy of that room inside. Joints are
+// nodes, by index: names may repeat, and nodes of no skin may stand between joints.
+#ifndef HF_GLTF_SKELETON_PAIR_H
+#define HF_GLTF_SKELETON_PAIR_H
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gltf/animate.h"
+#include "gltf/regions.h"
+
+namespace hf_gltf {
+
+struct JointSide {
+  const Model& model;
+  const FlatMesh& mesh;        // may be empty
+  const Axes* axes = nullptr;  // given by the caller, or null
+  const Pose* rest = nullptr;  // a pose in which both bodies stand alike; null: the pose of the file
+};
+
+struct JointOptions {
+  bool in_place = false;  // the straight travel along the ground is taken out
+  bool ground = true;     // feet reach their places and nothing sinks
+  double stride = 1;      // times the ratio of leg lengths
+  double scale = 0;       // of travel; 0: found
+};
+
+struct JointClip {
+  std::vector<double> times;
+  std::vector<Pose> source, target;  // of every node
+  bool same = false;                 // equal skeletons: keys are copied
+  double scale = 1;
+  std::string scale_from;
+  size_t joints = 0;                   // of the target that follow
+  std::vector<std::string> unmatched;  // joints of the source's body without a partner
+  double drop = 0;                     // how far the hips sank so that feet reach, in units of the target
+  double frame_ms = 0;
+  glm::dvec3 travel{0, 0, 0};  // of the target, that was taken out
+  bool moves = false;          // the body moves at all in this clip
+};
+
+// How far bones of arms and legs point elsewhere than the source's, in degrees, over all frames. Where
+// the bodies do not stand alike the turns since rest are compared.
+struct LimbFit {
+  std::string name;  // "left arm"
+  double mean = 0, worst = 0;
+};
+struct PoseFit {
+  std::vector<LimbFit> limbs;                 // those with a partner
+  size_t compared = 0;                        // limbs with a bone whose both ends are joints
+  double degrees = -1, worst = 0;             // mean over them, below 0: unknown; worst frame of the worst limb
+  double trunk_degrees = 0, trunk_worst = 0;  // hips to neck, since rest
+  size_t source_limbs = 0, target_limbs = 0;  // arms and legs
+};
+
+class SkeletonPair {
+ public:
+  SkeletonPair(const JointSide& source, const JointSide& target);
+  ~SkeletonPair();
+  // Why joints cannot lead, a sentence; empty: they can.
+  const std::string& refusal() const;
+  // Whether both skeletons are understood, alike or not.
+  bool understood() const;
+  // Whether both bodies have one pair of legs or none.
+  bool two_legged() const;
+  // "2 legs and 2 arms"
+  std::string limbs_text() const;
+  // The node over all joints of the target that could carry the travel.
+  int target_root() const;
+  JointClip play(const Animation& clip, const std::vector<double>& times, const JointOptions& options) const;
+  PoseFit fit(const std::vector<Pose>& source, const std::vector<Pose>& target) const;
+
+ private:
+  struct Inside;
+  std::unique_ptr<Inside> in_;
+};
+
+// The clip of the poses: channels for nodes that leave the pose of the file.
+Animation clip_of_poses(const Model& model, const std::string& name, const std::vector<double>& times,
+                        const std::vector<Pose>& poses);
+
+}  // namespace hf_gltf
+
+#endif

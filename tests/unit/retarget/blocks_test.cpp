@@ -1,0 +1,156 @@
+// Bodies of blocks: arms and legs of one bone, whose ends only their vertices tell.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "../skeleton/rig_family.h"
+#include "base/memory.h"
+#include "plain_retarget.h"
+#include "retarget/retarget.h"
+#include "retarget/turns.h"
+
+namespace hf_test {
+namespace {
+
+using hf_inner::Memory;
+using hf_inner::Retarget;
+using hf_inner::Turn;
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+// A box with a head, two arms and two legs. The arms hang by so many degrees; reach: how far the legs
+// reach forward and back. spread: of legs of two bones without feet; 0: legs are one bone.
+struct Blocks {
+  Rig rig;
+  std::unique_ptr<PlacedRig> placed;
+  hf_inner::CharacterInput input;
+  Memory memory;
+  std::unique_ptr<hf_inner::Character> character;
+
+  explicit Blocks(double hang, double reach = 0.1, double spread = 0) {
+    const int body = rig.add("body", -1, {0, 0.4, 0}, Role::spine);
+    rig.add_block(body, {-0.3, 0.4, -0.2}, {0.3, 1, 0.2});
+    const int head = rig.add("head", body, {0, 1, 0}, Role::head);
+    rig.add_block(head, {-0.2, 1, -0.2}, {0.2, 1.4, 0.3});
+    for (const double side : {1.0, -1.0}) {
+      const Side s = side > 0 ? Side::left : Side::right;
+      const char* end = side > 0 ? ".l" : ".r";
+      const int arm = rig.add(std::string("arm") + end, body, {side * 0.3, 0.9, 0}, Role::arm, s);
+      rig.add_box(arm, {side * 0.3, 0.9, 0}, {side * 0.8, 0.9, 0}, 0.06);
+      const int leg = rig.add(std::string("leg") + end, body, {side * 0.15, 0.4, 0}, Role::leg, s);
+      if (spread > 0) {  // two bones
+        rig.add_block(leg, {side * 0.15 - 0.08, 0.2, -reach}, {side * 0.15 + 0.08, 0.4, reach});
+        const int shin = rig.add(std::string("shin") + end, leg, {side * 0.15, 0.2, 0}, Role::leg, s);
+        rig.add_block(shin, {side * 0.15 - 0.08, 0, -reach}, {side * 0.15 + 0.08, 0.2, reach});
+        rig.turn(leg, {0, 0, 1}, side * spread);
+      } else {
+        rig.add_block(leg, {side * 0.15 - 0.08, 0, -reach}, {side * 0.15 + 0.08, 0.4, reach});
+      }
+      rig.turn(arm, {0, 0, 1}, -side * hang);
+    }
+    placed = std::make_unique<PlacedRig>(rig, Placing{});
+    input = placed->input();
+    character = std::make_unique<hf_inner::Character>(know_character(input, memory));
+  }
+  hf_inner::RetargetSide side() const { return {input, *character, nullptr}; }
+
+  // Each vertex in a pose; the bodies are placed with turns of joints only at the pose.
+  std::vector<Vec3> posed(const std::vector<double>& pose) const {
+    const auto rest = world_of(placed->parents, rest_trs(input).data()), world = world_of(placed->parents, pose.data());
+    const auto linear = [](const std::vector<double>& w, std::size_t j) {
+      const double* p = &w[12 * j];
+      return hf_inner::Linear{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}};
+    };
+    const auto place = [](const std::vector<double>& w, std::size_t j) {
+      return Vec3{w[12 * j + 9], w[12 * j + 10], w[12 * j + 11]};
+    };
+    std::vector<Vec3> out;
+    for (std::size_t v = 0; v < rig.points.size(); ++v) {
+      const auto j = static_cast<std::size_t>(rig.owners[v]);
+      out.push_back(linear(world, j) * hf_inner::solve(linear(rest, j), rig.points[v] - place(rest, j)) +
+                    place(world, j));
+    }
+    return out;
+  }
+  // From the joint to the middle of its vertices.
+  Vec3 bone(const std::string& name, const std::vector<double>& pose) const {
+    const int j = rig.find(name);
+    const std::vector<Vec3> points = posed(pose);
+    Vec3 sum;
+    double count = 0;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      if (rig.owners[v] != j) continue;
+      sum = sum + points[v];
+      count += 1;
+    }
+    const auto world = world_of(placed->parents, pose.data());
+    const double* p = &world[12 * static_cast<std::size_t>(j) + 9];
+    return (1 / count) * sum - Vec3{p[0], p[1], p[2]};
+  }
+};
+
+TEST(Blocks, ArmsOfOneBoneMeetByTheirVertices) {
+  const Blocks source(0), target(70);
+  Memory memory;
+  hf_inner::RetargetOptions options;
+  options.copy_same = false;  // the joints are equal, the vertices are not
+  Retarget retarget(source.side(), target.side(), options, memory);
+  std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
+  retarget.frame(pose.data(), 0, out.data());
+  for (const char* arm : {"arm.l", "arm.r"}) {
+    const Vec3 a = source.bone(arm, pose), b = target.bone(arm, out);
+    EXPECT_LT(std::atan2(norm(cross(a, b)), dot(a, b)) / degree, 0.5) << arm;
+  }
+}
+
+TEST(Blocks, LegsWithoutFeetMeetByTheirVertices) {
+  const Blocks source(0, 0.1, 1), target(0, 0.1, 15);
+  Memory memory;
+  hf_inner::RetargetOptions options;
+  options.copy_same = false;  // the joints are nearly equal
+  Retarget retarget(source.side(), target.side(), options, memory);
+  std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
+  retarget.frame(pose.data(), 0, out.data());
+  for (const char* bone : {"leg.l", "leg.r", "shin.l", "shin.r"}) {
+    const Vec3 a = source.bone(bone, pose), b = target.bone(bone, out);
+    EXPECT_LT(std::atan2(norm(cross(a, b)), dot(a, b)) / degree, 0.5) << bone;
+  }
+}
+
+TEST(Blocks, LegsOfOneBoneLiftTheBodyOverTheGround) {
+  const Blocks source(0), target(70, 0.4);
+  Memory memory;
+  hf_inner::RetargetOptions options;
+  options.copy_same = false;  // the joints are equal
+  Retarget retarget(source.side(), target.side(), options, memory);
+  std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
+  for (const auto& [leg, angle] : {std::pair<const char*, double>("leg.l", 40), {"leg.r", -40}}) {
+    const auto world = world_of(source.placed->parents, pose.data());
+    const auto turn_at = [&](std::size_t j) {
+      const double* p = &world[12 * j];
+      return hf_inner::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
+    };
+    const Turn own = turn_at(static_cast<std::size_t>(source.rig.find(leg)));
+    const Turn turn = inverse(turn_at(0)) * (hf_inner::turn_about({1, 0, 0}, angle * degree) * own);
+    const double numbers[] = {turn.x, turn.y, turn.z, turn.w};
+    std::copy(numbers, numbers + 4, &pose[10 * static_cast<std::size_t>(source.rig.find(leg)) + 3]);
+  }
+  pose[1] += 0.05;  // the source stays over the ground
+  const auto lowest = [](const std::vector<Vec3>& points) {
+    double low = 1e300;
+    for (const Vec3& p : points) low = std::min(low, p.y);
+    return low;
+  };
+  ASSERT_GE(lowest(source.posed(pose)), 0);
+  retarget.frame(pose.data(), 0, out.data());
+  EXPECT_GT(lowest(target.posed(out)), -1e-6);
+  options.goals = false;
+  Retarget without(source.side(), target.side(), options, memory);
+  without.frame(pose.data(), 0, out.data());
+  EXPECT_LT(lowest(target.posed(out)), -0.01);
+}
+
+}  // namespace
+}  // namespace hf_test

@@ -1,0 +1,201 @@
+// Which way a motion goes, by the skeleton or by the surface, and what the skeleton's way keeps and gives.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "assets/creature_rig.h"
+#include "gltf/animate.h"
+#include "gltf/flat_mesh.h"
+#include "unit/samples/transfer_program_support.h"
+
+namespace {
+
+using namespace transfer_program;
+
+bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+fs::path written(const hf_gltf::Model& model, const std::string& name) {
+  const fs::path file = folder() / name;
+  hf_gltf::write_gltf(model, file);
+  return file;
+}
+
+hf_gltf::Model rigged(const std::string& name) { return samples::to_model(samples::make_rigged(name, 800)); }
+
+hf_gltf::Model biped() { return samples::to_model(samples::make_creature("biped", 800)); }
+
+// Runs it on the biped's walk; the report.
+json walked(const fs::path& target, const std::string& name, const std::string& more, int code = 0) {
+  static const fs::path source = written(biped(), "way_biped.glb");
+  const fs::path report = folder() / (name + ".json");
+  std::string said;
+  EXPECT_EQ(transfer(quoted(source) + " " + quoted(target) + " --clip walk --fps 12 -o " +
+                         quoted(folder() / (name + ".glb")) + " --json " + quoted(report) + " " + more,
+                     said),
+            code)
+      << said;
+  if (code != 0) return said;
+  json out = read_json(report);
+  out["said"] = said;
+  return out;
+}
+
+// Two bodies with other names, other rests and other proportions.
+TEST(TransferWay, TheSkeletonLeadsWhereLimbsMatch) {
+  for (const std::string& name : samples::rigged_names()) {
+    const json figures = walked(written(rigged(name), name + ".glb"), name + "_walk", "");
+    EXPECT_EQ(figures["way"], "skeleton") << name;
+    const json clip = figures["clips"][0];
+    EXPECT_LT(clip["limbs"]["degrees"], 3) << name;
+    EXPECT_EQ(clip["limbs"]["partners"], 4) << name;
+    EXPECT_LT(clip["depth"], 0.003) << name;
+    EXPECT_GT(clip["confidence"], 0.8) << name;
+    EXPECT_TRUE(has(figures["said"], "limbs         follow the source to ")) << figures["said"];
+  }
+}
+
+TEST(TransferWay, TheWayIsTakenAsAskedAndTheReportSaysWhy) {
+  const fs::path target = written(rigged("biped_tall"), "way_tall.glb");
+  const json surface = walked(target, "asked_surface", "--way surface");
+  EXPECT_EQ(surface["way"], "surface");
+  EXPECT_TRUE(has(surface["said"], "way           surface: as asked"));
+  EXPECT_GT(surface["pairs"].size(), 4u);
+  const json skin = walked(target, "asked_skin", "--as skin");
+  EXPECT_EQ(skin["way"], "surface");
+  EXPECT_TRUE(has(skin["way_why"], "--as skin"));
+  EXPECT_TRUE(has(walked(target, "refused_skin", "--way skeleton --as skin", 1), "--as skin"));
+  EXPECT_TRUE(has(walked(target, "refused_word", "--way bones", 1), "--way takes skeleton or surface"));
+  EXPECT_TRUE(has(walked(target, "refused_dial", "--way skeleton --dials neck_follow=1", 1), "neck_follow"));
+  // a body on four legs has other limbs
+  EXPECT_TRUE(has(walked(creature("bull"), "refused_bull", "--way skeleton", 1), "legs"));
+}
+
+TEST(TransferWay, FourLegsGoByTheSurfaceUnlessAsked) {
+  const auto way = [](const std::string& name, const std::string& more) {
+    std::string said;
+    const fs::path report = folder() / (name + ".json");
+    EXPECT_EQ(transfer(both() + " --clip walk --fps 5 -o " + quoted(folder() / (name + ".glb")) + " --json " +
+                           quoted(report) + more,
+                       said),
+              0)
+        << said;
+    return read_json(report)["way"].get<std::string>();
+  };
+  EXPECT_EQ(way("four_default", ""), "surface");
+  EXPECT_EQ(way("four_skeleton", " --way skeleton"), "skeleton");
+}
+
+// The walk of a body on the same body without clips, all joints with one name, under nodes of no skin: the surface of
+// the result is that of the source.
+TEST(TransferWay, TheSameSkeletonTakesTheKeysWhateverItsNames) {
+  for (const bool named : {true, false}) {
+    hf_gltf::Model source = biped();
+    if (!named)
+      for (hf_gltf::Node& node : source.nodes) node.name = "bone";
+    hf_gltf::Model target = source;
+    target.animations.clear();
+    const fs::path from = written(source, "same_source.glb"), to = written(target, "same_target.glb"),
+                   out = folder() / "same.glb", report = folder() / "same.json";
+    std::string said;
+    ASSERT_EQ(transfer(quoted(from) + " " + quoted(to) + " --clip walk -o " + quoted(out) + " --json " +
+                           quoted(report) + " --way skeleton",
+                       said),
+              0)
+        << said;
+    EXPECT_TRUE(read_json(report)["same_skeleton"].get<bool>());
+    const hf_gltf::Model made = hf_gltf::read_gltf(out);
+    const hf_gltf::FlatMesh mesh = hf_gltf::flatten(source), again = hf_gltf::flatten(made);
+    const double box = hf_gltf::SurfaceBox(mesh).diagonal();
+    const auto& clip = source.animations[static_cast<size_t>(hf_gltf::find_animation(source, "walk"))];
+    double worst = 0;
+    for (const double time : {0.0, 0.013, 0.31, 0.77, 1.05}) {
+      const auto a = hf_gltf::posed_positions(source, mesh, clip, time),
+                 b = hf_gltf::posed_positions(made, again, made.animations[0], time);
+      ASSERT_EQ(a.size(), b.size());
+      for (size_t v = 0; v < a.size(); ++v) worst = std::max(worst, glm::distance(a[v], b[v]));
+    }
+    EXPECT_LE(worst, 1e-5 * box) << named;
+  }
+}
+
+// All but the joints' keys is as it was: meshes, morph targets, two skins with the same joints, extensions, extras.
+TEST(TransferWay, WhatTheTargetHoldsBesideItsJointsStays) {
+  hf_gltf::Model target = rigged("biped_small");
+  target.carried.extensions = R"({"VRMC_vrm":{"specVersion":"1.0"}})";
+  target.carried.extras = R"({"made":"by hand"})";
+  target.skins.push_back(target.skins.front());
+  hf_gltf::Node twin = *std::find_if(target.nodes.begin(), target.nodes.end(),
+                                     [](const hf_gltf::Node& node) { return node.mesh >= 0; });
+  twin.skin = 1;
+  twin.parent = -1;
+  twin.children.clear();
+  target.nodes.push_back(twin);
+  target.scene_roots.push_back(static_cast<int>(target.nodes.size()) - 1);
+  if (!target.scenes.empty()) target.scenes[target.shown_scene].roots = target.scene_roots;
+  hf_gltf::Primitive& primitive = target.meshes[0].primitives[0];
+  hf_gltf::MorphTarget smile;
+  smile.positions.assign(primitive.positions.size(), glm::vec3(0, 0.01f, 0));
+  primitive.targets.push_back(smile);
+  target.meshes[0].target_names = {"smile"};
+  const json figures = walked(written(target, "kept_target.glb"), "kept", "");
+  EXPECT_EQ(figures["way"], "skeleton");
+  const hf_gltf::Model made = hf_gltf::read_gltf(folder() / "kept.glb");
+  EXPECT_EQ(json::parse(made.carried.extensions), json::parse(target.carried.extensions));
+  EXPECT_EQ(json::parse(made.carried.extras), json::parse(target.carried.extras));
+  ASSERT_EQ(made.skins.size(), 2u);
+  EXPECT_EQ(made.skins[1].joints, target.skins[1].joints);
+  EXPECT_EQ(made.meshes[0].target_names, target.meshes[0].target_names);
+  EXPECT_EQ(made.meshes[0].primitives[0].targets.size(), 1u);
+  ASSERT_EQ(made.nodes.size(), target.nodes.size());
+  std::set<int> joints(target.skins[0].joints.begin(), target.skins[0].joints.end());
+  for (const hf_gltf::Channel& channel : made.animations[0].channels) EXPECT_TRUE(joints.count(channel.node));
+}
+
+// The travel of a walk that goes over the ground is left out, or goes to the node over the joints.
+TEST(TransferWay, TravelIsLeftOutOrGoesToTheRoot) {
+  hf_gltf::Model source = biped();
+  hf_gltf::Animation& walk = source.animations[static_cast<size_t>(hf_gltf::find_animation(source, "walk"))];
+  int root = source.skins[0].joints[0];
+  hf_gltf::Channel go;
+  go.node = root;
+  go.times = {0, walk.channels[0].times.back()};
+  go.values = {0, 0, 0, 0, 0, 2};
+  walk.channels.erase(std::remove_if(walk.channels.begin(), walk.channels.end(),
+                                     [&](const hf_gltf::Channel& channel) {
+                                       return channel.node == root && channel.path == hf_gltf::Path::translation;
+                                     }),
+                      walk.channels.end());
+  walk.channels.push_back(go);
+  const fs::path from = written(source, "travel_source.glb"), to = written(rigged("biped_tall"), "travel_target.glb");
+  const auto middle = [](const hf_gltf::Model& model, double time) {
+    const hf_gltf::FlatMesh mesh = hf_gltf::flatten(model);
+    glm::dvec3 sum(0);
+    const auto places = hf_gltf::posed_positions(model, mesh, model.animations[0], time);
+    for (const glm::dvec3& p : places) sum += p / static_cast<double>(places.size());
+    return sum;
+  };
+  double scale = 0;
+  const auto way = [&](const std::string& name, const std::string& option) {
+    std::string said;
+    EXPECT_EQ(transfer(quoted(from) + " " + quoted(to) + " --clip walk --fps 12 -o " +
+                           quoted(folder() / (name + ".glb")) + " --json " + quoted(folder() / (name + ".json")) + option,
+                       said),
+              0)
+        << said;
+    scale = read_json(folder() / (name + ".json"))["scale"];
+    const hf_gltf::Model made = hf_gltf::read_gltf(folder() / (name + ".glb"));
+    return (middle(made, go.times[1]) - middle(made, 0)).z;
+  };
+  for (const auto& [name, option, share] :
+       {std::tuple<const char*, const char*, double>{"travel_kept", "", 2},
+        {"travel_in_place", " --in-place", 0},
+        {"travel_root", " --root-motion", 2},
+        {"travel_stride", " --dials stride=0.5", 2}}) {
+    const double gone = way(name, option);
+    EXPECT_NEAR(gone, share * scale, 0.03) << name;  // the pose at the end is that of the start but for a hair
+  }
+  EXPECT_NEAR(scale, 0.625, 0.01);  // half of the legs' 1.25
+}
+
+}  // namespace
