@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
