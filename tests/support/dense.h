@@ -1,5 +1,5 @@
-// Decompositions of Eigen for oracles, compiled once (dense.cpp): each takes the compiler seconds in every file that
-// has it. Arrays go in and out, columns first, so that both copies of Eigen fit (base/algebra.h renames one).
+// Decompositions for oracles, compiled once: those of Eigen take the compiler seconds in every file that has them.
+// Arrays go in and out, columns first, so that both copies of Eigen fit (base/algebra.h renames one).
 #pragma once
 #include <cstddef>
 #include <memory>
