@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "support/dense.h"
+
 namespace sequences {
 namespace {
 
@@ -79,9 +81,7 @@ bool Model::dependent(const Sites& sites, const std::vector<Site>& more) const {
   for (std::size_t i = 0; i < hard.size(); ++i) {
     for (const auto& [vertex, weight] : hard[i]->row) w(static_cast<Eigen::Index>(i), vertex) = weight;
   }
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(w);
-  lu.setThreshold(1e-9);
-  return lu.rank() < w.rows();
+  return hf_test::dense_rank(w.data(), w.rows(), w.cols(), 1e-9) < w.rows();
 }
 
 hf_result Model::judge(const Edit& edit) {
@@ -187,9 +187,7 @@ void Model::solve_component(int component) {
   }
   const Eigen::RowVectorXd centre = values.row(0);
   b.bottomRows(k) = values.rowwise() - centre;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(a);
-  Eigen::MatrixXd x = lu.solve(b);
-  x += lu.solve(Eigen::MatrixXd(b - a * x));
+  const Eigen::MatrixXd x = hf_test::DenseSolver(a).solve(b);
   for (Eigen::Index i = 0; i < n; ++i) answer_.field.row(vertices[static_cast<std::size_t>(i)]) = x.row(i) + centre;
   for (Eigen::Index i = 0; i < k; ++i) answer_.lambda.row(places[static_cast<std::size_t>(i)]) = unit * x.row(n + i);
   for (Eigen::Index c = 0; c < m; ++c) {

@@ -4,6 +4,5 @@
 #include "base/algebra.h"
 #define Eigen hf_eigen
 #include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
 #undef Eigen
 namespace Eigen = hf_eigen;

@@ -1,11 +1,12 @@
 // The exact answer to a field problem on a small mesh, by a dense solve of the whole saddle-point system
 //     [ K  -W ] [   u    ]   [ 0 ]
 //     [ W'  D ] [ lambda ] = [ s ]
-// in long double where it matters little and plain LU with full pivoting; shares no code with the engines.
+// by plain elimination; shares no code with the engines.
 #pragma once
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "engine/site_solver.h"
+#include "support/dense.h"
 
 namespace hf_test {
 
@@ -59,9 +60,7 @@ inline Eigen::MatrixXd dense_field(const hf_inner::Core& core, const std::vector
     a(n + i, n + i) = site.compliance / core.mean_diagonal[static_cast<std::size_t>(site.component)];
     b.row(n + i) = values.row(i);
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(a);
-  Eigen::MatrixXd x = lu.solve(b);
-  x += lu.solve(b - a * x);
+  const Eigen::MatrixXd x = DenseSolver(a).solve(b);
   if (lambda) *lambda = x.bottomRows(k);
   return x.topRows(n);
 }

@@ -3,6 +3,7 @@
 # row is there for both mesh families, the table and one picture per command are written; bad words are refused.
 set -u
 program=$1 folder=$2 with_gpl=$3
+[ -x "$program" ] || { echo "hf_bench is not built: tests/run --full, or cmake --build build/dev --target hf_by_hand"; exit 77; }
 status=0
 complain() { printf 'error: %s\n' "$1"; status=1; }
 

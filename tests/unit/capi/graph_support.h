@@ -3,12 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <map>
 #include <random>
 #include <vector>
 
 #include "hf/hf.h"
+#include "support/dense.h"
 
 namespace graph_test {
 
@@ -191,9 +192,7 @@ inline Dense dense_field(const Graph& graph, std::int32_t field_kind, const Site
       b[r] /= size;
     }
   }
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(a);
-  Eigen::VectorXd x = lu.solve(b);
-  x += lu.solve(b - a * x);
+  const Eigen::VectorXd x = hf_test::DenseSolver(a, hf_test::DenseSolver::full).solve(b);
   return {x.head(n), x.tail(m)};
 }
 

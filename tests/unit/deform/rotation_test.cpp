@@ -11,6 +11,7 @@
 #include "cases.h"
 #include "deform/rotation_batch.h"
 #include "deform/rotation_step.h"
+#include "support/dense.h"
 #include "support/eigen.h"
 
 namespace {
@@ -62,14 +63,12 @@ struct Random {
   }
 };
 
-// max tr(R'S) over rotations = s1 + s2 +- s3, the sign that of det S
+// max tr(R'S) over rotations, also of tiny and huge ones
 double best_value(const Mat3& s) {
   const double scale = s.cwiseAbs().maxCoeff();
   if (!(scale > 0)) return 0;
-  const Eigen::JacobiSVD<Mat3> svd(s / scale, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d sigma = svd.singularValues();
-  return scale *
-         (sigma(0) + sigma(1) + ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -sigma(2) : sigma(2)));
+  const Mat3 unit = s / scale;
+  return scale * hf_test::best_rotation_value(unit.data());
 }
 
 double deviation_from_rotation(const Mat3& r) {

@@ -7,6 +7,7 @@
 
 #include "cases.h"
 #include "deform/groups.h"
+#include "support/dense.h"
 #include "support/eigen.h"
 
 namespace {
@@ -18,21 +19,25 @@ using Eigen::Vector3d;
 
 // The target R (1 + E X E') of a group from its definition: dense eigenproblems, one strain after the other.
 Matrix3d target_of(const Matrix3d& moments, const Matrix3d& s, const Matrix3d& r, const StrainLimits& limits) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> rest(moments);
+  Vector3d moment;
+  Matrix3d axes;
+  hf_test::symmetric_eigen(moments.data(), 3, moment.data(), axes.data());
   Eigen::Matrix<double, 3, 2> e;
-  e << rest.eigenvectors().col(2), rest.eigenvectors().col(1);
-  const Eigen::Vector2d m(rest.eigenvalues()[2], rest.eigenvalues()[1]);
+  e << axes.col(2), axes.col(1);
+  const Eigen::Vector2d m(moment[2], moment[1]);
   if (m[1] <= 0.01 * m[0]) return r;
   Eigen::Matrix2d u = e.transpose() * r.transpose() * s * e * m.cwiseInverse().asDiagonal();
   u = (0.5 * (u + u.transpose())).eval();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> strain(u);
+  Eigen::Vector2d strain;
+  Eigen::Matrix2d along;
+  hf_test::symmetric_eigen(u.data(), 2, strain.data(), along.data());
   Eigen::Matrix2d x = Eigen::Matrix2d::Zero();
   for (int k = 0; k < 2; ++k) {
-    const double sigma = strain.eigenvalues()[k], other = strain.eigenvalues()[1 - k];
+    const double sigma = strain[k], other = strain[1 - k];
     const auto kept = [&](double value) { return std::min(limits.high, std::max(limits.low, value)); };
     const double force = limits.stiffness * (kept(sigma) - sigma);
     x += (std::min(limits.largest, std::max(-limits.largest, force)) - limits.contraction * (kept(other) - 1)) *
-         strain.eigenvectors().col(k) * strain.eigenvectors().col(k).transpose();
+         along.col(k) * along.col(k).transpose();
   }
   return r * (Matrix3d::Identity() + e * x * e.transpose());
 }

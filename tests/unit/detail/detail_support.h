@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <set>
@@ -40,7 +40,8 @@ inline std::shared_ptr<const hf_inner::RegionSurface> surface_of(const std::shar
 inline Numbers numbers(const hf_inner::Vector<std::int32_t>& list) { return {list.begin(), list.end()}; }
 
 // The vertices that a test on their place picks.
-inline Numbers vertices_where(const hf_inner::RegionSurface& surface, const std::function<bool(hf_inner::Vec3)>& inside) {
+inline Numbers vertices_where(const hf_inner::RegionSurface& surface,
+                              const std::function<bool(hf_inner::Vec3)>& inside) {
   Numbers list;
   for (std::int32_t v = 0; v < surface.core->size(); ++v)
     if (inside(surface.position(v))) list.push_back(v);
@@ -54,7 +55,7 @@ inline void add(hf_inner::Region& region, const Numbers& vertices) {
 }
 
 inline hf_inner::Region region_where(const std::shared_ptr<const hf_inner::RegionSurface>& surface,
-                               const std::function<bool(hf_inner::Vec3)>& inside) {
+                                     const std::function<bool(hf_inner::Vec3)>& inside) {
   hf_inner::Region region(surface);
   add(region, vertices_where(*surface, inside));
   return region;

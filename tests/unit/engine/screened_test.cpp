@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/index.h"
+#include "support/dense.h"
 #include "support/dirty_meshes.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
@@ -75,7 +76,7 @@ Eigen::MatrixXd dense(const Scene& scene, const ScreenedOperator& a, const std::
     m(n + i, n + i) = sites[at(i)].compliance / scene.core->mean_diagonal[at(sites[at(i)].component)];
     b.row(n + i) = values.row(i);
   }
-  return m.fullPivLu().solve(b).topRows(n);
+  return hf_test::DenseSolver(m, hf_test::DenseSolver::full).solve(b).topRows(n);
 }
 
 double worst(const std::vector<double>& u, const Eigen::MatrixXd& exact) {

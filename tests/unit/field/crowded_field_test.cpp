@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <Eigen/LU>
 #include <random>
 
 #include "base/error.h"

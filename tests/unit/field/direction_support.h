@@ -1,11 +1,12 @@
 // The field of least energy of a direction system under constraints, densely.
 #pragma once
 #include <complex>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <vector>
 
 #include "base/index.h"
 #include "field/direction_solver.h"
+#include "support/dense.h"
 
 namespace hf_test {
 
@@ -40,9 +41,7 @@ inline std::vector<Complex> dense_field(const hf_inner::DirectionSolver& solver,
       b(row) = part ? values[i].imag() : values[i].real();
     }
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(a);
-  Eigen::VectorXd x = lu.solve(b);
-  x += lu.solve(b - a * x);
+  const Eigen::VectorXd x = DenseSolver(a).solve(b);
   std::vector<Complex> field;
   for (std::int32_t v = 0; v < core.size(); ++v) field.emplace_back(x(unknown(v, 0)), x(unknown(v, 1)));
   return field;

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "assets/creature.h"
 #include "assets/shapes.h"
 #include "base/error.h"
 #include "base/progress.h"
 #include "quads/untangle.h"
+#include "support/dense.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 #include "unit/field/analysis_support.h"
@@ -277,7 +278,7 @@ TEST(FieldQuads, rounding_one_after_the_other_solves_the_dense_system) {
       a(n + s, fixed[at(s)]) = a(fixed[at(s)], n + s) = 1;
       b(n + s) = values[at(s)];
     }
-    const Eigen::VectorXd exact = a.fullPivLu().solve(b);
+    const Eigen::VectorXd exact = hf_test::DenseSolver(a).solve(b);
     double worst = 0;
     for (Index i = 0; i < n; ++i) worst = std::max(worst, std::fabs(x[at(i)] - exact(i)));
     EXPECT_LT(worst, 1e-9);
@@ -302,9 +303,9 @@ TEST(FieldQuads, rounding_takes_the_unknown_nearest_to_a_whole_number_at_every_s
     for (Index i = k.column_start[at(c)]; i < k.column_start[at(c) + 1]; ++i) a(k.row[at(i)], c) = k.value[at(i)];
     b(c) = mapper.right()[at(c)] / edge_length;
   }
-  const Eigen::LDLT<Eigen::MatrixXd> factor(a);
-  Eigen::VectorXd x = factor.solve(b).tail(m);
-  Eigen::MatrixXd c = factor.solve(Eigen::MatrixXd::Identity(n, n).rightCols(m)).bottomRows(m);
+  const hf_test::DenseSolver solver(a);
+  Eigen::VectorXd x = solver.solve(b).tail(m);
+  Eigen::MatrixXd c = solver.solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n).rightCols(m))).bottomRows(m);
   std::vector<bool> held(at(m), false);
   for (Index s = 0; s < m; ++s) {
     const Index i = fixed[at(s)] - first;

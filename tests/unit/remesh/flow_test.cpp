@@ -7,7 +7,7 @@
 
 #include "assets/shapes.h"
 #include "remesh/streamlines.h"
-#include "support/eigen.h"
+#include "support/dense.h"
 #include "support/meshes.h"
 
 namespace {
@@ -24,21 +24,16 @@ struct Flow {
         surface(FluxSurface::make(core->mesh, core->topology, *core->memory)) {
     const std::int32_t n = surface.vertex_count();
     sites = {0, n / 2, n - 1};
-    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<hf_test::SparseEntry> entries;
     for (std::int32_t h = 0; h < surface.half_count(); ++h) {
-      entries.emplace_back(surface.tail[h], surface.tail[h], surface.weight[h]);
-      entries.emplace_back(surface.tail[h], surface.head(h), -surface.weight[h]);
+      entries.push_back({surface.tail[h], surface.tail[h], surface.weight[h]});
+      entries.push_back({surface.tail[h], surface.head(h), -surface.weight[h]});
     }
-    entries.emplace_back(0, 0, surface.weight[surface.out[0]]);  // holds the first vertex at 0
-    Eigen::SparseMatrix<double> k(n, n);
-    k.setFromTriplets(entries.begin(), entries.end());
-    Eigen::VectorXd lines = Eigen::VectorXd::Zero(n);
-    lines(sites[0]) = -12;
-    lines(sites[1]) = 4;
-    lines(sites[2]) = 8;
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(k);
-    Eigen::VectorXd u = factor.solve(lines);
-    for (int round = 0; round < 3; ++round) u += factor.solve(lines - k * u);
+    entries.push_back({0, 0, surface.weight[surface.out[0]]});  // holds the first vertex at 0
+    std::vector<double> lines(static_cast<std::size_t>(n), 0.0);
+    const double flows[] = {-12, 4, 8};
+    for (std::size_t i = 0; i < sites.size(); ++i) lines[static_cast<std::size_t>(sites[i])] = flows[i];
+    const std::vector<double> u = hf_test::sparse_solve(n, entries, lines.data());
     field.emplace(surface, Span<const double>(u.data(), static_cast<std::size_t>(n)), memory);
   }
   bool is_site(std::int32_t v) const { return std::find(sites.begin(), sites.end(), v) != sites.end(); }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "plain_retarget.h"
+#include "poses.h"
 #include "rig_actor.h"
 
 namespace hf_test {
@@ -55,23 +56,36 @@ void compare(const RigActor& source, const RigActor& target, const std::vector<d
   out.sole = std::min(out.sole, target.sole_height(world) / target.height());
 }
 
-Faults play(const RigActor& source, const RigActor& target) {
-  Memory memory;
-  hf_inner::RetargetOptions options;
-  options.copy_same = false;
-  Retarget retarget(source.side(), target.side(), options, memory);
+// What plays a frame: of the source, seconds since the last one, of the target.
+template <class Play>
+Faults play_by(const RigActor& source, const RigActor& target, const Play& frame) {
   const bool mirrored = source.placing().mirrored != target.placing().mirrored;
   Faults out;
   std::vector<double> trs(10 * target.parents().size());
   for (int f = 0; f < 12; ++f) {
     const double time = 0.09 * f;
-    retarget.frame(source.act(time).trs.data(), f == 0 ? 0 : 0.09, trs.data());
+    frame(source.act(time).trs.data(), f == 0 ? 0 : 0.09, trs.data());
     compare(source, target, trs, target.act(time, mirrored), out);
   }
+  return out;
+}
+
+Faults play(const RigActor& source, const RigActor& target) {
+  Memory memory;
+  hf_inner::RetargetOptions options;
+  options.copy_same = false;
+  Retarget retarget(source.side(), target.side(), options, memory);
+  Faults out = play_by(source, target,
+                       [&](const double* from, double seconds, double* to) { retarget.frame(from, seconds, to); });
   for (const auto& chain : retarget.report().chains) {
     if (chain.role == Role::arm) out.reported_arm = std::max(out.reported_arm, chain.worst_degrees);
   }
   return out;
+}
+
+Faults play_plain(const RigActor& source, const RigActor& target) {
+  const PlainRetarget peer(source.side().input, target.side().input);
+  return play_by(source, target, [&](const double* from, double, double* to) { peer.frame(from, to); });
 }
 
 // Directions of limbs to a degree. The trunk bends by arc length, which two numbers of joints share differently.
@@ -145,6 +159,34 @@ TEST_P(Family, OtherProportionsPointAlike) {
       EXPECT_LT(faults.trunk, 3) << what;
       EXPECT_GT(faults.sole, -1e-3) << what;
     }
+  }
+}
+
+// Names that the plain peer knows.
+const std::vector<std::string> plain_conventions = {"mixamo",          "unreal", "unity",     "vrm",
+                                                    "ready player me", "kaykit", "quaternius"};
+
+// The peer is competent: on one body at one rest it does what the rig does. Feet that hang on the root of a rig, as
+// those of Quaternius do, are beyond it.
+TEST(Plain, ThePeerPlaysOneBodyAtOneRest) {
+  for (const std::string& from : plain_conventions) {
+    const RigActor source(from, {});
+    for (const std::string& to : plain_conventions) {
+      if (to == "quaternius") continue;
+      expect_alike(play_plain(source, RigActor(to, {}, {100, 90, true, false, {5, -3, 8}})), from + " on " + to);
+    }
+  }
+}
+
+// A body of other proportions that rests in A: the peer's arms are off by the rests, its hips by the legs, and its
+// soles go under the ground.
+TEST(Plain, TheRetargetHoldsWhatThePeerLoses) {
+  for (const std::string& from : plain_conventions) {
+    const RigActor source(from, {}), target("unreal", {0.45, 0.6, 2.6, 3, Rest::a});
+    const Faults ours = play(source, target), plain = play_plain(source, target);
+    EXPECT_LT(ours.arm, 0.1 * plain.arm) << from;
+    EXPECT_LT(ours.place, plain.place) << from;
+    EXPECT_GT(ours.sole, plain.sole + 0.005) << from;
   }
 }
 

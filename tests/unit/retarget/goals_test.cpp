@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plain_retarget.h"
+#include "poses.h"
 #include "retarget/turns.h"
 #include "rig_actor.h"
 

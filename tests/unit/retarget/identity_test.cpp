@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "plain_retarget.h"
+#include "poses.h"
 #include "retarget/turns.h"
 #include "rig_actor.h"
 

@@ -1,29 +1,45 @@
-// The plain peer: joints of equal roles turn since rest alike, the hips move by the ratio of leg lengths. No goals.
+// The plain peer, as a game programmer would write it in an afternoon: joints are paired by their names, each turns
+// since rest as its partner does, and the hips travel by the ratio of the legs. It aligns no rests and has no goals.
 #pragma once
+#include <map>
+#include <string>
 #include <vector>
 
+#include "retarget/turns.h"
 #include "skeleton/character.h"
 
 namespace hf_test {
 
 class PlainRetarget {
  public:
-  PlainRetarget(const hf_inner::CharacterInput& source, const hf_inner::Character& source_character,
-                const hf_inner::CharacterInput& target, const hf_inner::Character& target_character);
+  PlainRetarget(const hf_inner::CharacterInput& source, const hf_inner::CharacterInput& target);
   // 10 numbers a joint, in and out.
   void frame(const double* source, double* target) const;
 
  private:
-  std::vector<std::int32_t> source_parents_, target_parents_, partners_;
-  std::vector<double> source_rest_, target_rest_;
-  double across_[9], scale_ = 1;
-  std::vector<double> align_;  // 9 numbers a joint of the target
-  int source_hips_ = -1, target_hips_ = -1;
+  struct Bone {
+    hf_inner::Turn turn;
+    hf_inner::Vec3 place;
+    double scale = 1;
+  };
+  struct Rig {
+    std::vector<std::int32_t> parents;
+    std::vector<std::size_t> order;    // parents first
+    std::map<std::string, int> parts;  // such as "left thigh"
+    std::vector<double> trs;
+    std::vector<Bone> rest;
+    hf_inner::Turn axes;  // left, up and forward at rest
+    double leg = 0;       // hip to foot
+
+    explicit Rig(const hf_inner::CharacterInput& input);
+    Bone posed(const std::vector<Bone>& bones, std::size_t joint, const double* trs) const;
+    std::vector<Bone> pose(const double* trs) const;
+  };
+  Rig source_, target_;
+  std::vector<int> partners_;  // of each joint of the target, or -1
 };
 
-// Local transforms of an input as 10 numbers a joint.
-std::vector<double> rest_trs(const hf_inner::CharacterInput& input);
-// World matrices of a pose: 12 numbers a joint, three columns and the place.
-std::vector<double> world_of(const std::vector<std::int32_t>& parents, const double* trs);
+// "left thigh" for mixamorig:LeftUpLeg, thigh_l, J_Bip_L_UpperLeg and upperleg.l; empty for what is no bone of a body.
+std::string plain_part(const std::string& name);
 
 }  // namespace hf_test

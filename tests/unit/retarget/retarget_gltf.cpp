@@ -86,7 +86,7 @@ int run(int argc, char** argv) {
   find_ground_velocity({ia, ca, nullptr}, poses.data(), static_cast<std::uint32_t>(times.size()), 1 / rate,
                        options.ground_velocity, memory);
   Retarget retarget({ia, ca, nullptr}, {ib, cb, nullptr}, options, memory);
-  const hf_test::PlainRetarget peer(ia, ca, ib, cb);
+  const hf_test::PlainRetarget peer(ia, ib);
   double us = 0;
   for (std::size_t f = 0; f < times.size(); ++f) {
     const double* pose = &poses[10 * source.nodes.size() * f];

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plain_retarget.h"
+#include "poses.h"
 #include "retarget/turns.h"
 
 namespace hf_test {
