@@ -115,9 +115,8 @@ ClipFaults motion_faults(const Stage& stage, const PlayedClip& played) {
   for (size_t f = 0; f < to.largest.size() && has_source; ++f)
     if (to.largest[f] > spike_share && to.largest[f] > spike_ratio * from.largest[f]) ++out.spikes;
   if (from.squares > least_squares) out.acceleration = std::sqrt(to.squares / from.squares);
-  out.stretch =
-      std::max(0.0, stretch_of(stage.target, played.target_frames, box) -
-                        (has_source ? stretch_of(stage.source, played.source_frames, source_box) : 0));
+  out.stretch = std::max(0.0, stretch_of(stage.target, played.target_frames, box) -
+                                  (has_source ? stretch_of(stage.source, played.source_frames, source_box) : 0));
   out.sunk = std::max(0.0, played.feet.surface_sunk);
   out.gap = played.gap;
   out.confidence = confidence_of(out, played.target_frames.size());

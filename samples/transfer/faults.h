@@ -19,7 +19,8 @@ struct ClipFaults {
   double sunk = 0, gap = 0;
   std::vector<std::string> lost;  // pairs whose limb does not move as its source does
   size_t moving = 0;              // pairs whose limb moves on the source
-  // Of the joints, where both skeletons are known. Degrees that arms and legs, and the trunk, are off; below 0: unknown.
+  // Of the joints, where both skeletons are known. Degrees that arms and legs, and the trunk, are off; below 0:
+  // unknown.
   double limbs = -1, trunk = -1;
   double unmatched = 0;   // share of the target's arms and legs without a partner
   double slide = -1;      // of soles that stand on the source, in boxes a second; below 0: unknown
@@ -29,7 +30,7 @@ struct ClipFaults {
 // Two bodies whose frames are compared: their surfaces, vertices that do not count, and how lengths go over.
 struct Stage {
   const FlatMesh &source, &target;
-  const std::vector<uint8_t> &source_out, &target_out;
+  const std::vector<uint8_t>&source_out, &target_out;
   double scale = 1;
 };
 

@@ -28,10 +28,11 @@ const Pose* given(const std::optional<Pose>& pose) { return pose ? &*pose : null
 
 // What asks for places of a surface.
 std::string needs_surface(const TransferCommand& command) {
-  for (const auto& [is, option] :
-       {std::pair<bool, const char*>(!command.pairs.empty(), "--pairs"), {!command.edits.empty(), "--edit"},
-        {!command.contacts.empty(), "--contacts"}, {!command.sinking.empty(), "--sinking"},
-        {!command.poses.empty(), "--poses"}})
+  for (const auto& [is, option] : {std::pair<bool, const char*>(!command.pairs.empty(), "--pairs"),
+                                   {!command.edits.empty(), "--edit"},
+                                   {!command.contacts.empty(), "--contacts"},
+                                   {!command.sinking.empty(), "--sinking"},
+                                   {!command.poses.empty(), "--poses"}})
     if (is) return std::string(option) + " names places of the surfaces";
   if (command.kind == "skin") return "--as skin gives the target new joints";
   for (const auto& [name, value] : command.dials)
@@ -122,8 +123,7 @@ Model write_by_joints(const JointModels& models, const std::vector<Animation>& m
     report.written_max = figures.max;
     return read_gltf(file);
   }
-  if (!report.same_skeleton)
-    reduce_clips(out, models.target_mesh, done, command.key_tolerance * box, figures);
+  if (!report.same_skeleton) reduce_clips(out, models.target_mesh, done, command.key_tolerance * box, figures);
   report.keys = figures.keys;
   report.all_keys = figures.all_keys;
   Model whole = out;
@@ -190,18 +190,18 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
     }
     // limbs that nothing leads are as wrong when the surface carries the motion
     if (const PoseFit plain = models.pair.fit({}, {}); models.pair.understood() && plain.target_limbs > 0)
-      faults.unmatched =
-          1 - static_cast<double>(plain.limbs.size()) / static_cast<double>(plain.target_limbs);
+      faults.unmatched = 1 - static_cast<double>(plain.limbs.size()) / static_cast<double>(plain.target_limbs);
     report.fits.push_back(fit);
-    faults.slide = slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
-    report.depths.push_back(depth_of(source, target, scale, source_out, target_out, played[c].source_frames,
-                                     played[c].target_frames));
+    faults.slide =
+        slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
+    report.depths.push_back(
+        depth_of(source, target, scale, source_out, target_out, played[c].source_frames, played[c].target_frames));
     faults.confidence = confidence_of(faults, played[c].target_frames.size());
     if ((!known || fit.compared == 0 || !has_source) && faults.confidence > unseen_confidence) {
       faults.confidence = unseen_confidence;
-      report.warnings.push_back(
-          "clip \"" + played[c].clip.name + "\": the confidence stops at 0.8, as " +
-          (has_source ? "no two skeletons say whether limbs follow" : "the source has no surface to compare feet with"));
+      report.warnings.push_back("clip \"" + played[c].clip.name + "\": the confidence stops at 0.8, as " +
+                                (has_source ? "no two skeletons say whether limbs follow"
+                                            : "the source has no surface to compare feet with"));
     }
   }
 }
@@ -267,8 +267,8 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
     report.clip_names.push_back(clips[c]->name);
     report.frames.push_back(played[c].clip.times.size());
     report.frame_ms.push_back(played[c].frame_ms);
-    report.faults.push_back(motion_faults(
-        {models.source_mesh, models.target_mesh, source_out, target_out, report.scale}, played[c]));
+    report.faults.push_back(
+        motion_faults({models.source_mesh, models.target_mesh, source_out, target_out, report.scale}, played[c]));
   }
   bar.end();
   judge_pose(models, written, clips, played, joints_written, report.scale, report);

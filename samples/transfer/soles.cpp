@@ -11,8 +11,8 @@
 namespace samples {
 namespace {
 
-// Shares of the height of the body: vertices of a leg below the first are its sole; it stands below the second; vertices
-// this near to the lowest carry it.
+// Shares of the height of the body: vertices of a leg below the first are its sole; it stands below the second;
+// vertices this near to the lowest carry it.
 constexpr double sole_height = 0.07, stands_below = 0.015, carries = 0.01;
 // A sole that goes faster against the ground than this, in heights a second, does not stand.
 constexpr double standing_speed = 0.5;
@@ -66,12 +66,12 @@ struct Standing {
     }
     for (auto& [limb, sole] : found) {
       for (const uint32_t v : sole.vertices)
-        sole.along += glm::dot(body.mesh.positions[v], body.known.axes.forward) / static_cast<double>(sole.vertices.size());
+        sole.along +=
+            glm::dot(body.mesh.positions[v], body.known.axes.forward) / static_cast<double>(sole.vertices.size());
       soles.push_back(std::move(sole));
     }
-    std::sort(soles.begin(), soles.end(), [](const Sole& a, const Sole& b) {
-      return a.side != b.side ? a.side < b.side : a.along < b.along;
-    });
+    std::sort(soles.begin(), soles.end(),
+              [](const Sole& a, const Sole& b) { return a.side != b.side ? a.side < b.side : a.along < b.along; });
   }
 
   double low(const Sole& sole, const std::vector<double>& frame) const {

@@ -157,7 +157,8 @@ void add_joints(const RunReport& report, std::string& out) {
   for (size_t c = 0; c < report.clip_names.size(); ++c)
     print(out, "  clip \"%s\": %zu frames, %.3f ms each\n", report.clip_names[c].c_str(), report.frames[c],
           report.frame_ms[c]);
-  if (report.drop > 0.001) print(out, "  hips          sink by %.1f %% of the box so that feet reach\n", 100 * report.drop);
+  if (report.drop > 0.001)
+    print(out, "  hips          sink by %.1f %% of the box so that feet reach\n", 100 * report.drop);
 }
 
 void add_quality(const RunReport& report, std::string& out) {
@@ -239,9 +240,8 @@ nlohmann::json to_json(const RunReport& report) {
          {"confidence", pair.confidence}});
   }
   for (size_t c = 0; c < report.clip_names.size(); ++c) {
-    clips.push_back({{"name", report.clip_names[c]},
-                     {"frames", report.frames[c]},
-                     {"ms_per_frame", report.frame_ms[c]}});
+    clips.push_back(
+        {{"name", report.clip_names[c]}, {"frames", report.frames[c]}, {"ms_per_frame", report.frame_ms[c]}});
     if (c < report.feet.size()) {
       const FootReport& feet = report.feet[c];
       clips.back().update({{"foot_path_mean", feet.path_mean},

@@ -253,7 +253,8 @@ void convert_animations(Conversion& in) {
       to.channels.push_back(std::move(channel));
     }
     if (twice > 0)
-      in.warn(where + " has " + std::to_string(twice) + " channels that animate what an earlier one does; they are skipped");
+      in.warn(where + " has " + std::to_string(twice) +
+              " channels that animate what an earlier one does; they are skipped");
     if (cut > 0)
       in.warn(where + " has keys before 0 s in " + std::to_string(cut) + " channels; the clip begins at 0 s");
     CarriedDocument& carried = in.source.carried;

@@ -157,7 +157,8 @@ struct Body {
     for (const Limb& limb : limbs) {
       const glm::dvec3 place = place_of(globals, limb.nodes[0]);
       if (limb.role == Role::leg && limb.number + 1 >= leg_pairs) low += place, lows += 1;
-      if (limb.role == Role::arm || (limb.role == Role::leg && leg_pairs > 1 && limb.number == 0)) high += place, highs += 1;
+      if (limb.role == Role::arm || (limb.role == Role::leg && leg_pairs > 1 && limb.number == 0))
+        high += place, highs += 1;
     }
     return lows > 0 && highs > 0 ? high / highs - low / lows : glm::dvec3(0);
   }
@@ -185,7 +186,9 @@ struct SkeletonPair::Inside {
   std::string refusal;
   Inside(const JointSide& s, const JointSide& t) : source(s, memory), target(t, memory) {}
 
-  bool understood() const { return source.character && target.character && source.doubt.empty() && target.doubt.empty(); }
+  bool understood() const {
+    return source.character && target.character && source.doubt.empty() && target.doubt.empty();
+  }
   size_t matched() const {
     size_t out = 0;
     for (const Limb& b : target.limbs) out += partner(b) != nullptr;
@@ -345,10 +348,12 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
     const bool alike = limb.role == Role::arm ? a.upright == b.upright : a.upright && b.upright;
     const auto both = [&](size_t k) { return limb.nodes[k] >= 0 && by->nodes[k] >= 0; };
     if (both(1)) bones.push_back({index, alike, {by->nodes[0], by->nodes[1]}, {limb.nodes[0], limb.nodes[1]}});
-    if (both(2) && both(1)) bones.push_back({index, alike, {by->nodes[1], by->nodes[2]}, {limb.nodes[1], limb.nodes[2]}});
-    if (both(2) && !both(1)) bones.push_back({index, alike, {by->nodes[0], by->nodes[2]}, {limb.nodes[0], limb.nodes[2]}});
+    if (both(2) && both(1))
+      bones.push_back({index, alike, {by->nodes[1], by->nodes[2]}, {limb.nodes[1], limb.nodes[2]}});
+    if (both(2) && !both(1))
+      bones.push_back({index, alike, {by->nodes[0], by->nodes[2]}, {limb.nodes[0], limb.nodes[2]}});
   }
-  const auto way = [](const std::vector<glm::dmat4>& globals, const int (&ends)[2]) {
+  const auto way = [](const std::vector<glm::dmat4>& globals, const int(&ends)[2]) {
     return place_of(globals, ends[1]) - place_of(globals, ends[0]);
   };
   const double frames = static_cast<double>(std::max<size_t>(source.size(), 1));
@@ -360,7 +365,8 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
       if (!(glm::length(from) > 0) || !(glm::length(to) > 0) || !(glm::length(was) > 0)) continue;
       const double angle = angle_between(bone.alike ? across * from : wanted(from, was, way(b_rest, bone.b)), to);
       LimbFit& limb = out.limbs[bone.limb];
-      const bool two = std::count_if(bones.begin(), bones.end(), [&](const Bone& o) { return o.limb == bone.limb; }) > 1;
+      const bool two =
+          std::count_if(bones.begin(), bones.end(), [&](const Bone& o) { return o.limb == bone.limb; }) > 1;
       limb.mean += angle / frames / (two ? 2 : 1);
       limb.worst = std::max(limb.worst, angle);
     }

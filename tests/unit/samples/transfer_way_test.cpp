@@ -125,8 +125,8 @@ TEST(TransferWay, WhatTheTargetHoldsBesideItsJointsStays) {
   target.carried.extensions = R"({"VRMC_vrm":{"specVersion":"1.0"}})";
   target.carried.extras = R"({"made":"by hand"})";
   target.skins.push_back(target.skins.front());
-  hf_gltf::Node twin = *std::find_if(target.nodes.begin(), target.nodes.end(),
-                                     [](const hf_gltf::Node& node) { return node.mesh >= 0; });
+  hf_gltf::Node twin =
+      *std::find_if(target.nodes.begin(), target.nodes.end(), [](const hf_gltf::Node& node) { return node.mesh >= 0; });
   twin.skin = 1;
   twin.parent = -1;
   twin.children.clear();
@@ -178,20 +178,20 @@ TEST(TransferWay, TravelIsLeftOutOrGoesToTheRoot) {
   double scale = 0;
   const auto way = [&](const std::string& name, const std::string& option) {
     std::string said;
-    EXPECT_EQ(transfer(quoted(from) + " " + quoted(to) + " --clip walk --fps 12 -o " +
-                           quoted(folder() / (name + ".glb")) + " --json " + quoted(folder() / (name + ".json")) + option,
-                       said),
-              0)
+    EXPECT_EQ(
+        transfer(quoted(from) + " " + quoted(to) + " --clip walk --fps 12 -o " + quoted(folder() / (name + ".glb")) +
+                     " --json " + quoted(folder() / (name + ".json")) + option,
+                 said),
+        0)
         << said;
     scale = read_json(folder() / (name + ".json"))["scale"];
     const hf_gltf::Model made = hf_gltf::read_gltf(folder() / (name + ".glb"));
     return (middle(made, go.times[1]) - middle(made, 0)).z;
   };
-  for (const auto& [name, option, share] :
-       {std::tuple<const char*, const char*, double>{"travel_kept", "", 2},
-        {"travel_in_place", " --in-place", 0},
-        {"travel_root", " --root-motion", 2},
-        {"travel_stride", " --dials stride=0.5", 2}}) {
+  for (const auto& [name, option, share] : {std::tuple<const char*, const char*, double>{"travel_kept", "", 2},
+                                            {"travel_in_place", " --in-place", 0},
+                                            {"travel_root", " --root-motion", 2},
+                                            {"travel_stride", " --dials stride=0.5", 2}}) {
     const double gone = way(name, option);
     EXPECT_NEAR(gone, share * scale, 0.03) << name;  // the pose at the end is that of the start but for a hair
   }
