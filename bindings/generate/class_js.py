@@ -257,6 +257,8 @@ class Writer(Types):
             if kind == "info":
                 text = f"{js(name)}.toObject()"
                 found.append((js(name), f"{js(name)}.get('found') ? {text} : null" if named(self.structs[item["type"]].struct["fields"], "found") else text))
+            elif kind == "string":
+                found.append((js(name), "new TextDecoder().decode(block.subarray(0, -1))"))
             elif kind == "returned":
                 return ""
             elif kind == "arrays":

@@ -249,6 +249,8 @@ class Writer:
                 found.append((f"found['{name}']", "np.ndarray"))
             elif kind == "bytes":
                 found.append(("block.tobytes()", "bytes"))
+            elif kind == "string":
+                found.append(("block[:-1].tobytes().decode()", "str"))
             elif kind == "figure":
                 found.append((f"{safe(name)}.value", self.hint(item)))
             elif kind == "object":

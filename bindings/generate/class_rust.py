@@ -75,7 +75,7 @@ class Steps:
         if kind == "address":
             if rest[0] in self.fills:
                 return f"{rest[0]}_at"
-            return f"{safe(rest[0])}.as_mut_ptr()" + (".cast()" if rest[0] == "out" and self.twin or parameter["type"] == "void" else "")
+            return f"{safe(rest[0])}.as_mut_ptr()" + (".cast()" if rest[0] == "out" and self.twin or parameter["type"] in ("void", "char") else "")
         return {"self": "self.handle", "null": "std::ptr::null_mut()", "stride": "0"}.get(kind) or {
             "ref": "{borrow}{name}", "ref_if": "{borrow}{name}", "text": "c.text({name})?", "figure": "&mut {name}", "count": 'c.count("{raw}", 1)?',
             "info": "&mut {name}", "room": 'room.get("{raw}")', "grown": "room.at(&mut {name})", "literal": "{raw}",
@@ -267,6 +267,8 @@ class Writer:
     def options_name(self, struct):
         plain = re.sub("Desc$", "", camel(struct.name))
         figures = [f for f in struct.scalars if f["name"] not in self.ahead(struct)]
+        if any(plain == camel(h["name"]) for h, _ in self.groups):
+            return plain + "Options"
         return plain + ("Options" if (figures or not struct.given) and struct.name.endswith("_desc") and not self.is_inner(struct) else "")
 
     def fields_of(self, struct):
@@ -386,6 +388,8 @@ class Writer:
                 found.append((safe(name), f"Vec<{self.element(item)}>"))
             elif kind == "bytes":
                 found.append(("block", "Vec<u8>"))
+            elif kind == "string":
+                found.append(("String::from_utf8_lossy(block.strip_suffix(&[0]).unwrap_or(&block)).into_owned()", "String"))
             elif kind == "figure":
                 found.append((safe(name), TYPES[item["type"]]))
             elif kind == "info":

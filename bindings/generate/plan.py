@@ -108,7 +108,7 @@ class Method:
 
     def is_property(self):
         """A figure or a struct of figures, asked with nothing but the object."""
-        arrays = any(p["role"] in ("array", "bytes") for p in self.outputs) or any(
+        arrays = any(p["role"] in ("array", "bytes", "string") for p in self.outputs) or any(
             self.structs[p["type"]].filled for p in self.outputs if p["type"] in self.structs)
         return self.function["verb"].startswith("get_") and bool(self.own) and not self.inputs and not arrays and not self.capacity
 
