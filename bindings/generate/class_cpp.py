@@ -71,6 +71,8 @@ class Steps:
         if kind == "var":
             return f"{safe(rest[0])}.data()" if rest[0] in self.records else safe(rest[0])
         if kind == "address":
+            if parameter["type"] == "char":
+                return f"reinterpret_cast<char*>({safe(rest[0])}.data())"
             return f"{rest[0]}_at" if rest[0] in self.fills else "out" if rest[0] == "out" else f"{safe(rest[0])}.data()"
         if kind == "info":
             return safe(rest[0])
@@ -188,8 +190,7 @@ class Steps:
         return [f"{self.w.noun} raw = nullptr;", f"check({function}({given}));", end]
 
     def do_bytes(self, function, first, second):
-        kind = "char" if any(r.kind == "bytes" and r.item["type"] == "char" for r in self.plan.results) else "uint8_t"
-        return ["size_t size = 0;", f"check({self.called(function, first)});", f"std::vector<{kind}> block(size);", f"check({self.called(function, second)});"]
+        return ["size_t size = 0;", f"check({self.called(function, first)});", "std::vector<uint8_t> block(size);", f"check({self.called(function, second)});"]
 
     def do_grow(self, function, owner, values, tell, rooms, arrays, into):
         lines = ["uint32_t count = 0;"] if any(var == "count" for _, var, _ in tell) else []
@@ -325,7 +326,9 @@ class Writer(class_rust.Writer):
             if kind in ("array", "grown") and name != "out":
                 found.append((f"std::move({safe(name)})", f"std::vector<{item['type']}>"))
             elif kind == "bytes":
-                found.append(("std::string(block.begin(), block.end() - 1)", "std::string") if item["type"] == "char" else ("block", "std::vector<uint8_t>"))
+                found.append(("block", "std::vector<uint8_t>"))
+            elif kind == "string":
+                found.append(("std::string(block.begin(), block.end() - (block.empty() ? 0 : 1))", "std::string"))
             elif kind == "figure":
                 found.append((safe(name), item["type"]))
             elif kind == "info":
@@ -448,9 +451,19 @@ class Writer(class_rust.Writer):
             out.append(f"  std::vector<{f['type']}> {safe(f['name'])};" if f in item.filled else f"  {f['type']} {safe(f['name'])} = 0;")
         return out + ["};"]
 
+    def ordered(self):
+        """Classes behind those that they are made on: C++ reads from top to bottom."""
+        done, rest = [], list(self.groups)
+        while rest:
+            names = {h["name"] for h, _ in rest}
+            ready = next(g for g in rest if not any(p["type"] in names - {g[0]["name"]} for m in g[1] for p in m.parents if not p["optional"]))
+            done.append(ready)
+            rest.remove(ready)
+        return done
+
     def write(self):
         bodies, declared = [], []
-        for handle, methods in self.groups:
+        for handle, methods in self.ordered():
             body = self.class_of(handle, methods)
             bodies += body
             declared.append(f"class {camel(handle['name'])};")

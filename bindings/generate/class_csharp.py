@@ -314,8 +314,9 @@ class Writer:
                 kind = TYPES[item["type"]]
                 found.append((shown, kind + "[]", f'found.Take<{kind}>("{name}")'))
             elif kind == "bytes":
-                found.append((shown, "string", "System.Text.Encoding.UTF8.GetString(block, 0, block.Length - 1)") if item["type"] == "char" else (
-                    shown, "byte[]", "block"))
+                found.append((shown, "byte[]", "block"))
+            elif kind == "string":
+                found.append((shown, "string", "System.Text.Encoding.UTF8.GetString(block, 0, Math.Max(block.Length - 1, 0))"))
             elif kind == "figure":
                 found.append((shown, TYPES[item["type"]], lower(name)))
             elif kind == "object":

@@ -257,10 +257,10 @@ class Writer(Types):
             if kind == "info":
                 text = f"{js(name)}.toObject()"
                 found.append((js(name), f"{js(name)}.get('found') ? {text} : null" if named(self.structs[item["type"]].struct["fields"], "found") else text))
+            elif kind == "string":
+                found.append((js(name), "new TextDecoder().decode(block.subarray(0, -1))"))
             elif kind == "returned":
                 return ""
-            elif kind == "bytes" and item["type"] == "char":
-                found.append((js(name), "new TextDecoder().decode(block.subarray(0, -1))"))
             elif kind == "arrays":
                 figures = [f for f in item.struct["fields"] if f["direction"] == "out" and f["role"] in ("scalar", "flag", "enum")]
                 found.append((js(name), "{ ...found" + "".join(f", {js(f['name'])}: {js(name)}.get('{f['name']}')" for f in figures) + " }"))

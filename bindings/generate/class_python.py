@@ -248,7 +248,9 @@ class Writer:
             elif kind == "grown":
                 found.append((f"found['{name}']", "np.ndarray"))
             elif kind == "bytes":
-                found.append(("block.tobytes()[:-1].decode()", "str") if item["type"] == "char" else ("block.tobytes()", "bytes"))
+                found.append(("block.tobytes()", "bytes"))
+            elif kind == "string":
+                found.append(("block[:-1].tobytes().decode()", "str"))
             elif kind == "figure":
                 found.append((f"{safe(name)}.value", self.hint(item)))
             elif kind == "object":

@@ -267,8 +267,9 @@ class Writer:
     def options_name(self, struct):
         plain = re.sub("Desc$", "", camel(struct.name))
         figures = [f for f in struct.scalars if f["name"] not in self.ahead(struct)]
-        return plain + ("Options" if (figures or not struct.given or plain in {camel(h["name"]) for h in self.api["handles"]}) and struct.name.endswith(
-            "_desc") and not self.is_inner(struct) else "")
+        if any(plain == camel(h["name"]) for h, _ in self.groups):
+            return plain + "Options"
+        return plain + ("Options" if (figures or not struct.given) and struct.name.endswith("_desc") and not self.is_inner(struct) else "")
 
     def fields_of(self, struct):
         return [f for f, _ in struct.asked() if f["name"] not in self.ahead(struct)]
@@ -386,7 +387,9 @@ class Writer:
             elif kind == "grown":
                 found.append((safe(name), f"Vec<{self.element(item)}>"))
             elif kind == "bytes":
-                found.append(("String::from_utf8_lossy(&block[..block.len() - 1]).into_owned()", "String") if item["type"] == "char" else ("block", "Vec<u8>"))
+                found.append(("block", "Vec<u8>"))
+            elif kind == "string":
+                found.append(("String::from_utf8_lossy(block.strip_suffix(&[0]).unwrap_or(&block)).into_owned()", "String"))
             elif kind == "figure":
                 found.append((safe(name), TYPES[item["type"]]))
             elif kind == "info":

@@ -39,8 +39,8 @@ def role_of(api, item, struct=None):
         return "array" if item["pointer"] else "callback" if any(f["role"] == "callback" for f in inner["fields"]) else "struct"
     if inner:
         return "struct"
-    if item["type"] == "char" and item["pointer"]:  # text that the library writes ends in a zero
-        return "string" if item["const"] else "bytes"
+    if item["type"] == "char" and item["pointer"]:
+        return "string"
     if item["type"] == "void" and item["pointer"]:
         return "bytes"
     if item["pointer"]:
@@ -221,8 +221,8 @@ def derive(api):
         objects = set().union(*(kept.get(p["type"], set()) for p in function["parameters"]))
         function["object_counts"] = []
         for p in function["parameters"]:
-            for name in symbols(p["dims"]):
-                base, _, last = name.rpartition(".")
+            for name in sorted(symbols(p["dims"])):
+                _, _, last = name.rpartition(".")
                 if name not in known and last in objects:
                     function["object_counts"] += [last] if last not in function["object_counts"] else []
                 elif name not in known and name.split(".")[0] not in known:

@@ -170,7 +170,7 @@ def read_api(include):
     names = re.findall(r'#include "hf/(\w+\.h)"', (folder / "hf.h").read_text())
     api = {"constants": [], "enums": [], "handles": [], "structs": [], "functions": []}
     constants = {}
-    order = ["base.h", "surface.h", "solver.h", "skeleton.h"]
+    order = ["base.h", "surface.h", "solver.h"]
     for name in [n for n in order if n in names] + [n for n in names if n not in order]:
         parse_header(folder / name, api, constants)
     check(api)

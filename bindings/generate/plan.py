@@ -10,8 +10,8 @@ import comments
 from model import OBJECT_COUNTS, named, symbols
 
 # what a call is about comes first; the other ways to say it are named, as options are
-FIRST = {"hf_surface_desc": ("positions", "triangles"), "hf_skeleton_desc": ("names", "parents", "rest"), "hf_skin_desc": ("positions", "triangles", "joints", "weights"),
-         "hf_sites_desc": ("vertices", "values"), "hf_morph_desc": ("weight",),
+FIRST = {"hf_surface_desc": ("positions", "triangles"), "hf_skeleton_desc": ("names", "parents", "rest"),
+         "hf_skin_desc": ("positions", "triangles", "joints", "weights"), "hf_sites_desc": ("vertices", "values"), "hf_morph_desc": ("weight",),
          "hf_transfer_frame": ("source_positions",), "hf_gaps_desc": ("positions",), "hf_handles_desc": ("region_vertices",),
          "hf_pairs_desc": ("source_vertices", "target_vertices", "flags"), "hf_graph_desc": ("edges", "weights"), "hf_pins_desc": ("vertices",)}
 # functions that no class holds: the layers use them for errors and versions
@@ -109,7 +109,7 @@ class Method:
 
     def is_property(self):
         """A figure or a struct of figures, asked with nothing but the object."""
-        arrays = any(p["role"] in ("array", "bytes") for p in self.outputs) or any(
+        arrays = any(p["role"] in ("array", "bytes", "string") for p in self.outputs) or any(
             self.structs[p["type"]].filled for p in self.outputs if p["type"] in self.structs)
         return self.function["verb"].startswith("get_") and bool(self.own) and not self.inputs and not arrays and not self.capacity
 

@@ -6,7 +6,7 @@ plan(api, structs, sizes, method) gives a Plan. A language writes each step in i
              return), type (of a new one), fill (an array to fill), info (a struct to fill), request (whether an array is wanted)
   steps      (op, values): forget, known, struct, rows, desc, record, records, array, out, fill, point, scalar, info, call, make,
              bytes, grow, returns
-  results    Result: array, info, figure, arrays (a struct of arrays), object, bytes
+  results    Result: array, info, figure, arrays (a struct of arrays), object, bytes, string
 """
 
 import re
@@ -145,8 +145,8 @@ class Planner:
             self.results.append(Result("grown", name, p))
         elif p["role"] == "array":
             self.give_array(p, name)
-        elif p["role"] == "bytes":
-            self.results.append(Result("bytes", "block", p))
+        elif p["role"] in ("bytes", "string"):
+            self.results.append(Result("bytes" if p["role"] == "bytes" else "string", "block", p))
         else:
             name = self.free(name)
             self.do("scalar", var=name, item=p)
@@ -212,8 +212,8 @@ class Planner:
             self.do("make", made=made, function=m.name, values=self.ordered(lambda p: not (p["role"] == "handle" and p["pointer"])), kind=m.kind)
             if made == "made":
                 self.results.append(Result("object", "made", m.noun))
-        elif any(r.kind == "bytes" for r in self.results):
-            out = next(p for p in parameters if p["role"] == "bytes" and p["direction"] == "out")
+        elif any(r.kind in ("bytes", "string") for r in self.results):
+            out = next(p for p in parameters if p["role"] in ("bytes", "string") and p["direction"] == "out")
             self.values[m.capacity["counted_by"]] = ("figure", "size")
             self.values[m.capacity["name"]], self.values[out["name"]] = ("literal", "0"), ("null",)
             asked = self.ordered()

@@ -41,7 +41,7 @@ class Types:
             return f"{camel(item['type'])}[]" if named(self.api["structs"], item["type"]) else ARRAYS[KINDS[item["type"]]]
         if kind == "info":
             return camel(item["type"]) + (" | null" if named(self.structs[item["type"]].struct["fields"], "found") else "")
-        return {"bytes": "string" if kind == "bytes" and item["type"] == "char" else "Uint8Array", "object": camel(item) if kind == "object" else "", "figure": "number", "returned": "number", "arrays": camel(item.name) if kind == "arrays" else ""}[kind]
+        return {"bytes": "Uint8Array", "string": "string", "object": camel(item) if kind == "object" else "", "figure": "number", "returned": "number", "arrays": camel(item.name) if kind == "arrays" else ""}[kind]
 
     def declare(self, plan):
         m = plan.method

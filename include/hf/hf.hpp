@@ -23,7 +23,6 @@ namespace hf {
 class Progress;
 class Surface;
 class Solver;
-class Skeleton;
 class Geodesics;
 class Direction;
 class Pose;
@@ -31,6 +30,7 @@ class Quads;
 class Flow;
 class Region;
 class Detail;
+class Skeleton;
 class Retarget;
 class Transfer;
 class Weights;
@@ -223,44 +223,6 @@ struct Edit {
   // none, or the sites to add
   std::optional<Sites> add{};
   hf_edit_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
-};
-
-// The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.
-struct Skin {
-  // vertex_count x 3 numbers
-  std::vector<float> positions{};
-  // triangle_count x 3 numbers, or none with triangle_count 0
-  std::vector<uint32_t> triangles{};
-  // vertex_count x influence_count numbers
-  std::vector<uint32_t> joints{};
-  // vertex_count x influence_count numbers >= 0; a vertex whose weights are all 0 has no joint
-  std::vector<float> weights{};
-  hf_skin_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
-};
-
-// The joints of a character at rest. A joint transform is 10 numbers relative to the parent: translation x y z,
-// rotation x y z w, scale x y z.
-struct SkeletonOptions {
-  // joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
-  // children and rigid meshes alone; or none: the skin is given in the pose `rest`, and all joints bend it
-  std::vector<float> inverse_binds{};
-  // 3 numbers declared axis, any length, or none: find it
-  std::vector<float> up{};
-  // 3 numbers declared axis, any length, or none: find it
-  std::vector<float> forward{};
-  // joint_count numbers declared HF_ROLE_*, -1 for a joint without; or none
-  std::vector<int32_t> roles{};
-  // joint_count numbers HF_SIDE_* of joints with a declared role; or none: find the sides
-  std::vector<int32_t> sides{};
-  // travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or none
-  std::vector<float> travels{};
-  // none: there is none, and joints are judged by names and places alone
-  std::optional<Skin> skin{};
-  // none, or an object to poll and cancel through
-  const Progress* progress = nullptr;
-  hf_skeleton_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
-      const std::vector<std::string>& names, const std::vector<uint32_t>& parents,
-      const std::vector<float>& rest) const;
 };
 
 struct GeodesicsOptions {
@@ -492,6 +454,44 @@ struct RetargetOptions {
   // none, or an object to poll and cancel through
   const Progress* progress = nullptr;
   hf_retarget_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
+};
+
+// The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.
+struct Skin {
+  // vertex_count x 3 numbers
+  std::vector<float> positions{};
+  // triangle_count x 3 numbers, or none with triangle_count 0
+  std::vector<uint32_t> triangles{};
+  // vertex_count x influence_count numbers
+  std::vector<uint32_t> joints{};
+  // vertex_count x influence_count numbers >= 0; a vertex whose weights are all 0 has no joint
+  std::vector<float> weights{};
+  hf_skin_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
+};
+
+// The joints of a character at rest. A joint transform is 10 numbers relative to the parent: translation x y z,
+// rotation x y z w, scale x y z.
+struct SkeletonOptions {
+  // joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
+  // children and rigid meshes alone; or none: the skin is given in the pose `rest`, and all joints bend it
+  std::vector<float> inverse_binds{};
+  // 3 numbers declared axis, any length, or none: find it
+  std::vector<float> up{};
+  // 3 numbers declared axis, any length, or none: find it
+  std::vector<float> forward{};
+  // joint_count numbers declared HF_ROLE_*, -1 for a joint without; or none
+  std::vector<int32_t> roles{};
+  // joint_count numbers HF_SIDE_* of joints with a declared role; or none: find the sides
+  std::vector<int32_t> sides{};
+  // travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or none
+  std::vector<float> travels{};
+  // none: there is none, and joints are judged by names and places alone
+  std::optional<Skin> skin{};
+  // none, or an object to poll and cancel through
+  const Progress* progress = nullptr;
+  hf_skeleton_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
+      const std::vector<std::string>& names, const std::vector<uint32_t>& parents,
+      const std::vector<float>& rest) const;
 };
 
 // most pairs of a transfer
@@ -1715,138 +1715,6 @@ class Solver {
   Counts counts_;
 };
 
-// A skeleton at rest and the findings about it. Calls read the object, none changes it.
-class Skeleton {
- public:
-  // Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if feet
-  // shall stand on the ground. The object keeps a copy of everything.
-  //
-  // names: one line for each joint in UTF-8, or none: names then say nothing
-  // parents: joint_count numbers number of the parent, HF_NO_INDEX for a root
-  // rest: joint_count x 10 numbers joint transforms
-  // inverse_binds: joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
-  // names: it carries children and rigid meshes alone; or none: the skin is given in the pose `rest`, and all
-  // joints bend it
-  // up: 3 numbers declared axis, any length, or none: find it
-  // forward: 3 numbers declared axis, any length, or none: find it
-  // roles: joint_count numbers declared HF_ROLE_*, -1 for a joint without; or none
-  // sides: joint_count numbers HF_SIDE_* of joints with a declared role; or none: find the sides
-  // travels: travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or none
-  // skin: none: there is none, and joints are judged by names and places alone
-  // progress: an object to poll and cancel through
-  //
-  // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-  // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
-  Skeleton(const std::vector<std::string>& names, const std::vector<uint32_t>& parents, const std::vector<float>& rest,
-      const SkeletonOptions& options = {}) {
-    Call c;
-    const hf_skeleton_desc desc = options.fill(c, "", names, parents, rest);
-    hf_skeleton raw = nullptr;
-    check(hf_skeleton_create(&desc, &raw));
-    own(raw, c.counts({"joint_count"}));
-  }
-
-  // Writes the findings.
-  hf_skeleton_info info() const {
-    Call c(counts_);
-    auto info = make<hf_skeleton_info>();
-    check(hf_skeleton_get_info(get(), &info));
-    return info;
-  }
-
-  // Writes one entry for each joint.
-  std::vector<hf_joint_info> joints() const {
-    Call c(counts_);
-    uint32_t count = 0;
-    Room room({{"capacity", -1}});
-    std::vector<hf_joint_info> joints;
-    do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, joints, {"capacity"});
-      room.code = hf_skeleton_get_joints(get(), room.get("capacity"), room.at(joints), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
-    joints.resize(c.product({"capacity"}));
-    return joints;
-  }
-
-  // Writes the chains.
-  std::vector<hf_chain> chains() const {
-    Call c(counts_);
-    uint32_t count = 0;
-    Room room({{"capacity", -1}});
-    std::vector<hf_chain> chains;
-    do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, chains, {"capacity"});
-      room.code = hf_skeleton_get_chains(get(), room.get("capacity"), room.at(chains), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
-    chains.resize(c.product({"capacity"}));
-    return chains;
-  }
-
-  // Writes the joints of chain after chain.
-  std::vector<uint32_t> chain_joints() const {
-    Call c(counts_);
-    uint32_t count = 0;
-    Room room({{"capacity", -1}});
-    std::vector<uint32_t> joints;
-    do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, joints, {"capacity"});
-      room.code = hf_skeleton_get_chain_joints(get(), room.get("capacity"), room.at(joints), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
-    joints.resize(c.product({"capacity"}));
-    return joints;
-  }
-
-  // Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful.
-  std::string reasons() const {
-    Call c(counts_);
-    size_t size = 0;
-    check(hf_skeleton_get_reasons(get(), 0, nullptr, &size));
-    std::vector<char> block(size);
-    check(hf_skeleton_get_reasons(get(), block.size(), block.data(), &size));
-    return std::string(block.begin(), block.end() - 1);
-  }
-
-  // Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk. It
-  // is 0 for a clip that travels.
-  //
-  // poses: frame_count x joint_count x 10 numbers.
-  // seconds: between two frames, above 0.
-  //
-  // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
-  std::vector<double> ground_velocity(const std::vector<float>& poses, double seconds) const {
-    Call c(counts_);
-    const float* poses_ = c.array(poses, true, "poses", {"frame_count", "joint_count", "10"});
-    std::vector<double> velocity(c.product({"3"}));
-    check(hf_skeleton_get_ground_velocity(get(), c.count("frame_count", 1), poses_, seconds, velocity.data()));
-    return velocity;
-  }
-
-  // With the struct of C.
-  explicit Skeleton(const hf_skeleton_desc& desc) {
-    Call c;
-    c.known("joint_count", desc.joint_count);
-    hf_skeleton raw = nullptr;
-    check(hf_skeleton_create(&desc, &raw));
-    own(raw, c.counts({"joint_count"}));
-  }
-
-  uint32_t joint_count() const noexcept { return known(counts_, "joint_count"); }
-
-  hf_skeleton get() const noexcept { return handle_.get(); }
-  const Counts& known_counts() const noexcept { return counts_; }
-
- private:
-  void own(hf_skeleton raw, Counts counts) {
-    handle_ = Handle<hf_skeleton, hf_skeleton_destroy>(raw);
-    counts_ = std::move(counts);
-  }
-  Handle<hf_skeleton, hf_skeleton_destroy> handle_;
-  Counts counts_;
-};
-
 // Computes geodesic distances on one surface: the lengths of shortest paths along it.
 class Geodesics {
  public:
@@ -3028,6 +2896,138 @@ class Detail {
   Counts counts_;
 };
 
+// A skeleton at rest and the findings about it. Calls read the object, none changes it.
+class Skeleton {
+ public:
+  // Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk. It
+  // is 0 for a clip that travels.
+  //
+  // poses: frame_count x joint_count x 10 numbers.
+  // seconds: between two frames, above 0.
+  //
+  // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
+  std::vector<double> ground_velocity(const std::vector<float>& poses, double seconds) const {
+    Call c(counts_);
+    const float* poses_ = c.array(poses, true, "poses", {"frame_count", "joint_count", "10"});
+    std::vector<double> velocity(c.product({"3"}));
+    check(hf_skeleton_get_ground_velocity(get(), c.count("frame_count", 1), poses_, seconds, velocity.data()));
+    return velocity;
+  }
+
+  // Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if feet
+  // shall stand on the ground. The object keeps a copy of everything.
+  //
+  // names: one line for each joint in UTF-8, or none: names then say nothing
+  // parents: joint_count numbers number of the parent, HF_NO_INDEX for a root
+  // rest: joint_count x 10 numbers joint transforms
+  // inverse_binds: joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
+  // names: it carries children and rigid meshes alone; or none: the skin is given in the pose `rest`, and all
+  // joints bend it
+  // up: 3 numbers declared axis, any length, or none: find it
+  // forward: 3 numbers declared axis, any length, or none: find it
+  // roles: joint_count numbers declared HF_ROLE_*, -1 for a joint without; or none
+  // sides: joint_count numbers HF_SIDE_* of joints with a declared role; or none: find the sides
+  // travels: travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or none
+  // skin: none: there is none, and joints are judged by names and places alone
+  // progress: an object to poll and cancel through
+  //
+  // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+  // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+  Skeleton(const std::vector<std::string>& names, const std::vector<uint32_t>& parents, const std::vector<float>& rest,
+      const SkeletonOptions& options = {}) {
+    Call c;
+    const hf_skeleton_desc desc = options.fill(c, "", names, parents, rest);
+    hf_skeleton raw = nullptr;
+    check(hf_skeleton_create(&desc, &raw));
+    own(raw, c.counts({"joint_count"}));
+  }
+
+  // Writes the findings.
+  hf_skeleton_info info() const {
+    Call c(counts_);
+    auto info = make<hf_skeleton_info>();
+    check(hf_skeleton_get_info(get(), &info));
+    return info;
+  }
+
+  // Writes one entry for each joint.
+  std::vector<hf_joint_info> joints() const {
+    Call c(counts_);
+    uint32_t count = 0;
+    Room room({{"capacity", -1}});
+    std::vector<hf_joint_info> joints;
+    do {
+      room.begin(c, {{"capacity"}});
+      room.resize(c, joints, {"capacity"});
+      room.code = hf_skeleton_get_joints(get(), room.get("capacity"), room.at(joints), &count);
+    } while (!room.enough(c, {{"capacity", count}}));
+    joints.resize(c.product({"capacity"}));
+    return joints;
+  }
+
+  // Writes the chains.
+  std::vector<hf_chain> chains() const {
+    Call c(counts_);
+    uint32_t count = 0;
+    Room room({{"capacity", -1}});
+    std::vector<hf_chain> chains;
+    do {
+      room.begin(c, {{"capacity"}});
+      room.resize(c, chains, {"capacity"});
+      room.code = hf_skeleton_get_chains(get(), room.get("capacity"), room.at(chains), &count);
+    } while (!room.enough(c, {{"capacity", count}}));
+    chains.resize(c.product({"capacity"}));
+    return chains;
+  }
+
+  // Writes the joints of chain after chain.
+  std::vector<uint32_t> chain_joints() const {
+    Call c(counts_);
+    uint32_t count = 0;
+    Room room({{"capacity", -1}});
+    std::vector<uint32_t> joints;
+    do {
+      room.begin(c, {{"capacity"}});
+      room.resize(c, joints, {"capacity"});
+      room.code = hf_skeleton_get_chain_joints(get(), room.get("capacity"), room.at(joints), &count);
+    } while (!room.enough(c, {{"capacity", count}}));
+    joints.resize(c.product({"capacity"}));
+    return joints;
+  }
+
+  // Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful.
+  std::string reasons() const {
+    Call c(counts_);
+    size_t size = 0;
+    check(hf_skeleton_get_reasons(get(), 0, nullptr, &size));
+    std::vector<uint8_t> block(size);
+    check(hf_skeleton_get_reasons(get(), block.size(), reinterpret_cast<char*>(block.data()), &size));
+    return std::string(block.begin(), block.end() - (block.empty() ? 0 : 1));
+  }
+
+  // With the struct of C.
+  explicit Skeleton(const hf_skeleton_desc& desc) {
+    Call c;
+    c.known("joint_count", desc.joint_count);
+    hf_skeleton raw = nullptr;
+    check(hf_skeleton_create(&desc, &raw));
+    own(raw, c.counts({"joint_count"}));
+  }
+
+  uint32_t joint_count() const noexcept { return known(counts_, "joint_count"); }
+
+  hf_skeleton get() const noexcept { return handle_.get(); }
+  const Counts& known_counts() const noexcept { return counts_; }
+
+ private:
+  void own(hf_skeleton raw, Counts counts) {
+    handle_ = Handle<hf_skeleton, hf_skeleton_destroy>(raw);
+    counts_ = std::move(counts);
+  }
+  Handle<hf_skeleton, hf_skeleton_destroy> handle_;
+  Counts counts_;
+};
+
 // The motion of one skeleton on another.
 class Retarget {
  public:
@@ -3839,37 +3839,6 @@ inline hf_edit_desc Edit::fill([[maybe_unused]] Call& c, [[maybe_unused]] const 
   return desc;
 }
 
-inline hf_skin_desc Skin::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
-  auto desc = make<hf_skin_desc>();
-  desc.positions = c.array(positions, false, "positions", {prefix + "vertex_count", "3"});
-  desc.triangles = c.array(triangles, false, "triangles", {prefix + "triangle_count", "3"});
-  desc.joints = c.array(joints, false, "joints", {prefix + "vertex_count", prefix + "influence_count"});
-  desc.weights = c.array(weights, false, "weights", {prefix + "vertex_count", prefix + "influence_count"});
-  desc.vertex_count = c.count(prefix + "vertex_count", 0);
-  desc.triangle_count = c.count(prefix + "triangle_count", 0);
-  desc.influence_count = c.count(prefix + "influence_count", 0);
-  return desc;
-}
-
-inline hf_skeleton_desc SkeletonOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
-    const std::vector<std::string>& names, const std::vector<uint32_t>& parents, const std::vector<float>& rest) const {
-  auto desc = make<hf_skeleton_desc>();
-  desc.parents = c.array(parents, true, "parents", {prefix + "joint_count"});
-  desc.rest = c.array(rest, true, "rest", {prefix + "joint_count", "10"});
-  desc.inverse_binds = c.array(inverse_binds, false, "inverse_binds", {prefix + "joint_count", "16"});
-  desc.up = c.array(up, false, "up", {"3"});
-  desc.forward = c.array(forward, false, "forward", {"3"});
-  desc.roles = c.array(roles, false, "roles", {prefix + "joint_count"});
-  desc.sides = c.array(sides, false, "sides", {prefix + "joint_count"});
-  desc.travels = c.array(travels, false, "travels", {prefix + "travel_count", "3"});
-  desc.names = c.text(names);
-  desc.progress = progress ? progress->get() : nullptr;
-  if (skin) desc.skin = c.keep(skin->fill(c, "skin."));
-  desc.joint_count = c.count(prefix + "joint_count", 0);
-  desc.travel_count = c.count(prefix + "travel_count", 0);
-  return desc;
-}
-
 inline hf_geodesics_desc GeodesicsOptions::fill([[maybe_unused]] Call& c,
     [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_geodesics_desc>();
@@ -4033,6 +4002,37 @@ inline hf_retarget_desc RetargetOptions::fill([[maybe_unused]] Call& c,
   desc.target_rest = c.array(target_rest, false, "target_rest", {"target.joint_count", "10"});
   if (ground_velocity) std::copy(ground_velocity->begin(), ground_velocity->end(), desc.ground_velocity);
   desc.progress = progress ? progress->get() : nullptr;
+  return desc;
+}
+
+inline hf_skin_desc Skin::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
+  auto desc = make<hf_skin_desc>();
+  desc.positions = c.array(positions, false, "positions", {prefix + "vertex_count", "3"});
+  desc.triangles = c.array(triangles, false, "triangles", {prefix + "triangle_count", "3"});
+  desc.joints = c.array(joints, false, "joints", {prefix + "vertex_count", prefix + "influence_count"});
+  desc.weights = c.array(weights, false, "weights", {prefix + "vertex_count", prefix + "influence_count"});
+  desc.vertex_count = c.count(prefix + "vertex_count", 0);
+  desc.triangle_count = c.count(prefix + "triangle_count", 0);
+  desc.influence_count = c.count(prefix + "influence_count", 0);
+  return desc;
+}
+
+inline hf_skeleton_desc SkeletonOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
+    const std::vector<std::string>& names, const std::vector<uint32_t>& parents, const std::vector<float>& rest) const {
+  auto desc = make<hf_skeleton_desc>();
+  desc.parents = c.array(parents, true, "parents", {prefix + "joint_count"});
+  desc.rest = c.array(rest, true, "rest", {prefix + "joint_count", "10"});
+  desc.inverse_binds = c.array(inverse_binds, false, "inverse_binds", {prefix + "joint_count", "16"});
+  desc.up = c.array(up, false, "up", {"3"});
+  desc.forward = c.array(forward, false, "forward", {"3"});
+  desc.roles = c.array(roles, false, "roles", {prefix + "joint_count"});
+  desc.sides = c.array(sides, false, "sides", {prefix + "joint_count"});
+  desc.travels = c.array(travels, false, "travels", {prefix + "travel_count", "3"});
+  desc.names = c.text(names);
+  desc.progress = progress ? progress->get() : nullptr;
+  if (skin) desc.skin = c.keep(skin->fill(c, "skin."));
+  desc.joint_count = c.count(prefix + "joint_count", 0);
+  desc.travel_count = c.count(prefix + "travel_count", 0);
   return desc;
 }
 

@@ -23,6 +23,10 @@ HF_API hf_result hf_solver_get_mean(hf_solver solver, double* out_mean);
 /* Shifts sites by a vector for each. sites: uint32_t[site_count]. vectors: double[site_count][3] in the unit of the mesh.
  * Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_shift_sites(hf_solver solver, uint32_t site_count, const uint32_t* sites, const double* vectors);
+
+/* Writes the words of a solver. out_text: NULL, or char[capacity] in UTF-8. out_size: NULL, or receives the bytes with the zero.
+ * Thread safety: reads `solver`. Since 0.1. */
+HF_API hf_result hf_solver_get_words(hf_solver solver, size_t capacity, char* out_text, size_t* out_size);
 """
 
 
@@ -128,7 +132,7 @@ class OneDescription(unittest.TestCase):
     def test_what_a_comment_leaves_open_is_refused_by_name(self):
         cases = {"hf_solver_get_mean, out_mean: how many?": TOY.replace("out_mean: receives the mean. ", ""),
                  "hf_solver_shift_sites, vectors: how many?": TOY.replace("vectors: double[site_count][3] ", "vectors: "),
-                 "what is corner_count?": TOY.replace("double[site_count][3]", "double[corner_count][3]"),
+                 "what is angle_count?": TOY.replace("double[site_count][3]", "double[angle_count][3]"),
                  "its name starts with out_": TOY.replace("out_mean", "mean")}
         for number, (words, text) in enumerate(cases.items()):
             with self.subTest(words=words):
@@ -155,12 +159,18 @@ class Stub:
     def hf_solver_shift_sites(self, handle, count, sites, vectors):
         self.got = count, np.ctypeslib.as_array((ctypes.c_double * (3 * count)).from_address(vectors)).tolist()
         return 0
+    def hf_solver_get_words(self, handle, capacity, text, size):
+        size._obj.value = 4
+        if capacity:
+            ctypes.memmove(text, b"two\\0", 4)
+        return 0
 
 stub = Stub()
 _library.library = lambda: stub
 solver = hf.Solver.__new__(hf.Solver)
 solver._handle = 2
 assert solver.mean == 2.5
+assert solver.words() == "two", solver.words()
 assert hf.Solver.mean.__doc__.startswith("Writes the mean of the values of all sites."), hf.Solver.mean.__doc__
 assert "EmptyError" in hf.Solver.mean.__doc__
 solver.shift_sites([4, 5], [[1, 2, 3], [4, 5, 6]])
@@ -189,13 +199,17 @@ const stub = {
     if (name === 'hf_version_get') return 1000;
     if (name === 'hf_solver_get_mean') args[1].array[0] = 2.5;
     else if (name === 'hf_solver_shift_sites') got = [args[1], [...args[2].array], [...args[3].array]];
-    else if (name.includes('create')) args.at(-1).array[0] = handles++;
+    else if (name === 'hf_solver_get_words') {
+      args[3].array[0] = 4n;
+      args[2]?.array.set(new TextEncoder().encode('two\\0'));
+    } else if (name.includes('create')) args.at(-1).array[0] = handles++;
     return 0;
   },
 };
 const hf = makeApi(stub);
 const solver = new hf.Solver(new hf.Surface([0, 0, 0], [0, 0, 0]));
 assert.equal(solver.mean, 2.5);
+assert.equal(solver.words(), 'two');
 solver.shiftSites([4, 5], [1, 2, 3, 4, 5, 6]);
 assert.deepEqual(got, [2, [4, 5], [1, 2, 3, 4, 5, 6]]);
 assert.throws(() => solver.shiftSites([4, 5], [1, 2, 3, 4]), /vectors must hold 6 numbers, not 4/);
@@ -212,6 +226,11 @@ void hf_surface_destroy(void* surface) {}
 int32_t hf_create(void* surface, const void* desc, void** out) { *out = (void*)16; return 0; }
 void hf_solver_destroy(void* solver) {}
 int32_t hf_solver_get_mean(void* solver, double* out_mean) { *out_mean = 2.5; return 0; }
+int32_t hf_solver_get_words(void* solver, size_t capacity, char* out_text, size_t* out_size) {
+  *out_size = 4;
+  if (capacity) memcpy(out_text, "two", 4);
+  return 0;
+}
 int32_t hf_solver_shift_sites(void* solver, uint32_t count, const uint32_t* sites, const double* vectors) {
   const double wanted[] = {1, 2, 3, 4, 5, 6};
   return count == 2 && sites[1] == 5 && !memcmp(vectors, wanted, sizeof(wanted)) ? 0 : -1;
@@ -226,7 +245,7 @@ static class Toy
     static void Main()
     {
         var solver = new Solver(new Surface(new float[3], new uint[3]));
-        if (solver.Mean != 2.5) throw new Exception("the mean");
+        if (solver.Mean != 2.5 || solver.Words() != "two") throw new Exception("the mean, or the words");
         solver.ShiftSites(new uint[] { 4, 5 }, new double[] { 1, 2, 3, 4, 5, 6 });
         try { solver.ShiftSites(new uint[] { 4, 5 }, new double[] { 1, 2, 3, 4 }); }
         catch (HfException error)
@@ -243,7 +262,7 @@ CALL_RS = '''
 fn main() -> hf::Result<()> {
     let surface = hf::Surface::new(&[0f32; 3], &[0u32; 3], &hf::SurfaceOptions::default())?;
     let mut solver = hf::Solver::new(&surface, &hf::SolverOptions::default())?;
-    assert_eq!(solver.mean()?, 2.5);
+    assert_eq!((solver.mean()?, solver.words()?.as_str()), (2.5, "two"));
     solver.shift_sites(&[4, 5], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0])?;
     let refused = solver.shift_sites(&[4, 5], &[1.0, 2.0, 3.0, 4.0]).unwrap_err();
     assert_eq!(refused.message, "vectors must hold 6 entries, not 4");
@@ -258,7 +277,7 @@ CALL_CPP = '''
 int main() {
   const hf::Surface surface(std::vector<float>(3), std::vector<uint32_t>(3));
   hf::Solver solver(surface);
-  if (solver.mean() != 2.5) return 1;
+  if (solver.mean() != 2.5 || solver.words() != "two") return 1;
   solver.shift_sites({4, 5}, {1, 2, 3, 4, 5, 6});
   try {
     solver.shift_sites({4, 5}, {1, 2, 3, 4});

@@ -96,50 +96,6 @@ namespace Hf
         Rebase = Constants.HF_ROUTE_REBASE,
     }
 
-    /// <summary>What a joint or a chain is.</summary>
-    public enum Role
-    {
-        Other = Constants.HF_ROLE_OTHER,
-        Spine = Constants.HF_ROLE_SPINE,
-        Neck = Constants.HF_ROLE_NECK,
-        Head = Constants.HF_ROLE_HEAD,
-        Jaw = Constants.HF_ROLE_JAW,
-        Shoulder = Constants.HF_ROLE_SHOULDER,
-        Arm = Constants.HF_ROLE_ARM,
-        Hand = Constants.HF_ROLE_HAND,
-        Finger = Constants.HF_ROLE_FINGER,
-        Leg = Constants.HF_ROLE_LEG,
-        Foot = Constants.HF_ROLE_FOOT,
-        Toe = Constants.HF_ROLE_TOE,
-        Tail = Constants.HF_ROLE_TAIL,
-        Wing = Constants.HF_ROLE_WING,
-        Ear = Constants.HF_ROLE_EAR,
-        Eye = Constants.HF_ROLE_EYE,
-        Antenna = Constants.HF_ROLE_ANTENNA,
-        Fin = Constants.HF_ROLE_FIN,
-    }
-
-    /// <summary>The side of the character, not of the person who looks at it.</summary>
-    public enum BodySide
-    {
-        Middle = Constants.HF_SIDE_MIDDLE,
-        Left = Constants.HF_SIDE_LEFT,
-        Right = Constants.HF_SIDE_RIGHT,
-    }
-
-    /// <summary>How a joint serves the body.</summary>
-    public enum JointKind
-    {
-        /// <summary>it moves a part of the body</summary>
-        Body = Constants.HF_JOINT_KIND_BODY,
-        /// <summary>a control, a pole, a target or a root: it moves no part</summary>
-        Helper = Constants.HF_JOINT_KIND_HELPER,
-        /// <summary>it marks the tip of a chain</summary>
-        End = Constants.HF_JOINT_KIND_END,
-        /// <summary>it lies along a bone and takes a share of its turn</summary>
-        Twist = Constants.HF_JOINT_KIND_TWIST,
-    }
-
     /// <summary>Selects how levels divide a field into strips. N levels give N + 1 strips.</summary>
     public enum Levels
     {
@@ -286,6 +242,50 @@ namespace Hf
         Hips = Constants.HF_SCALE_HIPS,
         /// <summary>heights of bodies: one has no legs</summary>
         Height = Constants.HF_SCALE_HEIGHT,
+    }
+
+    /// <summary>What a joint or a chain is.</summary>
+    public enum Role
+    {
+        Other = Constants.HF_ROLE_OTHER,
+        Spine = Constants.HF_ROLE_SPINE,
+        Neck = Constants.HF_ROLE_NECK,
+        Head = Constants.HF_ROLE_HEAD,
+        Jaw = Constants.HF_ROLE_JAW,
+        Shoulder = Constants.HF_ROLE_SHOULDER,
+        Arm = Constants.HF_ROLE_ARM,
+        Hand = Constants.HF_ROLE_HAND,
+        Finger = Constants.HF_ROLE_FINGER,
+        Leg = Constants.HF_ROLE_LEG,
+        Foot = Constants.HF_ROLE_FOOT,
+        Toe = Constants.HF_ROLE_TOE,
+        Tail = Constants.HF_ROLE_TAIL,
+        Wing = Constants.HF_ROLE_WING,
+        Ear = Constants.HF_ROLE_EAR,
+        Eye = Constants.HF_ROLE_EYE,
+        Antenna = Constants.HF_ROLE_ANTENNA,
+        Fin = Constants.HF_ROLE_FIN,
+    }
+
+    /// <summary>The side of the character, not of the person who looks at it.</summary>
+    public enum BodySide
+    {
+        Middle = Constants.HF_SIDE_MIDDLE,
+        Left = Constants.HF_SIDE_LEFT,
+        Right = Constants.HF_SIDE_RIGHT,
+    }
+
+    /// <summary>How a joint serves the body.</summary>
+    public enum JointKind
+    {
+        /// <summary>it moves a part of the body</summary>
+        Body = Constants.HF_JOINT_KIND_BODY,
+        /// <summary>a control, a pole, a target or a root: it moves no part</summary>
+        Helper = Constants.HF_JOINT_KIND_HELPER,
+        /// <summary>it marks the tip of a chain</summary>
+        End = Constants.HF_JOINT_KIND_END,
+        /// <summary>it lies along a bone and takes a share of its turn</summary>
+        Twist = Constants.HF_JOINT_KIND_TWIST,
     }
 
     public enum TransferMode
@@ -881,129 +881,6 @@ namespace Hf
         }
     }
 
-    /// <summary>The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints, 0 where there
-    /// is no such part; those of legs are of the hindmost pair that stands.</summary>
-    public sealed unsafe class SkeletonInfo
-    {
-        public uint JointCount;
-        public uint ChainCount;
-        /// <summary>unit axes in the space of the joints</summary>
-        public double[] Up = new double[3];
-        public double[] Forward = new double[3];
-        /// <summary>up x forward</summary>
-        public double[] Left = new double[3];
-        /// <summary>a point on the ground in the plane of symmetry</summary>
-        public double[] Middle = new double[3];
-        public double UpConfidence;
-        public double ForwardConfidence;
-        public double LeftConfidence;
-        public double RoleConfidence;
-        /// <summary>along up, over the ground</summary>
-        public double Height;
-        /// <summary>hip to knee to foot, and the height of the foot</summary>
-        public double LegLength;
-        /// <summary>of the joint of the thigh, over the ground</summary>
-        public double HipHeight;
-        /// <summary>upper arm to hand</summary>
-        public double ArmLength;
-
-        internal SkeletonInfo(hf_skeleton_info* raw)
-        {
-            JointCount = raw->joint_count;
-            ChainCount = raw->chain_count;
-            for (int i = 0; i < 3; ++i) Up[i] = raw->up[i];
-            for (int i = 0; i < 3; ++i) Forward[i] = raw->forward[i];
-            for (int i = 0; i < 3; ++i) Left[i] = raw->left[i];
-            for (int i = 0; i < 3; ++i) Middle[i] = raw->middle[i];
-            UpConfidence = raw->up_confidence;
-            ForwardConfidence = raw->forward_confidence;
-            LeftConfidence = raw->left_confidence;
-            RoleConfidence = raw->role_confidence;
-            Height = raw->height;
-            LegLength = raw->leg_length;
-            HipHeight = raw->hip_height;
-            ArmLength = raw->arm_length;
-        }
-    }
-
-    /// <summary>What a joint was found to be.</summary>
-    public sealed unsafe class JointInfo
-    {
-        /// <summary>JointKind</summary>
-        public JointKind Kind;
-        /// <summary>Role; of a twist joint, the role of its bone</summary>
-        public Role Role;
-        /// <summary>Side</summary>
-        public BodySide Side;
-        /// <summary>number of its chain, uint.MaxValue: none</summary>
-        public uint Chain;
-        /// <summary>the joint that mirrors it, uint.MaxValue: none</summary>
-        public uint Mate;
-
-        internal JointInfo(hf_joint_info* raw)
-        {
-            Kind = (JointKind)raw->kind;
-            Role = (Role)raw->role;
-            Side = (BodySide)raw->side;
-            Chain = raw->chain;
-            Mate = raw->mate;
-        }
-
-        public JointInfo() { }
-
-        internal void Write(hf_joint_info* raw)
-        {
-            raw->kind = (int)Kind;
-            raw->role = (int)Role;
-            raw->side = (int)Side;
-            raw->chain = Chain;
-            raw->mate = Mate;
-        }
-    }
-
-    /// <summary>Joints of one role and side, from root to tip.</summary>
-    public sealed unsafe class Chain
-    {
-        /// <summary>Role</summary>
-        public Role Role;
-        /// <summary>Side</summary>
-        public BodySide Side;
-        /// <summary>counts the chains of one role and side: legs from the front, others as their joints come</summary>
-        public uint Number;
-        /// <summary>the chain it hangs on, uint.MaxValue: none</summary>
-        public uint Parent;
-        /// <summary>its first entry in Skeleton.ChainJoints</summary>
-        public uint First;
-        /// <summary>entries there, from root to tip</summary>
-        public uint JointCount;
-        /// <summary>along the joints, up to the first joint of the chain at its tip</summary>
-        public double Length;
-
-        internal Chain(hf_chain* raw)
-        {
-            Role = (Role)raw->role;
-            Side = (BodySide)raw->side;
-            Number = raw->number;
-            Parent = raw->parent;
-            First = raw->first;
-            JointCount = raw->joint_count;
-            Length = raw->length;
-        }
-
-        public Chain() { }
-
-        internal void Write(hf_chain* raw)
-        {
-            raw->role = (int)Role;
-            raw->side = (int)Side;
-            raw->number = Number;
-            raw->parent = Parent;
-            raw->first = First;
-            raw->joint_count = JointCount;
-            raw->length = Length;
-        }
-    }
-
     public sealed unsafe class CriticalPoint
     {
         /// <summary>as given, of welded copies the first</summary>
@@ -1410,8 +1287,8 @@ namespace Hf
     {
         /// <summary>Role</summary>
         public Role Role;
-        /// <summary>Side</summary>
-        public BodySide Side;
+        /// <summary>BodySide</summary>
+        public Side Side;
         public uint SourceJointCount;
         public uint TargetJointCount;
         public double MeanAngle;
@@ -1420,7 +1297,7 @@ namespace Hf
         internal ChainMatch(hf_chain_match* raw)
         {
             Role = (Role)raw->role;
-            Side = (BodySide)raw->side;
+            Side = (Side)raw->side;
             SourceJointCount = raw->source_joint_count;
             TargetJointCount = raw->target_joint_count;
             MeanAngle = raw->mean_angle;
@@ -1437,6 +1314,129 @@ namespace Hf
             raw->target_joint_count = TargetJointCount;
             raw->mean_angle = MeanAngle;
             raw->worst_angle = WorstAngle;
+        }
+    }
+
+    /// <summary>The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints, 0 where there
+    /// is no such part; those of legs are of the hindmost pair that stands.</summary>
+    public sealed unsafe class SkeletonInfo
+    {
+        public uint JointCount;
+        public uint ChainCount;
+        /// <summary>unit axes in the space of the joints</summary>
+        public double[] Up = new double[3];
+        public double[] Forward = new double[3];
+        /// <summary>up x forward</summary>
+        public double[] Left = new double[3];
+        /// <summary>a point on the ground in the plane of symmetry</summary>
+        public double[] Middle = new double[3];
+        public double UpConfidence;
+        public double ForwardConfidence;
+        public double LeftConfidence;
+        public double RoleConfidence;
+        /// <summary>along up, over the ground</summary>
+        public double Height;
+        /// <summary>hip to knee to foot, and the height of the foot</summary>
+        public double LegLength;
+        /// <summary>of the joint of the thigh, over the ground</summary>
+        public double HipHeight;
+        /// <summary>upper arm to hand</summary>
+        public double ArmLength;
+
+        internal SkeletonInfo(hf_skeleton_info* raw)
+        {
+            JointCount = raw->joint_count;
+            ChainCount = raw->chain_count;
+            for (int i = 0; i < 3; ++i) Up[i] = raw->up[i];
+            for (int i = 0; i < 3; ++i) Forward[i] = raw->forward[i];
+            for (int i = 0; i < 3; ++i) Left[i] = raw->left[i];
+            for (int i = 0; i < 3; ++i) Middle[i] = raw->middle[i];
+            UpConfidence = raw->up_confidence;
+            ForwardConfidence = raw->forward_confidence;
+            LeftConfidence = raw->left_confidence;
+            RoleConfidence = raw->role_confidence;
+            Height = raw->height;
+            LegLength = raw->leg_length;
+            HipHeight = raw->hip_height;
+            ArmLength = raw->arm_length;
+        }
+    }
+
+    /// <summary>What a joint was found to be.</summary>
+    public sealed unsafe class JointInfo
+    {
+        /// <summary>JointKind</summary>
+        public JointKind Kind;
+        /// <summary>Role; of a twist joint, the role of its bone</summary>
+        public Role Role;
+        /// <summary>BodySide</summary>
+        public Side Side;
+        /// <summary>number of its chain, uint.MaxValue: none</summary>
+        public uint Chain;
+        /// <summary>the joint that mirrors it, uint.MaxValue: none</summary>
+        public uint Mate;
+
+        internal JointInfo(hf_joint_info* raw)
+        {
+            Kind = (JointKind)raw->kind;
+            Role = (Role)raw->role;
+            Side = (Side)raw->side;
+            Chain = raw->chain;
+            Mate = raw->mate;
+        }
+
+        public JointInfo() { }
+
+        internal void Write(hf_joint_info* raw)
+        {
+            raw->kind = (int)Kind;
+            raw->role = (int)Role;
+            raw->side = (int)Side;
+            raw->chain = Chain;
+            raw->mate = Mate;
+        }
+    }
+
+    /// <summary>Joints of one role and side, from root to tip.</summary>
+    public sealed unsafe class Chain
+    {
+        /// <summary>Role</summary>
+        public Role Role;
+        /// <summary>BodySide</summary>
+        public Side Side;
+        /// <summary>counts the chains of one role and side: legs from the front, others as their joints come</summary>
+        public uint Number;
+        /// <summary>the chain it hangs on, uint.MaxValue: none</summary>
+        public uint Parent;
+        /// <summary>its first entry in Skeleton.ChainJoints</summary>
+        public uint First;
+        /// <summary>entries there, from root to tip</summary>
+        public uint JointCount;
+        /// <summary>along the joints, up to the first joint of the chain at its tip</summary>
+        public double Length;
+
+        internal Chain(hf_chain* raw)
+        {
+            Role = (Role)raw->role;
+            Side = (Side)raw->side;
+            Number = raw->number;
+            Parent = raw->parent;
+            First = raw->first;
+            JointCount = raw->joint_count;
+            Length = raw->length;
+        }
+
+        public Chain() { }
+
+        internal void Write(hf_chain* raw)
+        {
+            raw->role = (int)Role;
+            raw->side = (int)Side;
+            raw->number = Number;
+            raw->parent = Parent;
+            raw->first = First;
+            raw->joint_count = JointCount;
+            raw->length = Length;
         }
     }
 
@@ -1924,6 +1924,50 @@ namespace Hf
         }
     }
 
+    /// <summary>Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are
+    /// the region, and any single vertex that these surround but for one edge. The rim is the vertices next to
+    /// them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along edges the
+    /// rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a
+    /// vertex at most 8 times.</summary>
+    public sealed unsafe class CurveDesc
+    {
+        /// <summary>pointCount numbers vertices as given, or null</summary>
+        public uint[] Vertices;
+        /// <summary>pointCount numbers triangles (or faces of three corners) as given, or null</summary>
+        public uint[] Triangles;
+        /// <summary>pointCount x 3 numbers with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1
+        /// within 1e-6</summary>
+        public double[] Barycentrics;
+        /// <summary>pointCount x 3 numbers three vertices of one face, as Hit has them, or null</summary>
+        public uint[] Corners;
+        /// <summary>BodySide</summary>
+        public Side Side;
+        /// <summary>with Side.Seed</summary>
+        public uint SeedVertex;
+        /// <summary>CurveKind</summary>
+        public CurveKind Kind;
+
+        public static implicit operator CurveDesc(uint[] vertices)
+        {
+            return vertices == null ? null : new CurveDesc { Vertices = vertices };
+        }
+
+        internal IntPtr Fill(Call c, string prefix)
+        {
+            var desc = (hf_curve_desc*)c.New(sizeof(hf_curve_desc));
+            desc->struct_size = (uint)sizeof(hf_curve_desc);
+            desc->side = (int)Side;
+            desc->seed_vertex = SeedVertex;
+            desc->kind = (int)Kind;
+            desc->vertices = (IntPtr)c.Array(Vertices, "vertices", prefix + "point_count");
+            desc->triangles = (IntPtr)c.Array(Triangles, "triangles", prefix + "point_count");
+            desc->barycentrics = (IntPtr)c.Array(Barycentrics, "barycentrics", prefix + "point_count", "3");
+            desc->corners = (IntPtr)c.Array(Corners, "corners", prefix + "point_count", "3");
+            desc->point_count = (uint)c.Count(prefix + "point_count", 0);
+            return (IntPtr)desc;
+        }
+    }
+
     /// <summary>The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.</summary>
     public sealed unsafe class SkinDesc
     {
@@ -1952,50 +1996,6 @@ namespace Hf
             desc->vertex_count = (uint)c.Count(prefix + "vertex_count", 0);
             desc->triangle_count = (uint)c.Count(prefix + "triangle_count", 0);
             desc->influence_count = (uint)c.Count(prefix + "influence_count", 0);
-            return (IntPtr)desc;
-        }
-    }
-
-    /// <summary>Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are
-    /// the region, and any single vertex that these surround but for one edge. The rim is the vertices next to
-    /// them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along edges the
-    /// rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a
-    /// vertex at most 8 times.</summary>
-    public sealed unsafe class CurveDesc
-    {
-        /// <summary>pointCount numbers vertices as given, or null</summary>
-        public uint[] Vertices;
-        /// <summary>pointCount numbers triangles (or faces of three corners) as given, or null</summary>
-        public uint[] Triangles;
-        /// <summary>pointCount x 3 numbers with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1
-        /// within 1e-6</summary>
-        public double[] Barycentrics;
-        /// <summary>pointCount x 3 numbers three vertices of one face, as Hit has them, or null</summary>
-        public uint[] Corners;
-        /// <summary>Side</summary>
-        public BodySide Side;
-        /// <summary>with Side.Seed</summary>
-        public uint SeedVertex;
-        /// <summary>CurveKind</summary>
-        public CurveKind Kind;
-
-        public static implicit operator CurveDesc(uint[] vertices)
-        {
-            return vertices == null ? null : new CurveDesc { Vertices = vertices };
-        }
-
-        internal IntPtr Fill(Call c, string prefix)
-        {
-            var desc = (hf_curve_desc*)c.New(sizeof(hf_curve_desc));
-            desc->struct_size = (uint)sizeof(hf_curve_desc);
-            desc->side = (int)Side;
-            desc->seed_vertex = SeedVertex;
-            desc->kind = (int)Kind;
-            desc->vertices = (IntPtr)c.Array(Vertices, "vertices", prefix + "point_count");
-            desc->triangles = (IntPtr)c.Array(Triangles, "triangles", prefix + "point_count");
-            desc->barycentrics = (IntPtr)c.Array(Barycentrics, "barycentrics", prefix + "point_count", "3");
-            desc->corners = (IntPtr)c.Array(Corners, "corners", prefix + "point_count", "3");
-            desc->point_count = (uint)c.Count(prefix + "point_count", 0);
             return (IntPtr)desc;
         }
     }
@@ -3461,196 +3461,6 @@ namespace Hf
 
         /// <summary>Vertices of the surface, as given.</summary>
         public int VertexCount { get { return Known("vertex_count"); } }
-    }
-
-    /// <summary>A skeleton at rest and the findings about it. Calls read the object, none changes it.
-    ///
-    /// Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it
-    /// if feet shall stand on the ground. The object keeps a copy of everything.
-    ///
-    /// names: one line for each joint in UTF-8, or null: names then say nothing
-    /// parents: jointCount numbers number of the parent, uint.MaxValue for a root
-    /// rest: jointCount x 10 numbers joint transforms
-    /// inverseBinds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no
-    ///     skin names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`,
-    ///     and all joints bend it
-    /// up: 3 numbers declared axis, any length, or null: find it
-    /// forward: 3 numbers declared axis, any length, or null: find it
-    /// roles: jointCount numbers declared Role, -1 for a joint without; or null
-    /// sides: jointCount numbers Side of joints with a declared role; or null: find the sides
-    /// travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells forward;
-    ///     or null
-    /// skin: null: there is none, and joints are judged by names and places alone
-    /// progress: an object to poll and cancel through</summary>
-    public sealed unsafe class Skeleton : HfObject
-    {
-        /// <summary>Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give
-        /// it if feet shall stand on the ground. The object keeps a copy of everything.
-        ///
-        /// names: one line for each joint in UTF-8, or null: names then say nothing
-        /// parents: jointCount numbers number of the parent, uint.MaxValue for a root
-        /// rest: jointCount x 10 numbers joint transforms
-        /// inverseBinds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no
-        ///     skin names: it carries children and rigid meshes alone; or null: the skin is given in the pose
-        ///     `rest`, and all joints bend it
-        /// up: 3 numbers declared axis, any length, or null: find it
-        /// forward: 3 numbers declared axis, any length, or null: find it
-        /// roles: jointCount numbers declared Role, -1 for a joint without; or null
-        /// sides: jointCount numbers Side of joints with a declared role; or null: find the sides
-        /// travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells
-        ///     forward; or null
-        /// skin: null: there is none, and joints are judged by names and places alone
-        /// progress: an object to poll and cancel through
-        ///
-        /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-        /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
-        public Skeleton(string[] names = null, uint[] parents = null, float[] rest = null, float[] inverseBinds = null,
-                float[] up = null, float[] forward = null, int[] roles = null, int[] sides = null,
-                float[] travels = null, SkinDesc skin = null, Progress progress = null)
-        {
-            using (var c = new Call(null))
-            {
-                var descStruct = new hf_skeleton_desc { struct_size = (uint)sizeof(hf_skeleton_desc) };
-                hf_skeleton_desc* desc = &descStruct;
-                desc->parents = (IntPtr)c.Array(parents, "parents", "joint_count");
-                desc->rest = (IntPtr)c.Array(rest, "rest", "joint_count", "10");
-                desc->inverse_binds = (IntPtr)c.Array(inverseBinds, "inverseBinds", "joint_count", "16");
-                desc->up = (IntPtr)c.Array(up, "up", "3");
-                desc->forward = (IntPtr)c.Array(forward, "forward", "3");
-                desc->roles = (IntPtr)c.Array(roles, "roles", "joint_count");
-                desc->sides = (IntPtr)c.Array(sides, "sides", "joint_count");
-                desc->travels = (IntPtr)c.Array(travels, "travels", "travel_count", "3");
-                desc->names = (IntPtr)c.Text(names);
-                desc->progress = c.Handle(progress);
-                if (skin != null) desc->skin = skin.Fill(c, "skin.");
-                desc->joint_count = (uint)c.Count("joint_count", 0);
-                desc->travel_count = (uint)c.Count("travel_count", 0);
-                var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_skeleton_create(desc, raw)));
-                Own(*raw, Functions.hf_skeleton_destroy, c, "joint_count");
-            }
-        }
-
-        /// <summary>Writes the findings.</summary>
-        public SkeletonInfo Info
-        {
-            get
-            {
-                using (var c = new Call(this))
-                {
-                    var infoStruct = new hf_skeleton_info { struct_size = (uint)sizeof(hf_skeleton_info) };
-                    hf_skeleton_info* info = &infoStruct;
-                    HfException.Check(Functions.hf_skeleton_get_info(RawHandle, info));
-                    return new SkeletonInfo(info);
-                }
-            }
-        }
-
-        /// <summary>Writes one entry for each joint.</summary>
-        public JointInfo[] Joints()
-        {
-            using (var c = new Call(this))
-            {
-                uint count = 0;
-                var found = new Growth(c, this, "hf_skeleton_get_joints");
-                found.Room("capacity", null);
-                found.Rows("joints", sizeof(hf_joint_info), "capacity");
-                do
-                {
-                        found.Begin();
-                        found.Result = Functions.hf_skeleton_get_joints(RawHandle, (uint)found["capacity"],
-                            found.Place("joints"), &count);
-                        found.Told("capacity", count);
-                }
-                while (found.Again());
-                var joints = new JointInfo[found.Length("joints")];
-                for (int i = 0; i < joints.Length; ++i)
-                    joints[i] = new JointInfo((hf_joint_info*)found.Place("joints") + i);
-                return joints;
-            }
-        }
-
-        /// <summary>Writes the chains.</summary>
-        public Chain[] Chains()
-        {
-            using (var c = new Call(this))
-            {
-                uint count = 0;
-                var found = new Growth(c, this, "hf_skeleton_get_chains");
-                found.Room("capacity", null);
-                found.Rows("chains", sizeof(hf_chain), "capacity");
-                do
-                {
-                        found.Begin();
-                        found.Result = Functions.hf_skeleton_get_chains(RawHandle, (uint)found["capacity"],
-                            found.Place("chains"), &count);
-                        found.Told("capacity", count);
-                }
-                while (found.Again());
-                var chains = new Chain[found.Length("chains")];
-                for (int i = 0; i < chains.Length; ++i)
-                    chains[i] = new Chain((hf_chain*)found.Place("chains") + i);
-                return chains;
-            }
-        }
-
-        /// <summary>Writes the joints of chain after chain.</summary>
-        public uint[] ChainJoints()
-        {
-            using (var c = new Call(this))
-            {
-                uint count = 0;
-                var found = new Growth(c, this, "hf_skeleton_get_chain_joints");
-                found.Room("capacity", null);
-                found.Array<uint>("joints", "capacity");
-                do
-                {
-                        found.Begin();
-                        found.Result = Functions.hf_skeleton_get_chain_joints(RawHandle, (uint)found["capacity"],
-                            found.Place("joints"), &count);
-                        found.Told("capacity", count);
-                }
-                while (found.Again());
-                return found.Take<uint>("joints");
-            }
-        }
-
-        /// <summary>Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful.</summary>
-        public string Reasons()
-        {
-            using (var c = new Call(this))
-            {
-                UIntPtr size = UIntPtr.Zero;
-                HfException.Check(Functions.hf_skeleton_get_reasons(RawHandle, (UIntPtr)0, null, &size));
-                var block = new byte[(int)size];
-                HfException.Check(Functions.hf_skeleton_get_reasons(RawHandle, (UIntPtr)block.Length,
-                    (void*)c.Pin(block), &size));
-                return System.Text.Encoding.UTF8.GetString(block, 0, block.Length - 1);
-            }
-        }
-
-        /// <summary>Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a
-        /// walk. It is 0 for a clip that travels.
-        ///
-        /// poses: frameCount x jointCount x 10 numbers.
-        /// seconds: between two frames, above 0.
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.</summary>
-        public double[] GroundVelocity(float[] poses, double seconds)
-        {
-            using (var c = new Call(this))
-            {
-                void* poses_ = c.Array(poses, "poses", "frame_count", "joint_count", "10");
-                var velocity = new double[c.Product("3")];
-                var velocityPlace = (double*)c.Pin(velocity);
-                HfException.Check(Functions.hf_skeleton_get_ground_velocity(RawHandle, (uint)c.Count("frame_count", 1),
-                    poses_, seconds, velocityPlace));
-                return velocity;
-            }
-        }
-
-        /// <summary>As it was made with.</summary>
-        public int JointCount { get { return Known("joint_count"); } }
     }
 
     /// <summary>Computes geodesic distances on one surface: the lengths of shortest paths along it.
@@ -5640,6 +5450,196 @@ namespace Hf
         }
 
         internal override Recorded State() { return Clone(); }
+
+        /// <summary>As it was made with.</summary>
+        public int JointCount { get { return Known("joint_count"); } }
+    }
+
+    /// <summary>A skeleton at rest and the findings about it. Calls read the object, none changes it.
+    ///
+    /// Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it
+    /// if feet shall stand on the ground. The object keeps a copy of everything.
+    ///
+    /// names: one line for each joint in UTF-8, or null: names then say nothing
+    /// parents: jointCount numbers number of the parent, uint.MaxValue for a root
+    /// rest: jointCount x 10 numbers joint transforms
+    /// inverseBinds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no
+    ///     skin names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`,
+    ///     and all joints bend it
+    /// up: 3 numbers declared axis, any length, or null: find it
+    /// forward: 3 numbers declared axis, any length, or null: find it
+    /// roles: jointCount numbers declared Role, -1 for a joint without; or null
+    /// sides: jointCount numbers BodySide of joints with a declared role; or null: find the sides
+    /// travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells forward;
+    ///     or null
+    /// skin: null: there is none, and joints are judged by names and places alone
+    /// progress: an object to poll and cancel through</summary>
+    public sealed unsafe class Skeleton : HfObject
+    {
+        /// <summary>Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a
+        /// walk. It is 0 for a clip that travels.
+        ///
+        /// poses: frameCount x jointCount x 10 numbers.
+        /// seconds: between two frames, above 0.
+        ///
+        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.</summary>
+        public double[] GroundVelocity(float[] poses, double seconds)
+        {
+            using (var c = new Call(this))
+            {
+                void* poses_ = c.Array(poses, "poses", "frame_count", "joint_count", "10");
+                var velocity = new double[c.Product("3")];
+                var velocityPlace = (double*)c.Pin(velocity);
+                HfException.Check(Functions.hf_skeleton_get_ground_velocity(RawHandle, (uint)c.Count("frame_count", 1),
+                    poses_, seconds, velocityPlace));
+                return velocity;
+            }
+        }
+
+        /// <summary>Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give
+        /// it if feet shall stand on the ground. The object keeps a copy of everything.
+        ///
+        /// names: one line for each joint in UTF-8, or null: names then say nothing
+        /// parents: jointCount numbers number of the parent, uint.MaxValue for a root
+        /// rest: jointCount x 10 numbers joint transforms
+        /// inverseBinds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no
+        ///     skin names: it carries children and rigid meshes alone; or null: the skin is given in the pose
+        ///     `rest`, and all joints bend it
+        /// up: 3 numbers declared axis, any length, or null: find it
+        /// forward: 3 numbers declared axis, any length, or null: find it
+        /// roles: jointCount numbers declared Role, -1 for a joint without; or null
+        /// sides: jointCount numbers BodySide of joints with a declared role; or null: find the sides
+        /// travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells
+        ///     forward; or null
+        /// skin: null: there is none, and joints are judged by names and places alone
+        /// progress: an object to poll and cancel through
+        ///
+        /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+        /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        public Skeleton(string[] names = null, uint[] parents = null, float[] rest = null, float[] inverseBinds = null,
+                float[] up = null, float[] forward = null, int[] roles = null, int[] sides = null,
+                float[] travels = null, SkinDesc skin = null, Progress progress = null)
+        {
+            using (var c = new Call(null))
+            {
+                var descStruct = new hf_skeleton_desc { struct_size = (uint)sizeof(hf_skeleton_desc) };
+                hf_skeleton_desc* desc = &descStruct;
+                desc->parents = (IntPtr)c.Array(parents, "parents", "joint_count");
+                desc->rest = (IntPtr)c.Array(rest, "rest", "joint_count", "10");
+                desc->inverse_binds = (IntPtr)c.Array(inverseBinds, "inverseBinds", "joint_count", "16");
+                desc->up = (IntPtr)c.Array(up, "up", "3");
+                desc->forward = (IntPtr)c.Array(forward, "forward", "3");
+                desc->roles = (IntPtr)c.Array(roles, "roles", "joint_count");
+                desc->sides = (IntPtr)c.Array(sides, "sides", "joint_count");
+                desc->travels = (IntPtr)c.Array(travels, "travels", "travel_count", "3");
+                desc->names = (IntPtr)c.Text(names);
+                desc->progress = c.Handle(progress);
+                if (skin != null) desc->skin = skin.Fill(c, "skin.");
+                desc->joint_count = (uint)c.Count("joint_count", 0);
+                desc->travel_count = (uint)c.Count("travel_count", 0);
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Call.Late(() => Functions.hf_skeleton_create(desc, raw)));
+                Own(*raw, Functions.hf_skeleton_destroy, c, "joint_count");
+            }
+        }
+
+        /// <summary>Writes the findings.</summary>
+        public SkeletonInfo Info
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var infoStruct = new hf_skeleton_info { struct_size = (uint)sizeof(hf_skeleton_info) };
+                    hf_skeleton_info* info = &infoStruct;
+                    HfException.Check(Functions.hf_skeleton_get_info(RawHandle, info));
+                    return new SkeletonInfo(info);
+                }
+            }
+        }
+
+        /// <summary>Writes one entry for each joint.</summary>
+        public JointInfo[] Joints()
+        {
+            using (var c = new Call(this))
+            {
+                uint count = 0;
+                var found = new Growth(c, this, "hf_skeleton_get_joints");
+                found.Room("capacity", null);
+                found.Rows("joints", sizeof(hf_joint_info), "capacity");
+                do
+                {
+                        found.Begin();
+                        found.Result = Functions.hf_skeleton_get_joints(RawHandle, (uint)found["capacity"],
+                            found.Place("joints"), &count);
+                        found.Told("capacity", count);
+                }
+                while (found.Again());
+                var joints = new JointInfo[found.Length("joints")];
+                for (int i = 0; i < joints.Length; ++i)
+                    joints[i] = new JointInfo((hf_joint_info*)found.Place("joints") + i);
+                return joints;
+            }
+        }
+
+        /// <summary>Writes the chains.</summary>
+        public Chain[] Chains()
+        {
+            using (var c = new Call(this))
+            {
+                uint count = 0;
+                var found = new Growth(c, this, "hf_skeleton_get_chains");
+                found.Room("capacity", null);
+                found.Rows("chains", sizeof(hf_chain), "capacity");
+                do
+                {
+                        found.Begin();
+                        found.Result = Functions.hf_skeleton_get_chains(RawHandle, (uint)found["capacity"],
+                            found.Place("chains"), &count);
+                        found.Told("capacity", count);
+                }
+                while (found.Again());
+                var chains = new Chain[found.Length("chains")];
+                for (int i = 0; i < chains.Length; ++i)
+                    chains[i] = new Chain((hf_chain*)found.Place("chains") + i);
+                return chains;
+            }
+        }
+
+        /// <summary>Writes the joints of chain after chain.</summary>
+        public uint[] ChainJoints()
+        {
+            using (var c = new Call(this))
+            {
+                uint count = 0;
+                var found = new Growth(c, this, "hf_skeleton_get_chain_joints");
+                found.Room("capacity", null);
+                found.Array<uint>("joints", "capacity");
+                do
+                {
+                        found.Begin();
+                        found.Result = Functions.hf_skeleton_get_chain_joints(RawHandle, (uint)found["capacity"],
+                            found.Place("joints"), &count);
+                        found.Told("capacity", count);
+                }
+                while (found.Again());
+                return found.Take<uint>("joints");
+            }
+        }
+
+        /// <summary>Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful.</summary>
+        public string Reasons()
+        {
+            using (var c = new Call(this))
+            {
+                UIntPtr size = UIntPtr.Zero;
+                HfException.Check(Functions.hf_skeleton_get_reasons(RawHandle, (UIntPtr)0, null, &size));
+                var block = new byte[(int)size];
+                HfException.Check(Functions.hf_skeleton_get_reasons(RawHandle, (UIntPtr)block.Length,
+                    (void*)c.Pin(block), &size));
+                return System.Text.Encoding.UTF8.GetString(block, 0, Math.Max(block.Length - 1, 0));
+            }
+        }
 
         /// <summary>As it was made with.</summary>
         public int JointCount { get { return Known("joint_count"); } }

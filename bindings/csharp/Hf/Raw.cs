@@ -58,31 +58,6 @@ namespace Hf.Native
         public const int HF_ROUTE_DENSE = 1;
         public const int HF_ROUTE_FRESH = 2;
         public const int HF_ROUTE_REBASE = 3;
-        public const int HF_ROLE_OTHER = 0;
-        public const int HF_ROLE_SPINE = 1;
-        public const int HF_ROLE_NECK = 2;
-        public const int HF_ROLE_HEAD = 3;
-        public const int HF_ROLE_JAW = 4;
-        public const int HF_ROLE_SHOULDER = 5;
-        public const int HF_ROLE_ARM = 6;
-        public const int HF_ROLE_HAND = 7;
-        public const int HF_ROLE_FINGER = 8;
-        public const int HF_ROLE_LEG = 9;
-        public const int HF_ROLE_FOOT = 10;
-        public const int HF_ROLE_TOE = 11;
-        public const int HF_ROLE_TAIL = 12;
-        public const int HF_ROLE_WING = 13;
-        public const int HF_ROLE_EAR = 14;
-        public const int HF_ROLE_EYE = 15;
-        public const int HF_ROLE_ANTENNA = 16;
-        public const int HF_ROLE_FIN = 17;
-        public const int HF_SIDE_MIDDLE = 0;
-        public const int HF_SIDE_LEFT = 1;
-        public const int HF_SIDE_RIGHT = 2;
-        public const int HF_JOINT_KIND_BODY = 0;
-        public const int HF_JOINT_KIND_HELPER = 1;
-        public const int HF_JOINT_KIND_END = 2;
-        public const int HF_JOINT_KIND_TWIST = 3;
         public const int HF_LEVELS_VALUE = 0;
         public const int HF_LEVELS_AREA = 1;
         public const int HF_LEVELS_LENGTH = 2;
@@ -127,6 +102,31 @@ namespace Hf.Native
         public const int HF_SCALE_LEGS = 1;
         public const int HF_SCALE_HIPS = 2;
         public const int HF_SCALE_HEIGHT = 3;
+        public const int HF_ROLE_OTHER = 0;
+        public const int HF_ROLE_SPINE = 1;
+        public const int HF_ROLE_NECK = 2;
+        public const int HF_ROLE_HEAD = 3;
+        public const int HF_ROLE_JAW = 4;
+        public const int HF_ROLE_SHOULDER = 5;
+        public const int HF_ROLE_ARM = 6;
+        public const int HF_ROLE_HAND = 7;
+        public const int HF_ROLE_FINGER = 8;
+        public const int HF_ROLE_LEG = 9;
+        public const int HF_ROLE_FOOT = 10;
+        public const int HF_ROLE_TOE = 11;
+        public const int HF_ROLE_TAIL = 12;
+        public const int HF_ROLE_WING = 13;
+        public const int HF_ROLE_EAR = 14;
+        public const int HF_ROLE_EYE = 15;
+        public const int HF_ROLE_ANTENNA = 16;
+        public const int HF_ROLE_FIN = 17;
+        public const int HF_SIDE_MIDDLE = 0;
+        public const int HF_SIDE_LEFT = 1;
+        public const int HF_SIDE_RIGHT = 2;
+        public const int HF_JOINT_KIND_BODY = 0;
+        public const int HF_JOINT_KIND_HELPER = 1;
+        public const int HF_JOINT_KIND_END = 2;
+        public const int HF_JOINT_KIND_TWIST = 3;
         public const int HF_TRANSFER_FIELDS = 0;
         public const int HF_TRANSFER_PAPER = 1;
         public const int HF_TRANSFER_STRETCH = 2;
@@ -552,83 +552,6 @@ namespace Hf.Native
         public double site_memory_bytes;
         public double predicted_dense_ms;
         public double predicted_rebase_ms;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_skin_desc
-    {
-        public uint struct_size;
-        public uint vertex_count;
-        public uint triangle_count;
-        public uint influence_count;
-        public IntPtr positions;
-        public IntPtr triangles;
-        public IntPtr joints;
-        public IntPtr weights;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_skeleton_desc
-    {
-        public uint struct_size;
-        public uint joint_count;
-        public IntPtr names;
-        public IntPtr parents;
-        public IntPtr rest;
-        public IntPtr inverse_binds;
-        public IntPtr up;
-        public IntPtr forward;
-        public IntPtr roles;
-        public IntPtr sides;
-        public uint travel_count;
-        public uint reserved;
-        public IntPtr travels;
-        public IntPtr skin;
-        public hf_allocator allocator;
-        public IntPtr progress;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_skeleton_info
-    {
-        public uint struct_size;
-        public uint joint_count;
-        public uint chain_count;
-        public uint reserved;
-        public fixed double up[3];
-        public fixed double forward[3];
-        public fixed double left[3];
-        public fixed double middle[3];
-        public double up_confidence;
-        public double forward_confidence;
-        public double left_confidence;
-        public double role_confidence;
-        public double height;
-        public double leg_length;
-        public double hip_height;
-        public double arm_length;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_joint_info
-    {
-        public int kind;
-        public int role;
-        public int side;
-        public uint chain;
-        public uint mate;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_chain
-    {
-        public int role;
-        public int side;
-        public uint number;
-        public uint parent;
-        public uint first;
-        public uint joint_count;
-        public double length;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1102,6 +1025,83 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_skin_desc
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public uint triangle_count;
+        public uint influence_count;
+        public IntPtr positions;
+        public IntPtr triangles;
+        public IntPtr joints;
+        public IntPtr weights;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_skeleton_desc
+    {
+        public uint struct_size;
+        public uint joint_count;
+        public IntPtr names;
+        public IntPtr parents;
+        public IntPtr rest;
+        public IntPtr inverse_binds;
+        public IntPtr up;
+        public IntPtr forward;
+        public IntPtr roles;
+        public IntPtr sides;
+        public uint travel_count;
+        public uint reserved;
+        public IntPtr travels;
+        public IntPtr skin;
+        public hf_allocator allocator;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_skeleton_info
+    {
+        public uint struct_size;
+        public uint joint_count;
+        public uint chain_count;
+        public uint reserved;
+        public fixed double up[3];
+        public fixed double forward[3];
+        public fixed double left[3];
+        public fixed double middle[3];
+        public double up_confidence;
+        public double forward_confidence;
+        public double left_confidence;
+        public double role_confidence;
+        public double height;
+        public double leg_length;
+        public double hip_height;
+        public double arm_length;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_joint_info
+    {
+        public int kind;
+        public int role;
+        public int side;
+        public uint chain;
+        public uint mate;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_chain
+    {
+        public int role;
+        public int side;
+        public uint number;
+        public uint parent;
+        public uint first;
+        public uint joint_count;
+        public double length;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_transfer_desc
     {
         public uint struct_size;
@@ -1390,13 +1390,6 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_certify(IntPtr solver, void* inout_certificate);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_prepare_rebase(IntPtr solver);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_get_statistics(IntPtr solver, void* out_statistics);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_create(void* desc, void* out_skeleton);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_skeleton_destroy(IntPtr skeleton);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_info(IntPtr skeleton, void* out_info);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_joints(IntPtr skeleton, uint capacity, void* out_joints, void* out_count);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_chains(IntPtr skeleton, uint capacity, void* out_chains, void* out_count);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_chain_joints(IntPtr skeleton, uint capacity, void* out_joints, void* out_count);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_reasons(IntPtr skeleton, UIntPtr capacity, void* out_text, void* out_size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_space_levels(IntPtr surface, void* field, int spacing, uint level_count, void* out_levels);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_trace_isolines(IntPtr surface, void* field, uint level_count, void* levels, void* inout_lines);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_find_critical_points(IntPtr surface, void* field, uint capacity, void* out_points, void* out_info);
@@ -1467,6 +1460,13 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_retarget_get_chains(IntPtr retarget, uint capacity, void* out_chains, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_retarget_get_partners(IntPtr retarget, uint capacity, void* out_partners, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_ground_velocity(IntPtr skeleton, uint frame_count, void* poses, double seconds, void* out_velocity);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_create(void* desc, void* out_skeleton);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_skeleton_destroy(IntPtr skeleton);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_info(IntPtr skeleton, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_joints(IntPtr skeleton, uint capacity, void* out_joints, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_chains(IntPtr skeleton, uint capacity, void* out_chains, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_chain_joints(IntPtr skeleton, uint capacity, void* out_joints, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_skeleton_get_reasons(IntPtr skeleton, UIntPtr capacity, void* out_text, void* out_size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_create(IntPtr source, IntPtr target, void* desc, void* out_transfer);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_transfer_destroy(IntPtr transfer);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_add_pairs(IntPtr transfer, void* pairs, void* out_pairs);

@@ -126,39 +126,6 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     return desc;
   };
 
-  const skinDesc = (c, prefix, options) => {
-    const { positions = null, triangles = null, joints = null, weights = null, ...more } = options;
-    none(more);
-    const desc = c.struct('hf_skin_desc', {});
-    c.rows(desc, 'positions', 'positions', positions, 'f4', [prefix + 'vertex_count', 3]);
-    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'triangle_count', 3]);
-    c.rows(desc, 'joints', 'joints', joints, 'u4', [prefix + 'vertex_count', prefix + 'influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', [prefix + 'vertex_count', prefix + 'influence_count']);
-    c.counts(desc, { vertex_count: [prefix + 'vertex_count', 0], triangle_count: [prefix + 'triangle_count', 0],
-            influence_count: [prefix + 'influence_count', 0] });
-    return desc;
-  };
-
-  const skeletonDesc = (c, prefix, options) => {
-    const { names = null, parents = null, rest = null, inverseBinds = null, up = null, forward = null, roles = null,
-            sides = null, travels = null, skin = null, progress = null, ...more } = options;
-    none(more);
-    const desc = c.struct('hf_skeleton_desc', {});
-    c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
-    c.rows(desc, 'rest', 'rest', rest, 'f4', [prefix + 'joint_count', 10]);
-    c.rows(desc, 'inverse_binds', 'inverseBinds', inverseBinds, 'f4', [prefix + 'joint_count', 16]);
-    c.rows(desc, 'up', 'up', up, 'f4', [3]);
-    c.rows(desc, 'forward', 'forward', forward, 'f4', [3]);
-    c.rows(desc, 'roles', 'roles', roles, 'i4', [prefix + 'joint_count']);
-    c.rows(desc, 'sides', 'sides', sides, 'i4', [prefix + 'joint_count']);
-    c.rows(desc, 'travels', 'travels', travels, 'f4', [prefix + 'travel_count', 3]);
-    desc.set('names', c.text(names, 'names'));
-    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    desc.set('skin', c.inner(skin, 'positions', skinDesc, 'skin.'));
-    c.counts(desc, { joint_count: [prefix + 'joint_count', 0], travel_count: [prefix + 'travel_count', 0] });
-    return desc;
-  };
-
   const geodesicsDesc = (c, prefix, options) => {
     const { method = 0, smoothing = 0, progress = null, ...more } = options;
     none(more);
@@ -314,6 +281,39 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     c.rows(desc, 'target_rest', 'targetRest', targetRest, 'f4', ['target.joint_count', 10]);
     c.fixed(desc, 'ground_velocity', 'groundVelocity', groundVelocity);
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    return desc;
+  };
+
+  const skinDesc = (c, prefix, options) => {
+    const { positions = null, triangles = null, joints = null, weights = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_skin_desc', {});
+    c.rows(desc, 'positions', 'positions', positions, 'f4', [prefix + 'vertex_count', 3]);
+    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'triangle_count', 3]);
+    c.rows(desc, 'joints', 'joints', joints, 'u4', [prefix + 'vertex_count', prefix + 'influence_count']);
+    c.rows(desc, 'weights', 'weights', weights, 'f4', [prefix + 'vertex_count', prefix + 'influence_count']);
+    c.counts(desc, { vertex_count: [prefix + 'vertex_count', 0], triangle_count: [prefix + 'triangle_count', 0],
+            influence_count: [prefix + 'influence_count', 0] });
+    return desc;
+  };
+
+  const skeletonDesc = (c, prefix, options) => {
+    const { names = null, parents = null, rest = null, inverseBinds = null, up = null, forward = null, roles = null,
+            sides = null, travels = null, skin = null, progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_skeleton_desc', {});
+    c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
+    c.rows(desc, 'rest', 'rest', rest, 'f4', [prefix + 'joint_count', 10]);
+    c.rows(desc, 'inverse_binds', 'inverseBinds', inverseBinds, 'f4', [prefix + 'joint_count', 16]);
+    c.rows(desc, 'up', 'up', up, 'f4', [3]);
+    c.rows(desc, 'forward', 'forward', forward, 'f4', [3]);
+    c.rows(desc, 'roles', 'roles', roles, 'i4', [prefix + 'joint_count']);
+    c.rows(desc, 'sides', 'sides', sides, 'i4', [prefix + 'joint_count']);
+    c.rows(desc, 'travels', 'travels', travels, 'f4', [prefix + 'travel_count', 3]);
+    desc.set('names', c.text(names, 'names'));
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    desc.set('skin', c.inner(skin, 'positions', skinDesc, 'skin.'));
+    c.counts(desc, { joint_count: [prefix + 'joint_count', 0], travel_count: [prefix + 'travel_count', 0] });
     return desc;
   };
 
@@ -832,74 +832,6 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     get previewInfo() {
       return Call.told(this, 'hf_preview_info');
-    }
-  }
-
-  class Skeleton extends Handle {
-    static destroy = 'hf_skeleton_destroy';
-    static counts = ['joint_count'];
-    get jointCount() {
-      return this._n.joint_count;
-    }
-
-    constructor(names, parents = null, rest = null, options = {}) {
-      super();
-      if (names === bare) return;
-      const c = new Call(null);
-      const desc = skeletonDesc(c, '', { names, parents, rest, ...options });
-      this._own('hf_skeleton_create', c, desc);
-    }
-
-    get info() {
-      const c = new Call(this);
-      const info = c.struct('hf_skeleton_info', {});
-      call('hf_skeleton_get_info', this._handle, info);
-      return info.toObject();
-    }
-
-    joints() {
-      const c = new Call(this);
-      const count = new Uint32Array(1);
-      const found = c.grow(this, 'hf_skeleton_get_joints', (room, made) => call('hf_skeleton_get_joints', this._handle,
-              room.capacity, written(made.joints), written(count)), () => ({ capacity: count[0] }), { capacity: null },
-              { joints: ['hf_joint_info', ['capacity']] });
-      return found.joints;
-    }
-
-    chains() {
-      const c = new Call(this);
-      const count = new Uint32Array(1);
-      const found = c.grow(this, 'hf_skeleton_get_chains', (room, made) => call('hf_skeleton_get_chains', this._handle,
-              room.capacity, written(made.chains), written(count)), () => ({ capacity: count[0] }), { capacity: null },
-              { chains: ['hf_chain', ['capacity']] });
-      return found.chains;
-    }
-
-    chainJoints() {
-      const c = new Call(this);
-      const count = new Uint32Array(1);
-      const found = c.grow(this, 'hf_skeleton_get_chain_joints', (room, made) => call('hf_skeleton_get_chain_joints',
-              this._handle, room.capacity, written(made.joints), written(count)), () => ({ capacity: count[0] }),
-              { capacity: null }, { joints: ['u4', ['capacity']] });
-      return found.joints;
-    }
-
-    reasons() {
-      const c = new Call(this);
-      const size = c.sizes();
-      call('hf_skeleton_get_reasons', this._handle, 0, null, written(size));
-      const block = new Uint8Array(Number(size[0]));
-      call('hf_skeleton_get_reasons', this._handle, block.length, written(block), written(size));
-      return new TextDecoder().decode(block.subarray(0, -1));
-    }
-
-    groundVelocity(poses, seconds) {
-      const c = new Call(this);
-      const poses_ = c.array('poses', poses, 'f4', ['frame_count', 'joint_count', 10]);
-      const velocity = c.out(null, 'f8', [3]);
-      call('hf_skeleton_get_ground_velocity', this._handle, (c.n.frame_count ??= 1), poses_, seconds,
-              written(velocity));
-      return velocity;
     }
   }
 
@@ -1422,6 +1354,74 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
   }
 
+  class Skeleton extends Handle {
+    static destroy = 'hf_skeleton_destroy';
+    static counts = ['joint_count'];
+    get jointCount() {
+      return this._n.joint_count;
+    }
+
+    groundVelocity(poses, seconds) {
+      const c = new Call(this);
+      const poses_ = c.array('poses', poses, 'f4', ['frame_count', 'joint_count', 10]);
+      const velocity = c.out(null, 'f8', [3]);
+      call('hf_skeleton_get_ground_velocity', this._handle, (c.n.frame_count ??= 1), poses_, seconds,
+              written(velocity));
+      return velocity;
+    }
+
+    constructor(names, parents = null, rest = null, options = {}) {
+      super();
+      if (names === bare) return;
+      const c = new Call(null);
+      const desc = skeletonDesc(c, '', { names, parents, rest, ...options });
+      this._own('hf_skeleton_create', c, desc);
+    }
+
+    get info() {
+      const c = new Call(this);
+      const info = c.struct('hf_skeleton_info', {});
+      call('hf_skeleton_get_info', this._handle, info);
+      return info.toObject();
+    }
+
+    joints() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_skeleton_get_joints', (room, made) => call('hf_skeleton_get_joints', this._handle,
+              room.capacity, written(made.joints), written(count)), () => ({ capacity: count[0] }), { capacity: null },
+              { joints: ['hf_joint_info', ['capacity']] });
+      return found.joints;
+    }
+
+    chains() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_skeleton_get_chains', (room, made) => call('hf_skeleton_get_chains', this._handle,
+              room.capacity, written(made.chains), written(count)), () => ({ capacity: count[0] }), { capacity: null },
+              { chains: ['hf_chain', ['capacity']] });
+      return found.chains;
+    }
+
+    chainJoints() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_skeleton_get_chain_joints', (room, made) => call('hf_skeleton_get_chain_joints',
+              this._handle, room.capacity, written(made.joints), written(count)), () => ({ capacity: count[0] }),
+              { capacity: null }, { joints: ['u4', ['capacity']] });
+      return found.joints;
+    }
+
+    reasons() {
+      const c = new Call(this);
+      const size = c.sizes();
+      call('hf_skeleton_get_reasons', this._handle, 0, null, written(size));
+      const block = new Uint8Array(Number(size[0]));
+      call('hf_skeleton_get_reasons', this._handle, block.length, written(block), written(size));
+      return new TextDecoder().decode(block.subarray(0, -1));
+    }
+  }
+
   class Transfer extends Handle {
     static destroy = 'hf_transfer_destroy';
     static counts = ['vertex_count'];
@@ -1631,5 +1631,5 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
   }
 
-  return { Progress, Surface, Solver, Skeleton, Geodesics, Direction, Pose, Quads, Flow, Region, Detail, Retarget, Transfer, Weights };
+  return { Progress, Surface, Solver, Geodesics, Direction, Pose, Quads, Flow, Region, Detail, Retarget, Skeleton, Transfer, Weights };
 }

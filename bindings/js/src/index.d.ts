@@ -358,66 +358,6 @@ export interface SolverStatistics {
 }
 
 /**
- * The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints, 0 where there is
- * no such part; those of legs are of the hindmost pair that stands.
- */
-export interface SkeletonInfo {
-  jointCount: number;
-  chainCount: number;
-  /** unit axes in the space of the joints */
-  up: number[];
-  forward: number[];
-  /** up x forward */
-  left: number[];
-  /** a point on the ground in the plane of symmetry */
-  middle: number[];
-  upConfidence: number;
-  forwardConfidence: number;
-  leftConfidence: number;
-  roleConfidence: number;
-  /** along up, over the ground */
-  height: number;
-  /** hip to knee to foot, and the height of the foot */
-  legLength: number;
-  /** of the joint of the thigh, over the ground */
-  hipHeight: number;
-  /** upper arm to hand */
-  armLength: number;
-}
-
-/** What a joint was found to be. */
-export interface JointInfo {
-  /** HF_JOINT_KIND_* */
-  kind: number;
-  /** HF_ROLE_*; of a twist joint, the role of its bone */
-  role: number;
-  /** HF_SIDE_* */
-  side: number;
-  /** number of its chain, constants.HF_NO_INDEX: none */
-  chain: number;
-  /** the joint that mirrors it, constants.HF_NO_INDEX: none */
-  mate: number;
-}
-
-/** Joints of one role and side, from root to tip. */
-export interface Chain {
-  /** HF_ROLE_* */
-  role: number;
-  /** HF_SIDE_* */
-  side: number;
-  /** counts the chains of one role and side: legs from the front, others as their joints come */
-  number: number;
-  /** the chain it hangs on, constants.HF_NO_INDEX: none */
-  parent: number;
-  /** its first entry in Skeleton.chainJoints */
-  first: number;
-  /** entries there, from root to tip */
-  jointCount: number;
-  /** along the joints, up to the first joint of the chain at its tip */
-  length: number;
-}
-
-/**
  * Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 -
  * parameter) a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours: each
  * is null or as large as its capacity.
@@ -771,6 +711,66 @@ export interface ChainMatch {
   targetJointCount: number;
   meanAngle: number;
   worstAngle: number;
+}
+
+/**
+ * The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints, 0 where there is
+ * no such part; those of legs are of the hindmost pair that stands.
+ */
+export interface SkeletonInfo {
+  jointCount: number;
+  chainCount: number;
+  /** unit axes in the space of the joints */
+  up: number[];
+  forward: number[];
+  /** up x forward */
+  left: number[];
+  /** a point on the ground in the plane of symmetry */
+  middle: number[];
+  upConfidence: number;
+  forwardConfidence: number;
+  leftConfidence: number;
+  roleConfidence: number;
+  /** along up, over the ground */
+  height: number;
+  /** hip to knee to foot, and the height of the foot */
+  legLength: number;
+  /** of the joint of the thigh, over the ground */
+  hipHeight: number;
+  /** upper arm to hand */
+  armLength: number;
+}
+
+/** What a joint was found to be. */
+export interface JointInfo {
+  /** HF_JOINT_KIND_* */
+  kind: number;
+  /** HF_ROLE_*; of a twist joint, the role of its bone */
+  role: number;
+  /** HF_SIDE_* */
+  side: number;
+  /** number of its chain, constants.HF_NO_INDEX: none */
+  chain: number;
+  /** the joint that mirrors it, constants.HF_NO_INDEX: none */
+  mate: number;
+}
+
+/** Joints of one role and side, from root to tip. */
+export interface Chain {
+  /** HF_ROLE_* */
+  role: number;
+  /** HF_SIDE_* */
+  side: number;
+  /** counts the chains of one role and side: legs from the front, others as their joints come */
+  number: number;
+  /** the chain it hangs on, constants.HF_NO_INDEX: none */
+  parent: number;
+  /** its first entry in Skeleton.chainJoints */
+  first: number;
+  /** entries there, from root to tip */
+  jointCount: number;
+  /** along the joints, up to the first joint of the chain at its tip */
+  length: number;
 }
 
 export interface PairInfo {
@@ -1543,55 +1543,6 @@ export interface SolverClass {
 }
 
 /**
- * A skeleton at rest and the findings about it. Calls read the object, none changes it.
- *
- * Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
- * feet shall stand on the ground. The object keeps a copy of everything.
- *
- * names: one line for each joint in UTF-8, or null: names then say nothing
- * parents: jointCount numbers number of the parent, constants.HF_NO_INDEX for a root
- * rest: jointCount x 10 numbers joint transforms
- * inverseBinds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
- *     names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`, and all
- *     joints bend it
- * up: 3 numbers declared axis, any length, or null: find it
- * forward: 3 numbers declared axis, any length, or null: find it
- * roles: jointCount numbers declared HF_ROLE_*, -1 for a joint without; or null
- * sides: jointCount numbers HF_SIDE_* of joints with a declared role; or null: find the sides
- * travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells forward; or
- *     null
- * skin: null: there is none, and joints are judged by names and places alone
- * progress: an object to poll and cancel through
- */
-export interface Skeleton extends Handle {
-  readonly jointCount: number;
-  /** Writes the findings. */
-  readonly info: SkeletonInfo;
-  /** Writes one entry for each joint. */
-  joints(): JointInfo[];
-  /** Writes the chains. */
-  chains(): Chain[];
-  /** Writes the joints of chain after chain. */
-  chainJoints(): Uint32Array;
-  /** Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful. */
-  reasons(): string;
-  /**
-   * Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
-   * It is 0 for a clip that travels.
-   *
-   * poses: frameCount x jointCount x 10 numbers.
-   * seconds: between two frames, above 0.
-   *
-   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
-   */
-  groundVelocity(poses: Rows, seconds: number): Float64Array;
-}
-export interface SkeletonClass {
-  new (names?: string | readonly string[] | null, parents?: Rows | null, rest?: Rows | null,
-          options?: { inverseBinds?: Rows | null; up?: Rows | null; forward?: Rows | null; roles?: Rows | null; sides?: Rows | null; travels?: Rows | null; skin?: SkinDescGiven | Rows | null; progress?: Progress | null }): Skeleton;
-}
-
-/**
  * Computes geodesic distances on one surface: the lengths of shortest paths along it.
  *
  * Creates the object and the tables of its method. FRONT and EXACT take a pass over the triangles. HEAT takes one
@@ -2191,6 +2142,55 @@ export interface RetargetClass {
 }
 
 /**
+ * A skeleton at rest and the findings about it. Calls read the object, none changes it.
+ *
+ * Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
+ * feet shall stand on the ground. The object keeps a copy of everything.
+ *
+ * names: one line for each joint in UTF-8, or null: names then say nothing
+ * parents: jointCount numbers number of the parent, constants.HF_NO_INDEX for a root
+ * rest: jointCount x 10 numbers joint transforms
+ * inverseBinds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
+ *     names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`, and all
+ *     joints bend it
+ * up: 3 numbers declared axis, any length, or null: find it
+ * forward: 3 numbers declared axis, any length, or null: find it
+ * roles: jointCount numbers declared HF_ROLE_*, -1 for a joint without; or null
+ * sides: jointCount numbers HF_SIDE_* of joints with a declared role; or null: find the sides
+ * travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells forward; or
+ *     null
+ * skin: null: there is none, and joints are judged by names and places alone
+ * progress: an object to poll and cancel through
+ */
+export interface Skeleton extends Handle {
+  readonly jointCount: number;
+  /**
+   * Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
+   * It is 0 for a clip that travels.
+   *
+   * poses: frameCount x jointCount x 10 numbers.
+   * seconds: between two frames, above 0.
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
+   */
+  groundVelocity(poses: Rows, seconds: number): Float64Array;
+  /** Writes the findings. */
+  readonly info: SkeletonInfo;
+  /** Writes one entry for each joint. */
+  joints(): JointInfo[];
+  /** Writes the chains. */
+  chains(): Chain[];
+  /** Writes the joints of chain after chain. */
+  chainJoints(): Uint32Array;
+  /** Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful. */
+  reasons(): string;
+}
+export interface SkeletonClass {
+  new (names?: string | readonly string[] | null, parents?: Rows | null, rest?: Rows | null,
+          options?: { inverseBinds?: Rows | null; up?: Rows | null; forward?: Rows | null; roles?: Rows | null; sides?: Rows | null; travels?: Rows | null; skin?: SkinDescGiven | Rows | null; progress?: Progress | null }): Skeleton;
+}
+
+/**
  * hf/transfer.h - play the motion of one surface on another.
  *
  * You pair regions of the source surface with regions of the target surface. From the pairs both surfaces get the
@@ -2476,7 +2476,6 @@ export interface Api {
   Progress: ProgressClass;
   Surface: SurfaceClass;
   Solver: SolverClass;
-  Skeleton: SkeletonClass;
   Geodesics: GeodesicsClass;
   Direction: DirectionClass;
   Pose: PoseClass;
@@ -2485,6 +2484,7 @@ export interface Api {
   Region: RegionClass;
   Detail: DetailClass;
   Retarget: RetargetClass;
+  Skeleton: SkeletonClass;
   Transfer: TransferClass;
   Weights: WeightsClass;
   HfError: typeof HfError;

@@ -25,9 +25,6 @@ SolveInfo = _raw.hf_solve_info
 PreviewInfo = _raw.hf_preview_info
 Certificate = _raw.hf_certificate
 SolverStatistics = _raw.hf_solver_statistics
-SkeletonInfo = _raw.hf_skeleton_info
-JointInfo = _raw.hf_joint_info
-Chain = _raw.hf_chain
 CriticalPoint = _raw.hf_critical_point
 CriticalInfo = _raw.hf_critical_info
 SurfacePoint = _raw.hf_surface_point
@@ -43,6 +40,9 @@ QuadsInfo = _raw.hf_quads_info
 RegionInfo = _raw.hf_region_info
 RetargetInfo = _raw.hf_retarget_info
 ChainMatch = _raw.hf_chain_match
+SkeletonInfo = _raw.hf_skeleton_info
+JointInfo = _raw.hf_joint_info
+Chain = _raw.hf_chain
 PairInfo = _raw.hf_pair_info
 TransferInfo = _raw.hf_transfer_info
 TransferDials = _raw.hf_transfer_dials
@@ -146,50 +146,6 @@ class Route(IntEnum):
     """the dense system was recomputed, which was quicker"""
     REBASE = _raw.HF_ROUTE_REBASE
     """factorised again with hard vertex sites eliminated"""
-
-
-class Role(IntEnum):
-    """What a joint or a chain is."""
-
-    OTHER = _raw.HF_ROLE_OTHER
-    SPINE = _raw.HF_ROLE_SPINE
-    NECK = _raw.HF_ROLE_NECK
-    HEAD = _raw.HF_ROLE_HEAD
-    JAW = _raw.HF_ROLE_JAW
-    SHOULDER = _raw.HF_ROLE_SHOULDER
-    ARM = _raw.HF_ROLE_ARM
-    HAND = _raw.HF_ROLE_HAND
-    FINGER = _raw.HF_ROLE_FINGER
-    LEG = _raw.HF_ROLE_LEG
-    FOOT = _raw.HF_ROLE_FOOT
-    TOE = _raw.HF_ROLE_TOE
-    TAIL = _raw.HF_ROLE_TAIL
-    WING = _raw.HF_ROLE_WING
-    EAR = _raw.HF_ROLE_EAR
-    EYE = _raw.HF_ROLE_EYE
-    ANTENNA = _raw.HF_ROLE_ANTENNA
-    FIN = _raw.HF_ROLE_FIN
-
-
-class BodySide(IntEnum):
-    """The side of the character, not of the person who looks at it."""
-
-    MIDDLE = _raw.HF_SIDE_MIDDLE
-    LEFT = _raw.HF_SIDE_LEFT
-    RIGHT = _raw.HF_SIDE_RIGHT
-
-
-class JointKind(IntEnum):
-    """How a joint serves the body."""
-
-    BODY = _raw.HF_JOINT_KIND_BODY
-    """it moves a part of the body"""
-    HELPER = _raw.HF_JOINT_KIND_HELPER
-    """a control, a pole, a target or a root: it moves no part"""
-    END = _raw.HF_JOINT_KIND_END
-    """it marks the tip of a chain"""
-    TWIST = _raw.HF_JOINT_KIND_TWIST
-    """it lies along a bone and takes a share of its turn"""
 
 
 class Levels(IntEnum):
@@ -338,6 +294,50 @@ class ScaleFrom(IntEnum):
     """heights of hips: both stand on four legs or more"""
     HEIGHT = _raw.HF_SCALE_HEIGHT
     """heights of bodies: one has no legs"""
+
+
+class Role(IntEnum):
+    """What a joint or a chain is."""
+
+    OTHER = _raw.HF_ROLE_OTHER
+    SPINE = _raw.HF_ROLE_SPINE
+    NECK = _raw.HF_ROLE_NECK
+    HEAD = _raw.HF_ROLE_HEAD
+    JAW = _raw.HF_ROLE_JAW
+    SHOULDER = _raw.HF_ROLE_SHOULDER
+    ARM = _raw.HF_ROLE_ARM
+    HAND = _raw.HF_ROLE_HAND
+    FINGER = _raw.HF_ROLE_FINGER
+    LEG = _raw.HF_ROLE_LEG
+    FOOT = _raw.HF_ROLE_FOOT
+    TOE = _raw.HF_ROLE_TOE
+    TAIL = _raw.HF_ROLE_TAIL
+    WING = _raw.HF_ROLE_WING
+    EAR = _raw.HF_ROLE_EAR
+    EYE = _raw.HF_ROLE_EYE
+    ANTENNA = _raw.HF_ROLE_ANTENNA
+    FIN = _raw.HF_ROLE_FIN
+
+
+class BodySide(IntEnum):
+    """The side of the character, not of the person who looks at it."""
+
+    MIDDLE = _raw.HF_SIDE_MIDDLE
+    LEFT = _raw.HF_SIDE_LEFT
+    RIGHT = _raw.HF_SIDE_RIGHT
+
+
+class JointKind(IntEnum):
+    """How a joint serves the body."""
+
+    BODY = _raw.HF_JOINT_KIND_BODY
+    """it moves a part of the body"""
+    HELPER = _raw.HF_JOINT_KIND_HELPER
+    """a control, a pole, a target or a root: it moves no part"""
+    END = _raw.HF_JOINT_KIND_END
+    """it marks the tip of a chain"""
+    TWIST = _raw.HF_JOINT_KIND_TWIST
+    """it lies along a bone and takes a share of its turn"""
 
 
 class TransferMode(IntEnum):
@@ -734,40 +734,6 @@ def _edit_desc(c: Call, prefix: str = '', *, remove_sites: Optional[ArrayLike] =
     return desc
 
 
-def _skin_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None,
-        triangles: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None,
-        weights: Optional[ArrayLike] = None) -> Any:
-    desc = c.struct(_raw.hf_skin_desc, {})
-    c.rows(desc, 'positions', positions, 'f4', (prefix + 'vertex_count', 3))
-    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'triangle_count', 3))
-    c.rows(desc, 'joints', joints, 'u4', (prefix + 'vertex_count', prefix + 'influence_count'))
-    c.rows(desc, 'weights', weights, 'f4', (prefix + 'vertex_count', prefix + 'influence_count'))
-    c.counts(desc, vertex_count=(prefix + 'vertex_count', 0), triangle_count=(prefix + 'triangle_count', 0),
-            influence_count=(prefix + 'influence_count', 0))
-    return desc
-
-
-def _skeleton_desc(c: Call, prefix: str = '', *, names: Union[None, str, Sequence[str]] = None,
-        parents: Optional[ArrayLike] = None, rest: Optional[ArrayLike] = None,
-        inverse_binds: Optional[ArrayLike] = None, up: Optional[ArrayLike] = None, forward: Optional[ArrayLike] = None,
-        roles: Optional[ArrayLike] = None, sides: Optional[ArrayLike] = None, travels: Optional[ArrayLike] = None,
-        skin: Any = None, progress: Optional[Progress] = None) -> Any:
-    desc = c.struct(_raw.hf_skeleton_desc, {})
-    c.rows(desc, 'parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
-    c.rows(desc, 'rest', rest, 'f4', (prefix + 'joint_count', 10))
-    c.rows(desc, 'inverse_binds', inverse_binds, 'f4', (prefix + 'joint_count', 16))
-    c.rows(desc, 'up', up, 'f4', (3,))
-    c.rows(desc, 'forward', forward, 'f4', (3,))
-    c.rows(desc, 'roles', roles, 'i4', (prefix + 'joint_count',))
-    c.rows(desc, 'sides', sides, 'i4', (prefix + 'joint_count',))
-    c.rows(desc, 'travels', travels, 'f4', (prefix + 'travel_count', 3))
-    desc.names = c.text(names)
-    desc.progress = handle_of(progress, Progress, 'progress')
-    desc.skin = c.inner(skin, 'positions', _skin_desc, 'skin.')
-    c.counts(desc, joint_count=(prefix + 'joint_count', 0), travel_count=(prefix + 'travel_count', 0))
-    return desc
-
-
 def _geodesics_desc(c: Call, prefix: str = '', *, method: int = DistanceMethod.AUTO, smoothing: float = 0.0,
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_geodesics_desc, {'method': method, 'smoothing': smoothing})
@@ -863,7 +829,7 @@ def _region_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = 
 
 def _curve_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
         triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
-        corners: Optional[ArrayLike] = None, side: int = BodySide.MIDDLE, seed_vertex: int = 0,
+        corners: Optional[ArrayLike] = None, side: int = Side.SMALLER, seed_vertex: int = 0,
         kind: int = CurveKind.STRAIGHT) -> Any:
     desc = c.struct(_raw.hf_curve_desc, {'side': side, 'seed_vertex': seed_vertex, 'kind': kind})
     c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'point_count',))
@@ -909,6 +875,40 @@ def _retarget_desc(c: Call, prefix: str = '', *, source_rest: Optional[ArrayLike
     c.rows(desc, 'target_rest', target_rest, 'f4', ('target.joint_count', 10))
     c.fixed(desc, 'ground_velocity', ground_velocity)
     desc.progress = handle_of(progress, Progress, 'progress')
+    return desc
+
+
+def _skin_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None,
+        triangles: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None,
+        weights: Optional[ArrayLike] = None) -> Any:
+    desc = c.struct(_raw.hf_skin_desc, {})
+    c.rows(desc, 'positions', positions, 'f4', (prefix + 'vertex_count', 3))
+    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'triangle_count', 3))
+    c.rows(desc, 'joints', joints, 'u4', (prefix + 'vertex_count', prefix + 'influence_count'))
+    c.rows(desc, 'weights', weights, 'f4', (prefix + 'vertex_count', prefix + 'influence_count'))
+    c.counts(desc, vertex_count=(prefix + 'vertex_count', 0), triangle_count=(prefix + 'triangle_count', 0),
+            influence_count=(prefix + 'influence_count', 0))
+    return desc
+
+
+def _skeleton_desc(c: Call, prefix: str = '', *, names: Union[None, str, Sequence[str]] = None,
+        parents: Optional[ArrayLike] = None, rest: Optional[ArrayLike] = None,
+        inverse_binds: Optional[ArrayLike] = None, up: Optional[ArrayLike] = None, forward: Optional[ArrayLike] = None,
+        roles: Optional[ArrayLike] = None, sides: Optional[ArrayLike] = None, travels: Optional[ArrayLike] = None,
+        skin: Any = None, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_skeleton_desc, {})
+    c.rows(desc, 'parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
+    c.rows(desc, 'rest', rest, 'f4', (prefix + 'joint_count', 10))
+    c.rows(desc, 'inverse_binds', inverse_binds, 'f4', (prefix + 'joint_count', 16))
+    c.rows(desc, 'up', up, 'f4', (3,))
+    c.rows(desc, 'forward', forward, 'f4', (3,))
+    c.rows(desc, 'roles', roles, 'i4', (prefix + 'joint_count',))
+    c.rows(desc, 'sides', sides, 'i4', (prefix + 'joint_count',))
+    c.rows(desc, 'travels', travels, 'f4', (prefix + 'travel_count', 3))
+    desc.names = c.text(names)
+    desc.progress = handle_of(progress, Progress, 'progress')
+    desc.skin = c.inner(skin, 'positions', _skin_desc, 'skin.')
+    c.counts(desc, joint_count=(prefix + 'joint_count', 0), travel_count=(prefix + 'travel_count', 0))
     return desc
 
 
@@ -1831,114 +1831,6 @@ class Solver(Recorded):
         statistics = c.struct(_raw.hf_solver_statistics, {})
         call('hf_solver_get_statistics', self._handle, ref(statistics))
         return statistics
-
-
-class Skeleton(Object):
-    """A skeleton at rest and the findings about it. Calls read the object, none changes it.
-
-    Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
-    feet shall stand on the ground. The object keeps a copy of everything.
-
-    names: one line for each joint in UTF-8, or None: names then say nothing
-    parents: (joint_count,) number of the parent, NO_INDEX for a root
-    rest: (joint_count, 10) joint transforms
-    inverse_binds: (joint_count, 16) inverse bind matrices, columns first, all zero for a joint that no skin names: it
-        carries children and rigid meshes alone; or None: the skin is given in the pose `rest`, and all joints bend it
-    up: (3,) declared axis, any length, or None: find it
-    forward: (3,) declared axis, any length, or None: find it
-    roles: (joint_count,) declared Role, -1 for a joint without; or None
-    sides: (joint_count,) Side of joints with a declared role; or None: find the sides
-    travels: (travel_count, 3) where each clip leads from its first to its last frame; it tells forward; or None
-    skin: None: there is none, and joints are judged by names and places alone
-    progress: an object to poll and cancel through
-    """
-
-    _destroy = 'hf_skeleton_destroy'
-    _counts = ('joint_count',)
-
-    @property
-    def joint_count(self) -> int:
-        """As it was made with."""
-        return self._n.get('joint_count', 0)
-
-    def __init__(self, names: Union[None, str, Sequence[str]] = None, parents: Optional[ArrayLike] = None,
-            rest: Optional[ArrayLike] = None, *, inverse_binds: Optional[ArrayLike] = None,
-            up: Optional[ArrayLike] = None, forward: Optional[ArrayLike] = None, roles: Optional[ArrayLike] = None,
-            sides: Optional[ArrayLike] = None, travels: Optional[ArrayLike] = None, skin: Any = None,
-            progress: Optional[Progress] = None) -> None:
-        c = Call()
-        desc = _skeleton_desc(c, names=names, parents=parents, rest=rest, inverse_binds=inverse_binds, up=up,
-                forward=forward, roles=roles, sides=sides, travels=travels, skin=skin, progress=progress)
-        self._own('hf_skeleton_create', c, ref(desc))
-
-    @property
-    def info(self) -> SkeletonInfo:
-        """Writes the findings."""
-        c = Call(self)
-        info = c.struct(_raw.hf_skeleton_info, {})
-        call('hf_skeleton_get_info', self._handle, ref(info))
-        return info
-
-    def joints(self) -> np.ndarray:
-        """Writes one entry for each joint."""
-        c = Call(self)
-        count = ctypes.c_uint32()
-
-        def run(room: Any, made: Any) -> None:
-            call('hf_skeleton_get_joints', self._handle, room['capacity'], address(made['joints']), ref(count))
-
-        found = c.grow(self, 'hf_skeleton_get_joints', run, lambda: {'capacity': count.value}, {'capacity': None},
-                {'joints': (np.dtype(_raw.hf_joint_info), ('capacity',))})
-        return found['joints']
-
-    def chains(self) -> np.ndarray:
-        """Writes the chains."""
-        c = Call(self)
-        count = ctypes.c_uint32()
-
-        def run(room: Any, made: Any) -> None:
-            call('hf_skeleton_get_chains', self._handle, room['capacity'], address(made['chains']), ref(count))
-
-        found = c.grow(self, 'hf_skeleton_get_chains', run, lambda: {'capacity': count.value}, {'capacity': None},
-                {'chains': (np.dtype(_raw.hf_chain), ('capacity',))})
-        return found['chains']
-
-    def chain_joints(self) -> np.ndarray:
-        """Writes the joints of chain after chain."""
-        c = Call(self)
-        count = ctypes.c_uint32()
-
-        def run(room: Any, made: Any) -> None:
-            call('hf_skeleton_get_chain_joints', self._handle, room['capacity'], address(made['joints']), ref(count))
-
-        found = c.grow(self, 'hf_skeleton_get_chain_joints', run, lambda: {'capacity': count.value}, {'capacity': None},
-                {'joints': (np.uint32, ('capacity',))})
-        return found['joints']
-
-    def reasons(self) -> str:
-        """Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful."""
-        c = Call(self)
-        size = ctypes.c_size_t()
-        call('hf_skeleton_get_reasons', self._handle, 0, None, ref(size))
-        block = np.empty(size.value, np.uint8)
-        call('hf_skeleton_get_reasons', self._handle, block.size, address(block), ref(size))
-        return block.tobytes()[:-1].decode()
-
-    def ground_velocity(self, poses: ArrayLike, seconds: float) -> np.ndarray:
-        """Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
-        It is 0 for a clip that travels.
-
-        poses: (frame_count, joint_count, 10).
-        seconds: between two frames, above 0.
-
-        Raises EmptyError, InvalidArgumentError, NonFiniteError.
-        """
-        c = Call(self)
-        poses_ = c.array('poses', poses, 'f4', ('frame_count', 'joint_count', 10))
-        velocity, _ = c.out(None, 'f8', (3,))
-        call('hf_skeleton_get_ground_velocity', self._handle, c.n.setdefault('frame_count', 1), poses_, number(seconds,
-                'seconds', ctypes.c_double), address(velocity))
-        return velocity
 
 
 class Geodesics(Object):
@@ -2919,6 +2811,114 @@ class Retarget(Recorded):
         found = c.grow(self, 'hf_retarget_get_partners', run, lambda: {'capacity': count.value}, {'capacity': None},
                 {'partners': (np.uint32, ('capacity',))})
         return found['partners']
+
+
+class Skeleton(Object):
+    """A skeleton at rest and the findings about it. Calls read the object, none changes it.
+
+    Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
+    feet shall stand on the ground. The object keeps a copy of everything.
+
+    names: one line for each joint in UTF-8, or None: names then say nothing
+    parents: (joint_count,) number of the parent, NO_INDEX for a root
+    rest: (joint_count, 10) joint transforms
+    inverse_binds: (joint_count, 16) inverse bind matrices, columns first, all zero for a joint that no skin names: it
+        carries children and rigid meshes alone; or None: the skin is given in the pose `rest`, and all joints bend it
+    up: (3,) declared axis, any length, or None: find it
+    forward: (3,) declared axis, any length, or None: find it
+    roles: (joint_count,) declared Role, -1 for a joint without; or None
+    sides: (joint_count,) BodySide of joints with a declared role; or None: find the sides
+    travels: (travel_count, 3) where each clip leads from its first to its last frame; it tells forward; or None
+    skin: None: there is none, and joints are judged by names and places alone
+    progress: an object to poll and cancel through
+    """
+
+    _destroy = 'hf_skeleton_destroy'
+    _counts = ('joint_count',)
+
+    @property
+    def joint_count(self) -> int:
+        """As it was made with."""
+        return self._n.get('joint_count', 0)
+
+    def ground_velocity(self, poses: ArrayLike, seconds: float) -> np.ndarray:
+        """Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
+        It is 0 for a clip that travels.
+
+        poses: (frame_count, joint_count, 10).
+        seconds: between two frames, above 0.
+
+        Raises EmptyError, InvalidArgumentError, NonFiniteError.
+        """
+        c = Call(self)
+        poses_ = c.array('poses', poses, 'f4', ('frame_count', 'joint_count', 10))
+        velocity, _ = c.out(None, 'f8', (3,))
+        call('hf_skeleton_get_ground_velocity', self._handle, c.n.setdefault('frame_count', 1), poses_, number(seconds,
+                'seconds', ctypes.c_double), address(velocity))
+        return velocity
+
+    def __init__(self, names: Union[None, str, Sequence[str]] = None, parents: Optional[ArrayLike] = None,
+            rest: Optional[ArrayLike] = None, *, inverse_binds: Optional[ArrayLike] = None,
+            up: Optional[ArrayLike] = None, forward: Optional[ArrayLike] = None, roles: Optional[ArrayLike] = None,
+            sides: Optional[ArrayLike] = None, travels: Optional[ArrayLike] = None, skin: Any = None,
+            progress: Optional[Progress] = None) -> None:
+        c = Call()
+        desc = _skeleton_desc(c, names=names, parents=parents, rest=rest, inverse_binds=inverse_binds, up=up,
+                forward=forward, roles=roles, sides=sides, travels=travels, skin=skin, progress=progress)
+        self._own('hf_skeleton_create', c, ref(desc))
+
+    @property
+    def info(self) -> SkeletonInfo:
+        """Writes the findings."""
+        c = Call(self)
+        info = c.struct(_raw.hf_skeleton_info, {})
+        call('hf_skeleton_get_info', self._handle, ref(info))
+        return info
+
+    def joints(self) -> np.ndarray:
+        """Writes one entry for each joint."""
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_skeleton_get_joints', self._handle, room['capacity'], address(made['joints']), ref(count))
+
+        found = c.grow(self, 'hf_skeleton_get_joints', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'joints': (np.dtype(_raw.hf_joint_info), ('capacity',))})
+        return found['joints']
+
+    def chains(self) -> np.ndarray:
+        """Writes the chains."""
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_skeleton_get_chains', self._handle, room['capacity'], address(made['chains']), ref(count))
+
+        found = c.grow(self, 'hf_skeleton_get_chains', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'chains': (np.dtype(_raw.hf_chain), ('capacity',))})
+        return found['chains']
+
+    def chain_joints(self) -> np.ndarray:
+        """Writes the joints of chain after chain."""
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_skeleton_get_chain_joints', self._handle, room['capacity'], address(made['joints']), ref(count))
+
+        found = c.grow(self, 'hf_skeleton_get_chain_joints', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'joints': (np.uint32, ('capacity',))})
+        return found['joints']
+
+    def reasons(self) -> str:
+        """Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful."""
+        c = Call(self)
+        size = ctypes.c_size_t()
+        call('hf_skeleton_get_reasons', self._handle, 0, None, ref(size))
+        block = np.empty(size.value, np.uint8)
+        call('hf_skeleton_get_reasons', self._handle, block.size, address(block), ref(size))
+        return block[:-1].tobytes().decode()
 
 
 class Transfer(Object):

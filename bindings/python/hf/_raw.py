@@ -70,31 +70,6 @@ HF_ROUTE_NONE = 0
 HF_ROUTE_DENSE = 1
 HF_ROUTE_FRESH = 2
 HF_ROUTE_REBASE = 3
-HF_ROLE_OTHER = 0
-HF_ROLE_SPINE = 1
-HF_ROLE_NECK = 2
-HF_ROLE_HEAD = 3
-HF_ROLE_JAW = 4
-HF_ROLE_SHOULDER = 5
-HF_ROLE_ARM = 6
-HF_ROLE_HAND = 7
-HF_ROLE_FINGER = 8
-HF_ROLE_LEG = 9
-HF_ROLE_FOOT = 10
-HF_ROLE_TOE = 11
-HF_ROLE_TAIL = 12
-HF_ROLE_WING = 13
-HF_ROLE_EAR = 14
-HF_ROLE_EYE = 15
-HF_ROLE_ANTENNA = 16
-HF_ROLE_FIN = 17
-HF_SIDE_MIDDLE = 0
-HF_SIDE_LEFT = 1
-HF_SIDE_RIGHT = 2
-HF_JOINT_KIND_BODY = 0
-HF_JOINT_KIND_HELPER = 1
-HF_JOINT_KIND_END = 2
-HF_JOINT_KIND_TWIST = 3
 HF_LEVELS_VALUE = 0
 HF_LEVELS_AREA = 1
 HF_LEVELS_LENGTH = 2
@@ -139,6 +114,31 @@ HF_SCALE_GIVEN = 0
 HF_SCALE_LEGS = 1
 HF_SCALE_HIPS = 2
 HF_SCALE_HEIGHT = 3
+HF_ROLE_OTHER = 0
+HF_ROLE_SPINE = 1
+HF_ROLE_NECK = 2
+HF_ROLE_HEAD = 3
+HF_ROLE_JAW = 4
+HF_ROLE_SHOULDER = 5
+HF_ROLE_ARM = 6
+HF_ROLE_HAND = 7
+HF_ROLE_FINGER = 8
+HF_ROLE_LEG = 9
+HF_ROLE_FOOT = 10
+HF_ROLE_TOE = 11
+HF_ROLE_TAIL = 12
+HF_ROLE_WING = 13
+HF_ROLE_EAR = 14
+HF_ROLE_EYE = 15
+HF_ROLE_ANTENNA = 16
+HF_ROLE_FIN = 17
+HF_SIDE_MIDDLE = 0
+HF_SIDE_LEFT = 1
+HF_SIDE_RIGHT = 2
+HF_JOINT_KIND_BODY = 0
+HF_JOINT_KIND_HELPER = 1
+HF_JOINT_KIND_END = 2
+HF_JOINT_KIND_TWIST = 3
 HF_TRANSFER_FIELDS = 0
 HF_TRANSFER_PAPER = 1
 HF_TRANSFER_STRETCH = 2
@@ -866,140 +866,6 @@ class hf_solver_statistics(Struct):
         ("site_memory_bytes", c_double),
         ("predicted_dense_ms", c_double),
         ("predicted_rebase_ms", c_double),
-    ]
-
-
-class hf_skin_desc(Struct):
-    """The skin of a character"""
-    struct_size: int
-    vertex_count: int
-    triangle_count: int
-    influence_count: int
-    positions: int
-    triangles: int
-    joints: int
-    weights: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("triangle_count", c_uint32),
-        ("influence_count", c_uint32),
-        ("positions", c_void_p),
-        ("triangles", c_void_p),
-        ("joints", c_void_p),
-        ("weights", c_void_p),
-    ]
-
-
-class hf_skeleton_desc(Struct):
-    """The joints of a character at rest."""
-    struct_size: int
-    joint_count: int
-    names: int
-    parents: int
-    rest: int
-    inverse_binds: int
-    up: int
-    forward: int
-    roles: int
-    sides: int
-    travel_count: int
-    reserved: int
-    travels: int
-    skin: int
-    allocator: object
-    progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("joint_count", c_uint32),
-        ("names", c_void_p),
-        ("parents", c_void_p),
-        ("rest", c_void_p),
-        ("inverse_binds", c_void_p),
-        ("up", c_void_p),
-        ("forward", c_void_p),
-        ("roles", c_void_p),
-        ("sides", c_void_p),
-        ("travel_count", c_uint32),
-        ("reserved", c_uint32),
-        ("travels", c_void_p),
-        ("skin", c_void_p),
-        ("allocator", hf_allocator),
-        ("progress", c_void_p),
-    ]
-
-
-class hf_skeleton_info(Struct):
-    """The findings about a character."""
-    struct_size: int
-    joint_count: int
-    chain_count: int
-    reserved: int
-    up: object
-    forward: object
-    left: object
-    middle: object
-    up_confidence: float
-    forward_confidence: float
-    left_confidence: float
-    role_confidence: float
-    height: float
-    leg_length: float
-    hip_height: float
-    arm_length: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("joint_count", c_uint32),
-        ("chain_count", c_uint32),
-        ("reserved", c_uint32),
-        ("up", c_double * 3),
-        ("forward", c_double * 3),
-        ("left", c_double * 3),
-        ("middle", c_double * 3),
-        ("up_confidence", c_double),
-        ("forward_confidence", c_double),
-        ("left_confidence", c_double),
-        ("role_confidence", c_double),
-        ("height", c_double),
-        ("leg_length", c_double),
-        ("hip_height", c_double),
-        ("arm_length", c_double),
-    ]
-
-
-class hf_joint_info(Struct):
-    """What a joint was found to be."""
-    kind: int
-    role: int
-    side: int
-    chain: int
-    mate: int
-    _fields_ = [
-        ("kind", c_int32),
-        ("role", c_int32),
-        ("side", c_int32),
-        ("chain", c_uint32),
-        ("mate", c_uint32),
-    ]
-
-
-class hf_chain(Struct):
-    """Joints of one role and side, from root to tip."""
-    role: int
-    side: int
-    number: int
-    parent: int
-    first: int
-    joint_count: int
-    length: float
-    _fields_ = [
-        ("role", c_int32),
-        ("side", c_int32),
-        ("number", c_uint32),
-        ("parent", c_uint32),
-        ("first", c_uint32),
-        ("joint_count", c_uint32),
-        ("length", c_double),
     ]
 
 
@@ -1792,6 +1658,140 @@ class hf_chain_match(Struct):
     ]
 
 
+class hf_skin_desc(Struct):
+    """The skin of a character"""
+    struct_size: int
+    vertex_count: int
+    triangle_count: int
+    influence_count: int
+    positions: int
+    triangles: int
+    joints: int
+    weights: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertex_count", c_uint32),
+        ("triangle_count", c_uint32),
+        ("influence_count", c_uint32),
+        ("positions", c_void_p),
+        ("triangles", c_void_p),
+        ("joints", c_void_p),
+        ("weights", c_void_p),
+    ]
+
+
+class hf_skeleton_desc(Struct):
+    """The joints of a character at rest."""
+    struct_size: int
+    joint_count: int
+    names: int
+    parents: int
+    rest: int
+    inverse_binds: int
+    up: int
+    forward: int
+    roles: int
+    sides: int
+    travel_count: int
+    reserved: int
+    travels: int
+    skin: int
+    allocator: object
+    progress: int
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("joint_count", c_uint32),
+        ("names", c_void_p),
+        ("parents", c_void_p),
+        ("rest", c_void_p),
+        ("inverse_binds", c_void_p),
+        ("up", c_void_p),
+        ("forward", c_void_p),
+        ("roles", c_void_p),
+        ("sides", c_void_p),
+        ("travel_count", c_uint32),
+        ("reserved", c_uint32),
+        ("travels", c_void_p),
+        ("skin", c_void_p),
+        ("allocator", hf_allocator),
+        ("progress", c_void_p),
+    ]
+
+
+class hf_skeleton_info(Struct):
+    """The findings about a character."""
+    struct_size: int
+    joint_count: int
+    chain_count: int
+    reserved: int
+    up: object
+    forward: object
+    left: object
+    middle: object
+    up_confidence: float
+    forward_confidence: float
+    left_confidence: float
+    role_confidence: float
+    height: float
+    leg_length: float
+    hip_height: float
+    arm_length: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("joint_count", c_uint32),
+        ("chain_count", c_uint32),
+        ("reserved", c_uint32),
+        ("up", c_double * 3),
+        ("forward", c_double * 3),
+        ("left", c_double * 3),
+        ("middle", c_double * 3),
+        ("up_confidence", c_double),
+        ("forward_confidence", c_double),
+        ("left_confidence", c_double),
+        ("role_confidence", c_double),
+        ("height", c_double),
+        ("leg_length", c_double),
+        ("hip_height", c_double),
+        ("arm_length", c_double),
+    ]
+
+
+class hf_joint_info(Struct):
+    """What a joint was found to be."""
+    kind: int
+    role: int
+    side: int
+    chain: int
+    mate: int
+    _fields_ = [
+        ("kind", c_int32),
+        ("role", c_int32),
+        ("side", c_int32),
+        ("chain", c_uint32),
+        ("mate", c_uint32),
+    ]
+
+
+class hf_chain(Struct):
+    """Joints of one role and side, from root to tip."""
+    role: int
+    side: int
+    number: int
+    parent: int
+    first: int
+    joint_count: int
+    length: float
+    _fields_ = [
+        ("role", c_int32),
+        ("side", c_int32),
+        ("number", c_uint32),
+        ("parent", c_uint32),
+        ("first", c_uint32),
+        ("joint_count", c_uint32),
+        ("length", c_double),
+    ]
+
+
 class hf_transfer_desc(Struct):
     """most pairs of a transfer"""
     struct_size: int
@@ -2199,7 +2199,7 @@ class hf_weights_mirror_info(Struct):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_surface_point, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_surface_point, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -2250,13 +2250,6 @@ PROTOTYPES = {
     "hf_solver_certify": (c_int32, [c_void_p, c_void_p]),
     "hf_solver_prepare_rebase": (c_int32, [c_void_p]),
     "hf_solver_get_statistics": (c_int32, [c_void_p, c_void_p]),
-    "hf_skeleton_create": (c_int32, [c_void_p, c_void_p]),
-    "hf_skeleton_destroy": (None, [c_void_p]),
-    "hf_skeleton_get_info": (c_int32, [c_void_p, c_void_p]),
-    "hf_skeleton_get_joints": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_skeleton_get_chains": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_skeleton_get_chain_joints": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_skeleton_get_reasons": (c_int32, [c_void_p, c_size_t, c_void_p, c_void_p]),
     "hf_surface_space_levels": (c_int32, [c_void_p, c_void_p, c_int32, c_uint32, c_void_p]),
     "hf_surface_trace_isolines": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_surface_find_critical_points": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
@@ -2327,6 +2320,13 @@ PROTOTYPES = {
     "hf_retarget_get_chains": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_retarget_get_partners": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_skeleton_get_ground_velocity": (c_int32, [c_void_p, c_uint32, c_void_p, c_double, c_void_p]),
+    "hf_skeleton_create": (c_int32, [c_void_p, c_void_p]),
+    "hf_skeleton_destroy": (None, [c_void_p]),
+    "hf_skeleton_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_skeleton_get_joints": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_skeleton_get_chains": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_skeleton_get_chain_joints": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_skeleton_get_reasons": (c_int32, [c_void_p, c_size_t, c_void_p, c_void_p]),
     "hf_transfer_create": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_transfer_destroy": (None, [c_void_p]),
     "hf_transfer_add_pairs": (c_int32, [c_void_p, c_void_p, c_void_p]),

@@ -407,82 +407,6 @@ impl<'a> Edit<'a> {
     }
 }
 
-/// The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Skin<'a> {
-    /// vertex_count x 3 numbers
-    pub positions: Option<&'a [f32]>,
-    /// triangle_count x 3 numbers, or `None` with triangle_count 0
-    pub triangles: Option<&'a [u32]>,
-    /// vertex_count x influence_count numbers
-    pub joints: Option<&'a [u32]>,
-    /// vertex_count x influence_count numbers >= 0; a vertex whose weights are all 0 has no joint
-    pub weights: Option<&'a [f32]>,
-}
-impl<'a> Skin<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
-    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_skin_desc> {
-        let mut desc = raw::hf_skin_desc { ..Default::default() };
-        desc.positions = c.array(self.positions, "positions", &[&format!("{prefix}vertex_count"), "3"])?;
-        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}triangle_count"), "3"])?;
-        desc.joints = c.array(self.joints, "joints", &[&format!("{prefix}vertex_count"),
-            &format!("{prefix}influence_count")])?;
-        desc.weights = c.array(self.weights, "weights", &[&format!("{prefix}vertex_count"),
-            &format!("{prefix}influence_count")])?;
-        desc.vertex_count = c.count(&format!("{prefix}vertex_count"), 0)?;
-        desc.triangle_count = c.count(&format!("{prefix}triangle_count"), 0)?;
-        desc.influence_count = c.count(&format!("{prefix}influence_count"), 0)?;
-        Ok(desc)
-    }
-}
-
-/// The joints of a character at rest. A joint transform is 10 numbers relative to the parent: translation x y z, rotation
-/// x y z w, scale x y z.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SkeletonOptions<'a> {
-    /// joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
-    /// children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all joints bend it
-    pub inverse_binds: Option<&'a [f32]>,
-    /// 3 numbers declared axis, any length, or `None`: find it
-    pub up: Option<&'a [f32]>,
-    /// 3 numbers declared axis, any length, or `None`: find it
-    pub forward: Option<&'a [f32]>,
-    /// joint_count numbers declared `HF_ROLE_*`, -1 for a joint without; or `None`
-    pub roles: Option<&'a [i32]>,
-    /// joint_count numbers `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
-    pub sides: Option<&'a [i32]>,
-    /// travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or `None`
-    pub travels: Option<&'a [f32]>,
-    /// `None`: there is none, and joints are judged by names and places alone
-    pub skin: Option<Skin<'a>>,
-    /// `None`, or an object to poll and cancel through
-    pub progress: Option<&'a Progress>,
-}
-impl<'a> SkeletonOptions<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
-    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, names: Option<&[&str]>, parents: Option<&[u32]>,
-            rest: Option<&[f32]>) -> Result<raw::hf_skeleton_desc> {
-        let mut desc = raw::hf_skeleton_desc { ..Default::default() };
-        desc.parents = c.array(parents, "parents", &[&format!("{prefix}joint_count")])?;
-        desc.rest = c.array(rest, "rest", &[&format!("{prefix}joint_count"), "10"])?;
-        desc.inverse_binds = c.array(self.inverse_binds, "inverse_binds", &[&format!("{prefix}joint_count"), "16"])?;
-        desc.up = c.array(self.up, "up", &["3"])?;
-        desc.forward = c.array(self.forward, "forward", &["3"])?;
-        desc.roles = c.array(self.roles, "roles", &[&format!("{prefix}joint_count")])?;
-        desc.sides = c.array(self.sides, "sides", &[&format!("{prefix}joint_count")])?;
-        desc.travels = c.array(self.travels, "travels", &[&format!("{prefix}travel_count"), "3"])?;
-        desc.names = c.text(names)?;
-        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
-        if let Some(inner) = &self.skin {
-            let inner = inner.fill(c, "skin.")?;
-            desc.skin = c.keep(inner);
-        }
-        desc.joint_count = c.count(&format!("{prefix}joint_count"), 0)?;
-        desc.travel_count = c.count(&format!("{prefix}travel_count"), 0)?;
-        Ok(desc)
-    }
-}
-
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GeodesicsOptions<'a> {
@@ -1022,6 +946,82 @@ impl<'a> RetargetOptions<'a> {
         desc.target_rest = c.array(self.target_rest, "target_rest", &["target.joint_count", "10"])?;
         if let Some(given) = self.ground_velocity { desc.ground_velocity = given; }
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        Ok(desc)
+    }
+}
+
+/// The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Skin<'a> {
+    /// vertex_count x 3 numbers
+    pub positions: Option<&'a [f32]>,
+    /// triangle_count x 3 numbers, or `None` with triangle_count 0
+    pub triangles: Option<&'a [u32]>,
+    /// vertex_count x influence_count numbers
+    pub joints: Option<&'a [u32]>,
+    /// vertex_count x influence_count numbers >= 0; a vertex whose weights are all 0 has no joint
+    pub weights: Option<&'a [f32]>,
+}
+impl<'a> Skin<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_skin_desc> {
+        let mut desc = raw::hf_skin_desc { ..Default::default() };
+        desc.positions = c.array(self.positions, "positions", &[&format!("{prefix}vertex_count"), "3"])?;
+        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}triangle_count"), "3"])?;
+        desc.joints = c.array(self.joints, "joints", &[&format!("{prefix}vertex_count"),
+            &format!("{prefix}influence_count")])?;
+        desc.weights = c.array(self.weights, "weights", &[&format!("{prefix}vertex_count"),
+            &format!("{prefix}influence_count")])?;
+        desc.vertex_count = c.count(&format!("{prefix}vertex_count"), 0)?;
+        desc.triangle_count = c.count(&format!("{prefix}triangle_count"), 0)?;
+        desc.influence_count = c.count(&format!("{prefix}influence_count"), 0)?;
+        Ok(desc)
+    }
+}
+
+/// The joints of a character at rest. A joint transform is 10 numbers relative to the parent: translation x y z, rotation
+/// x y z w, scale x y z.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SkeletonOptions<'a> {
+    /// joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
+    /// children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all joints bend it
+    pub inverse_binds: Option<&'a [f32]>,
+    /// 3 numbers declared axis, any length, or `None`: find it
+    pub up: Option<&'a [f32]>,
+    /// 3 numbers declared axis, any length, or `None`: find it
+    pub forward: Option<&'a [f32]>,
+    /// joint_count numbers declared `HF_ROLE_*`, -1 for a joint without; or `None`
+    pub roles: Option<&'a [i32]>,
+    /// joint_count numbers `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
+    pub sides: Option<&'a [i32]>,
+    /// travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or `None`
+    pub travels: Option<&'a [f32]>,
+    /// `None`: there is none, and joints are judged by names and places alone
+    pub skin: Option<Skin<'a>>,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> SkeletonOptions<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, names: Option<&[&str]>, parents: Option<&[u32]>,
+            rest: Option<&[f32]>) -> Result<raw::hf_skeleton_desc> {
+        let mut desc = raw::hf_skeleton_desc { ..Default::default() };
+        desc.parents = c.array(parents, "parents", &[&format!("{prefix}joint_count")])?;
+        desc.rest = c.array(rest, "rest", &[&format!("{prefix}joint_count"), "10"])?;
+        desc.inverse_binds = c.array(self.inverse_binds, "inverse_binds", &[&format!("{prefix}joint_count"), "16"])?;
+        desc.up = c.array(self.up, "up", &["3"])?;
+        desc.forward = c.array(self.forward, "forward", &["3"])?;
+        desc.roles = c.array(self.roles, "roles", &[&format!("{prefix}joint_count")])?;
+        desc.sides = c.array(self.sides, "sides", &[&format!("{prefix}joint_count")])?;
+        desc.travels = c.array(self.travels, "travels", &[&format!("{prefix}travel_count"), "3"])?;
+        desc.names = c.text(names)?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        if let Some(inner) = &self.skin {
+            let inner = inner.fill(c, "skin.")?;
+            desc.skin = c.keep(inner);
+        }
+        desc.joint_count = c.count(&format!("{prefix}joint_count"), 0)?;
+        desc.travel_count = c.count(&format!("{prefix}travel_count"), 0)?;
         Ok(desc)
     }
 }
@@ -2494,150 +2494,6 @@ impl TryClone for Solver {
 }
 
 object!(
-    /// A skeleton at rest and the findings about it. Calls read the object, none changes it.
-    Skeleton: hf_skeleton, hf_skeleton_destroy
-);
-impl Skeleton {
-    /// Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
-    /// feet shall stand on the ground. The object keeps a copy of everything.
-    ///
-    /// names: one line for each joint in UTF-8, or `None`: names then say nothing
-    /// parents: joint_count numbers number of the parent, [`raw::HF_NO_INDEX`] for a root
-    /// rest: joint_count x 10 numbers joint transforms
-    /// inverse_binds: joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
-    /// names: it carries children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all
-    /// joints bend it
-    /// up: 3 numbers declared axis, any length, or `None`: find it
-    /// forward: 3 numbers declared axis, any length, or `None`: find it
-    /// roles: joint_count numbers declared `HF_ROLE_*`, -1 for a joint without; or `None`
-    /// sides: joint_count numbers `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
-    /// travels: travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or
-    /// `None`
-    /// skin: `None`: there is none, and joints are judged by names and places alone
-    /// progress: an object to poll and cancel through
-    ///
-    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
-    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn new(names: Option<&[&str]>, parents: &[u32], rest: &[f32], options: &SkeletonOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
-        let desc = options.fill(&mut c, "", names, Some(parents), Some(rest))?;
-        let mut handle_ = std::ptr::null_mut();
-        // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_skeleton_create(&desc, &mut handle_) })?;
-        Ok(Skeleton { handle: handle_, counts: c.counts(&["joint_count"]) })
-    }
-
-    /// Writes the findings.
-    #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn info(&self) -> Result<raw::hf_skeleton_info> {
-        let mut c = Call::new(&self.counts);
-        let mut info = raw::hf_skeleton_info::default();
-        // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_skeleton_get_info(self.handle, &mut info) })?;
-        Ok(info)
-    }
-
-    /// Writes one entry for each joint.
-    #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn joints(&self) -> Result<Vec<raw::hf_joint_info>> {
-        let mut c = Call::new(&self.counts);
-        let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
-        let mut joints: Vec<raw::hf_joint_info> = Vec::new();
-        loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut joints, &["capacity"]);
-            // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_skeleton_get_joints(self.handle, room.get("capacity"), room.at(&mut joints),
-                &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
-                break;
-            }
-        }
-        joints.truncate(c.product(&["capacity"]));
-        Ok(joints)
-    }
-
-    /// Writes the chains.
-    #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn chains(&self) -> Result<Vec<raw::hf_chain>> {
-        let mut c = Call::new(&self.counts);
-        let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
-        let mut chains: Vec<raw::hf_chain> = Vec::new();
-        loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut chains, &["capacity"]);
-            // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_skeleton_get_chains(self.handle, room.get("capacity"), room.at(&mut chains),
-                &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
-                break;
-            }
-        }
-        chains.truncate(c.product(&["capacity"]));
-        Ok(chains)
-    }
-
-    /// Writes the joints of chain after chain.
-    #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn chain_joints(&self) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
-        let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
-        let mut joints: Vec<u32> = Vec::new();
-        loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut joints, &["capacity"]);
-            // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_skeleton_get_chain_joints(self.handle, room.get("capacity"),
-                room.at(&mut joints), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
-                break;
-            }
-        }
-        joints.truncate(c.product(&["capacity"]));
-        Ok(joints)
-    }
-
-    /// Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful.
-    #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn reasons(&self) -> Result<String> {
-        let mut c = Call::new(&self.counts);
-        let mut size = 0;
-        // SAFETY: the first call asks for the size.
-        check(unsafe { raw::hf_skeleton_get_reasons(self.handle, 0, std::ptr::null_mut(), &mut size) })?;
-        let mut block = vec![0u8; size];
-        check(unsafe { raw::hf_skeleton_get_reasons(self.handle, block.len(), block.as_mut_ptr().cast(), &mut size) })?;
-        Ok(String::from_utf8_lossy(&block[..block.len() - 1]).into_owned())
-    }
-
-    /// Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk. It
-    /// is 0 for a clip that travels.
-    ///
-    /// poses: frame_count x joint_count x 10 numbers.
-    /// seconds: between two frames, above 0.
-    ///
-    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn ground_velocity(&self, poses: &[f32], seconds: f64) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
-        let poses_ = c.array(Some(poses), "poses", &["frame_count", "joint_count", "10"])?;
-        let mut velocity = vec![f64::default(); c.product(&["3"])];
-        // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_skeleton_get_ground_velocity(self.handle, c.count("frame_count", 1)?, poses_, seconds,
-            velocity.as_mut_ptr()) })?;
-        Ok(velocity)
-    }
-
-    /// As it was made with.
-    pub fn joint_count(&self) -> usize {
-        known(&self.counts, "joint_count").unwrap_or(0)
-    }
-}
-
-object!(
     /// Computes geodesic distances on one surface: the lengths of shortest paths along it.
     Geodesics: hf_geodesics, hf_geodesics_destroy
 );
@@ -3966,6 +3822,150 @@ impl Retarget {
 impl TryClone for Retarget {
     fn try_clone(&self) -> Result<Self> {
         Retarget::try_clone(self)
+    }
+}
+
+object!(
+    /// A skeleton at rest and the findings about it. Calls read the object, none changes it.
+    Skeleton: hf_skeleton, hf_skeleton_destroy
+);
+impl Skeleton {
+    /// Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk. It
+    /// is 0 for a clip that travels.
+    ///
+    /// poses: frame_count x joint_count x 10 numbers.
+    /// seconds: between two frames, above 0.
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn ground_velocity(&self, poses: &[f32], seconds: f64) -> Result<Vec<f64>> {
+        let mut c = Call::new(&self.counts);
+        let poses_ = c.array(Some(poses), "poses", &["frame_count", "joint_count", "10"])?;
+        let mut velocity = vec![f64::default(); c.product(&["3"])];
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_skeleton_get_ground_velocity(self.handle, c.count("frame_count", 1)?, poses_, seconds,
+            velocity.as_mut_ptr()) })?;
+        Ok(velocity)
+    }
+
+    /// Reads a character and finds its axes, roles and chains. The skin says where soles and heads end, so give it if
+    /// feet shall stand on the ground. The object keeps a copy of everything.
+    ///
+    /// names: one line for each joint in UTF-8, or `None`: names then say nothing
+    /// parents: joint_count numbers number of the parent, [`raw::HF_NO_INDEX`] for a root
+    /// rest: joint_count x 10 numbers joint transforms
+    /// inverse_binds: joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
+    /// names: it carries children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all
+    /// joints bend it
+    /// up: 3 numbers declared axis, any length, or `None`: find it
+    /// forward: 3 numbers declared axis, any length, or `None`: find it
+    /// roles: joint_count numbers declared `HF_ROLE_*`, -1 for a joint without; or `None`
+    /// sides: joint_count numbers `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
+    /// travels: travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or
+    /// `None`
+    /// skin: `None`: there is none, and joints are judged by names and places alone
+    /// progress: an object to poll and cancel through
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn new(names: Option<&[&str]>, parents: &[u32], rest: &[f32], options: &SkeletonOptions) -> Result<Self> {
+        let mut c = Call::new(&[]);
+        let desc = options.fill(&mut c, "", names, Some(parents), Some(rest))?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_skeleton_create(&desc, &mut handle_) })?;
+        Ok(Skeleton { handle: handle_, counts: c.counts(&["joint_count"]) })
+    }
+
+    /// Writes the findings.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn info(&self) -> Result<raw::hf_skeleton_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_skeleton_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_skeleton_get_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Writes one entry for each joint.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn joints(&self) -> Result<Vec<raw::hf_joint_info>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut joints: Vec<raw::hf_joint_info> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut joints, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_skeleton_get_joints(self.handle, room.get("capacity"), room.at(&mut joints),
+                &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        joints.truncate(c.product(&["capacity"]));
+        Ok(joints)
+    }
+
+    /// Writes the chains.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn chains(&self) -> Result<Vec<raw::hf_chain>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut chains: Vec<raw::hf_chain> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut chains, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_skeleton_get_chains(self.handle, room.get("capacity"), room.at(&mut chains),
+                &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        chains.truncate(c.product(&["capacity"]));
+        Ok(chains)
+    }
+
+    /// Writes the joints of chain after chain.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn chain_joints(&self) -> Result<Vec<u32>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut joints: Vec<u32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity"]]);
+            room.make(&c, &mut joints, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_skeleton_get_chain_joints(self.handle, room.get("capacity"),
+                room.at(&mut joints), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        joints.truncate(c.product(&["capacity"]));
+        Ok(joints)
+    }
+
+    /// Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn reasons(&self) -> Result<String> {
+        let mut c = Call::new(&self.counts);
+        let mut size = 0;
+        // SAFETY: the first call asks for the size.
+        check(unsafe { raw::hf_skeleton_get_reasons(self.handle, 0, std::ptr::null_mut(), &mut size) })?;
+        let mut block = vec![0u8; size];
+        check(unsafe { raw::hf_skeleton_get_reasons(self.handle, block.len(), block.as_mut_ptr().cast(), &mut size) })?;
+        Ok(String::from_utf8_lossy(block.strip_suffix(&[0]).unwrap_or(&block)).into_owned())
+    }
+
+    /// As it was made with.
+    pub fn joint_count(&self) -> usize {
+        known(&self.counts, "joint_count").unwrap_or(0)
     }
 }
 

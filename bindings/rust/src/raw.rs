@@ -55,31 +55,6 @@ pub const HF_ROUTE_NONE: i32 = 0;
 pub const HF_ROUTE_DENSE: i32 = 1;
 pub const HF_ROUTE_FRESH: i32 = 2;
 pub const HF_ROUTE_REBASE: i32 = 3;
-pub const HF_ROLE_OTHER: i32 = 0;
-pub const HF_ROLE_SPINE: i32 = 1;
-pub const HF_ROLE_NECK: i32 = 2;
-pub const HF_ROLE_HEAD: i32 = 3;
-pub const HF_ROLE_JAW: i32 = 4;
-pub const HF_ROLE_SHOULDER: i32 = 5;
-pub const HF_ROLE_ARM: i32 = 6;
-pub const HF_ROLE_HAND: i32 = 7;
-pub const HF_ROLE_FINGER: i32 = 8;
-pub const HF_ROLE_LEG: i32 = 9;
-pub const HF_ROLE_FOOT: i32 = 10;
-pub const HF_ROLE_TOE: i32 = 11;
-pub const HF_ROLE_TAIL: i32 = 12;
-pub const HF_ROLE_WING: i32 = 13;
-pub const HF_ROLE_EAR: i32 = 14;
-pub const HF_ROLE_EYE: i32 = 15;
-pub const HF_ROLE_ANTENNA: i32 = 16;
-pub const HF_ROLE_FIN: i32 = 17;
-pub const HF_SIDE_MIDDLE: i32 = 0;
-pub const HF_SIDE_LEFT: i32 = 1;
-pub const HF_SIDE_RIGHT: i32 = 2;
-pub const HF_JOINT_KIND_BODY: i32 = 0;
-pub const HF_JOINT_KIND_HELPER: i32 = 1;
-pub const HF_JOINT_KIND_END: i32 = 2;
-pub const HF_JOINT_KIND_TWIST: i32 = 3;
 pub const HF_LEVELS_VALUE: i32 = 0;
 pub const HF_LEVELS_AREA: i32 = 1;
 pub const HF_LEVELS_LENGTH: i32 = 2;
@@ -124,6 +99,31 @@ pub const HF_SCALE_GIVEN: i32 = 0;
 pub const HF_SCALE_LEGS: i32 = 1;
 pub const HF_SCALE_HIPS: i32 = 2;
 pub const HF_SCALE_HEIGHT: i32 = 3;
+pub const HF_ROLE_OTHER: i32 = 0;
+pub const HF_ROLE_SPINE: i32 = 1;
+pub const HF_ROLE_NECK: i32 = 2;
+pub const HF_ROLE_HEAD: i32 = 3;
+pub const HF_ROLE_JAW: i32 = 4;
+pub const HF_ROLE_SHOULDER: i32 = 5;
+pub const HF_ROLE_ARM: i32 = 6;
+pub const HF_ROLE_HAND: i32 = 7;
+pub const HF_ROLE_FINGER: i32 = 8;
+pub const HF_ROLE_LEG: i32 = 9;
+pub const HF_ROLE_FOOT: i32 = 10;
+pub const HF_ROLE_TOE: i32 = 11;
+pub const HF_ROLE_TAIL: i32 = 12;
+pub const HF_ROLE_WING: i32 = 13;
+pub const HF_ROLE_EAR: i32 = 14;
+pub const HF_ROLE_EYE: i32 = 15;
+pub const HF_ROLE_ANTENNA: i32 = 16;
+pub const HF_ROLE_FIN: i32 = 17;
+pub const HF_SIDE_MIDDLE: i32 = 0;
+pub const HF_SIDE_LEFT: i32 = 1;
+pub const HF_SIDE_RIGHT: i32 = 2;
+pub const HF_JOINT_KIND_BODY: i32 = 0;
+pub const HF_JOINT_KIND_HELPER: i32 = 1;
+pub const HF_JOINT_KIND_END: i32 = 2;
+pub const HF_JOINT_KIND_TWIST: i32 = 3;
 pub const HF_TRANSFER_FIELDS: i32 = 0;
 pub const HF_TRANSFER_PAPER: i32 = 1;
 pub const HF_TRANSFER_STRETCH: i32 = 2;
@@ -190,11 +190,6 @@ pub struct hf_solver_object {
 }
 pub type hf_solver = *mut hf_solver_object;
 #[repr(C)]
-pub struct hf_skeleton_object {
-    _opaque: [u8; 0],
-}
-pub type hf_skeleton = *mut hf_skeleton_object;
-#[repr(C)]
 pub struct hf_geodesics_object {
     _opaque: [u8; 0],
 }
@@ -234,6 +229,11 @@ pub struct hf_retarget_object {
     _opaque: [u8; 0],
 }
 pub type hf_retarget = *mut hf_retarget_object;
+#[repr(C)]
+pub struct hf_skeleton_object {
+    _opaque: [u8; 0],
+}
+pub type hf_skeleton = *mut hf_skeleton_object;
 #[repr(C)]
 pub struct hf_transfer_object {
     _opaque: [u8; 0],
@@ -1011,157 +1011,6 @@ impl hf_solver_statistics {
             "predicted_rebase_ms" => self.predicted_rebase_ms,
             _ => return None,
         })
-    }
-}
-
-/// The skin of a character
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct hf_skin_desc {
-    pub struct_size: u32,
-    pub vertex_count: u32,
-    pub triangle_count: u32,
-    pub influence_count: u32,
-    pub positions: *const f32,
-    pub triangles: *const u32,
-    pub joints: *const u32,
-    pub weights: *const f32,
-}
-impl Default for hf_skin_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-
-/// The joints of a character at rest.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct hf_skeleton_desc {
-    pub struct_size: u32,
-    pub joint_count: u32,
-    pub names: *const c_char,
-    pub parents: *const u32,
-    pub rest: *const f32,
-    pub inverse_binds: *const f32,
-    pub up: *const f32,
-    pub forward: *const f32,
-    pub roles: *const i32,
-    pub sides: *const i32,
-    pub travel_count: u32,
-    pub reserved: u32,
-    pub travels: *const f32,
-    pub skin: *const hf_skin_desc,
-    pub allocator: hf_allocator,
-    pub progress: hf_progress,
-}
-impl Default for hf_skeleton_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-
-/// The findings about a character.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct hf_skeleton_info {
-    pub struct_size: u32,
-    pub joint_count: u32,
-    pub chain_count: u32,
-    pub reserved: u32,
-    pub up: [f64; 3],
-    pub forward: [f64; 3],
-    pub left: [f64; 3],
-    pub middle: [f64; 3],
-    pub up_confidence: f64,
-    pub forward_confidence: f64,
-    pub left_confidence: f64,
-    pub role_confidence: f64,
-    pub height: f64,
-    pub leg_length: f64,
-    pub hip_height: f64,
-    pub arm_length: f64,
-}
-impl Default for hf_skeleton_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_skeleton_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "joint_count" => f64::from(self.joint_count),
-            "chain_count" => f64::from(self.chain_count),
-            "reserved" => f64::from(self.reserved),
-            "up_confidence" => self.up_confidence,
-            "forward_confidence" => self.forward_confidence,
-            "left_confidence" => self.left_confidence,
-            "role_confidence" => self.role_confidence,
-            "height" => self.height,
-            "leg_length" => self.leg_length,
-            "hip_height" => self.hip_height,
-            "arm_length" => self.arm_length,
-            _ => return None,
-        })
-    }
-}
-
-/// What a joint was found to be.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct hf_joint_info {
-    pub kind: i32,
-    pub role: i32,
-    pub side: i32,
-    pub chain: u32,
-    pub mate: u32,
-}
-impl Default for hf_joint_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
-}
-impl hf_joint_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "kind" => f64::from(self.kind),
-            "role" => f64::from(self.role),
-            "side" => f64::from(self.side),
-            "chain" => f64::from(self.chain),
-            "mate" => f64::from(self.mate),
-            _ => return None,
-        })
-    }
-}
-
-/// Joints of one role and side, from root to tip.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct hf_chain {
-    pub role: i32,
-    pub side: i32,
-    pub number: u32,
-    pub parent: u32,
-    pub first: u32,
-    pub joint_count: u32,
-    pub length: f64,
-}
-impl Default for hf_chain {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
     }
 }
 
@@ -2067,6 +1916,157 @@ impl Default for hf_chain_match {
     }
 }
 
+/// The skin of a character
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_skin_desc {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub triangle_count: u32,
+    pub influence_count: u32,
+    pub positions: *const f32,
+    pub triangles: *const u32,
+    pub joints: *const u32,
+    pub weights: *const f32,
+}
+impl Default for hf_skin_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The joints of a character at rest.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_skeleton_desc {
+    pub struct_size: u32,
+    pub joint_count: u32,
+    pub names: *const c_char,
+    pub parents: *const u32,
+    pub rest: *const f32,
+    pub inverse_binds: *const f32,
+    pub up: *const f32,
+    pub forward: *const f32,
+    pub roles: *const i32,
+    pub sides: *const i32,
+    pub travel_count: u32,
+    pub reserved: u32,
+    pub travels: *const f32,
+    pub skin: *const hf_skin_desc,
+    pub allocator: hf_allocator,
+    pub progress: hf_progress,
+}
+impl Default for hf_skeleton_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
+/// The findings about a character.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_skeleton_info {
+    pub struct_size: u32,
+    pub joint_count: u32,
+    pub chain_count: u32,
+    pub reserved: u32,
+    pub up: [f64; 3],
+    pub forward: [f64; 3],
+    pub left: [f64; 3],
+    pub middle: [f64; 3],
+    pub up_confidence: f64,
+    pub forward_confidence: f64,
+    pub left_confidence: f64,
+    pub role_confidence: f64,
+    pub height: f64,
+    pub leg_length: f64,
+    pub hip_height: f64,
+    pub arm_length: f64,
+}
+impl Default for hf_skeleton_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_skeleton_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "joint_count" => f64::from(self.joint_count),
+            "chain_count" => f64::from(self.chain_count),
+            "reserved" => f64::from(self.reserved),
+            "up_confidence" => self.up_confidence,
+            "forward_confidence" => self.forward_confidence,
+            "left_confidence" => self.left_confidence,
+            "role_confidence" => self.role_confidence,
+            "height" => self.height,
+            "leg_length" => self.leg_length,
+            "hip_height" => self.hip_height,
+            "arm_length" => self.arm_length,
+            _ => return None,
+        })
+    }
+}
+
+/// What a joint was found to be.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_joint_info {
+    pub kind: i32,
+    pub role: i32,
+    pub side: i32,
+    pub chain: u32,
+    pub mate: u32,
+}
+impl Default for hf_joint_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+impl hf_joint_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "kind" => f64::from(self.kind),
+            "role" => f64::from(self.role),
+            "side" => f64::from(self.side),
+            "chain" => f64::from(self.chain),
+            "mate" => f64::from(self.mate),
+            _ => return None,
+        })
+    }
+}
+
+/// Joints of one role and side, from root to tip.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_chain {
+    pub role: i32,
+    pub side: i32,
+    pub number: u32,
+    pub parent: u32,
+    pub first: u32,
+    pub joint_count: u32,
+    pub length: f64,
+}
+impl Default for hf_chain {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
 /// most pairs of a transfer
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -2596,13 +2596,6 @@ extern "C" {
     pub fn hf_solver_certify(solver: hf_solver, inout_certificate: *mut hf_certificate) -> i32;
     pub fn hf_solver_prepare_rebase(solver: hf_solver) -> i32;
     pub fn hf_solver_get_statistics(solver: hf_solver, out_statistics: *mut hf_solver_statistics) -> i32;
-    pub fn hf_skeleton_create(desc: *const hf_skeleton_desc, out_skeleton: *mut hf_skeleton) -> i32;
-    pub fn hf_skeleton_destroy(skeleton: hf_skeleton);
-    pub fn hf_skeleton_get_info(skeleton: hf_skeleton, out_info: *mut hf_skeleton_info) -> i32;
-    pub fn hf_skeleton_get_joints(skeleton: hf_skeleton, capacity: u32, out_joints: *mut hf_joint_info, out_count: *mut u32) -> i32;
-    pub fn hf_skeleton_get_chains(skeleton: hf_skeleton, capacity: u32, out_chains: *mut hf_chain, out_count: *mut u32) -> i32;
-    pub fn hf_skeleton_get_chain_joints(skeleton: hf_skeleton, capacity: u32, out_joints: *mut u32, out_count: *mut u32) -> i32;
-    pub fn hf_skeleton_get_reasons(skeleton: hf_skeleton, capacity: usize, out_text: *mut c_char, out_size: *mut usize) -> i32;
     pub fn hf_surface_space_levels(surface: hf_surface, field: *const hf_scalars, spacing: i32, level_count: u32, out_levels: *mut f64) -> i32;
     pub fn hf_surface_trace_isolines(surface: hf_surface, field: *const hf_scalars, level_count: u32, levels: *const f64, inout_lines: *mut hf_isolines) -> i32;
     pub fn hf_surface_find_critical_points(surface: hf_surface, field: *const hf_scalars, capacity: u32, out_points: *mut hf_critical_point, out_info: *mut hf_critical_info) -> i32;
@@ -2673,6 +2666,13 @@ extern "C" {
     pub fn hf_retarget_get_chains(retarget: hf_retarget, capacity: u32, out_chains: *mut hf_chain_match, out_count: *mut u32) -> i32;
     pub fn hf_retarget_get_partners(retarget: hf_retarget, capacity: u32, out_partners: *mut u32, out_count: *mut u32) -> i32;
     pub fn hf_skeleton_get_ground_velocity(skeleton: hf_skeleton, frame_count: u32, poses: *const f32, seconds: f64, out_velocity: *mut f64) -> i32;
+    pub fn hf_skeleton_create(desc: *const hf_skeleton_desc, out_skeleton: *mut hf_skeleton) -> i32;
+    pub fn hf_skeleton_destroy(skeleton: hf_skeleton);
+    pub fn hf_skeleton_get_info(skeleton: hf_skeleton, out_info: *mut hf_skeleton_info) -> i32;
+    pub fn hf_skeleton_get_joints(skeleton: hf_skeleton, capacity: u32, out_joints: *mut hf_joint_info, out_count: *mut u32) -> i32;
+    pub fn hf_skeleton_get_chains(skeleton: hf_skeleton, capacity: u32, out_chains: *mut hf_chain, out_count: *mut u32) -> i32;
+    pub fn hf_skeleton_get_chain_joints(skeleton: hf_skeleton, capacity: u32, out_joints: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_skeleton_get_reasons(skeleton: hf_skeleton, capacity: usize, out_text: *mut c_char, out_size: *mut usize) -> i32;
     pub fn hf_transfer_create(source: hf_surface, target: hf_surface, desc: *const hf_transfer_desc, out_transfer: *mut hf_transfer) -> i32;
     pub fn hf_transfer_destroy(transfer: hf_transfer);
     pub fn hf_transfer_add_pairs(transfer: hf_transfer, pairs: *const hf_pairs_desc, out_pairs: *mut u32) -> i32;
