@@ -13,7 +13,8 @@ from model import OBJECT_COUNTS, named, symbols
 FIRST = {"hf_surface_desc": ("positions", "triangles"), "hf_skeleton_desc": ("names", "parents", "rest"),
          "hf_skin_desc": ("positions", "triangles", "joints", "weights"), "hf_sites_desc": ("vertices", "values"), "hf_morph_desc": ("weight",),
          "hf_transfer_frame": ("source_positions",), "hf_gaps_desc": ("positions",), "hf_handles_desc": ("region_vertices",),
-         "hf_pairs_desc": ("source_vertices", "target_vertices", "flags"), "hf_graph_desc": ("edges", "weights"), "hf_pins_desc": ("vertices",)}
+         "hf_pairs_desc": ("source_vertices", "target_vertices", "flags"), "hf_graph_desc": ("edges", "weights"), "hf_pins_desc": ("vertices",),
+         "hf_skeleton_desc": ("names", "parents", "rest"), "hf_skin_desc": ("positions", "triangles", "joints", "weights")}
 # functions that no class holds: the layers use them for errors and versions
 LOOSE = ("hf_error_get_detail", "hf_result_get_name", "hf_version_get")
 
