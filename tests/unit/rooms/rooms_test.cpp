@@ -5,8 +5,8 @@
 //           mesh <- skeleton <- {retarget, capi}, retarget <- capi
 // A room may include itself, the public headers, and the rooms to its left. mesh and factor do not see each other, nor
 // do deform, detail and quads, nor weights and the rooms above the engine. gltf is a library beside the core: it sees
-// itself, the public headers and the rooms skeleton and retarget with base, of which it has a copy inside; no room sees it.
-// Bindings see only public headers, samples see gltf besides; public headers see only themselves and the C standard
+// itself, the public headers and the rooms skeleton and retarget with base, of which it has a copy inside; no room sees
+// it. Bindings see only public headers, samples see gltf besides; public headers see only themselves and the C standard
 // library.
 #include <gtest/gtest.h>
 
