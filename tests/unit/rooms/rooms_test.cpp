@@ -5,8 +5,8 @@
 //           mesh <- skeleton <- {retarget, capi}, retarget <- capi
 // A room may include itself, the public headers, and the rooms to its left. mesh and factor do not see each other, nor
 // do deform, detail and quads, nor weights and the rooms above the engine. gltf is a library beside the core: it sees
-// itself, the public headers and the room skeleton with base, which it has a copy of inside, and no room sees it.
-// Bindings see only public headers, samples see gltf besides; public headers see only themselves and the C standard
+// itself, the public headers and the rooms skeleton and retarget with base, of which it has a copy inside; no room sees
+// it. Bindings see only public headers, samples see gltf besides; public headers see only themselves and the C standard
 // library.
 #include <gtest/gtest.h>
 
@@ -95,7 +95,7 @@ const std::map<std::string, Names>& arrows() {
     a["skeleton"].insert("skeleton");
     a["retarget"] = a["skeleton"];
     a["retarget"].insert("retarget");
-    a["gltf"] = {"base", "skeleton", "gltf"};
+    a["gltf"] = {"base", "skeleton", "retarget", "gltf"};
     a["capi"] = a["transfer"];
     a["capi"].insert({"capi", "remesh", "quads", "weights", "skeleton", "retarget"});
     return a;
