@@ -1,11 +1,11 @@
 /* hf/pose.h - grab the surface with handles and pose it; add and remove handles at any time.
  *
  * A handle is a region of vertices that moves rigidly; every other vertex follows. You give its place, and its rotation
- * too or leave that free (free_rotation): then the solve finds it, as for a hand that is pulled. Each handle has one harmonic field,
- * which is 1 on the handle and 0 on the others. It says how much a vertex follows the handle. The vertices between two
- * levels of a field form a cluster, and clusters overlap. A small prefactored solve finds the motion of each cluster,
- * and each vertex blends these motions. HF_DEFORM_PAPER does this exactly as Section 5 of Xu, Zhang, Cohen-Or and Xiong
- * (2009) describes.
+ * too or leave that free (free_rotation): then the solve finds it, as for a hand that is pulled. Each handle has one
+ * harmonic field, which is 1 on the handle and 0 on the others. It says how much a vertex follows the handle. The
+ * vertices between two levels of a field form a cluster, and clusters overlap. A small prefactored solve finds the
+ * motion of each cluster, and each vertex blends these motions. HF_DEFORM_PAPER does this exactly as Section 5 of Xu,
+ * Zhang, Cohen-Or and Xiong (2009) describes.
  *
  * Handles have layers. Handles of layer 0 move the rest pose. Handles of a higher layer edit the surface that the lower
  * layers produce. They do not move the lower layers, so you can add and remove them freely. */
@@ -117,7 +117,7 @@ HF_API hf_result hf_pose_remove_handles(hf_pose pose, uint32_t handle_count, con
  * translation. The centroid is the mean of the region's rest positions, in the unit of the mesh (hf_pose_get_handle
  * writes it). */
 typedef struct hf_transform {
-  double rotation[4];    /* unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free */
+  double rotation[4];    /* unit quaternion x, y, z, w; normalised inside; all zero = identity; unused where free */
   double translation[3]; /* up to 1e15 box diagonals */
 } hf_transform;
 
@@ -133,17 +133,17 @@ HF_API hf_result hf_pose_set_transforms(hf_pose pose, uint32_t handle_count, con
 HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_transform* transform);
 
 /* Frees the rotations of handles (free_rotation 1), or gives them (0): uint32_t[handle_count] handles. A handle of free
- * rotation is a place. Its centroid lands exactly where its transform puts it; the rotation of the transform is ignored.
- * Each hf_deform finds the rotation of least elastic energy for that place, together with the pose (as-rigid-as-possible
- * energy with positional constraints, Sorkine and Alexa 2007). hf_pose_get_handle writes it. Drag with a free rotation:
- * the wrist follows the hand. Give the rotation when the user turns a ring. A given rotation starts as the handle stands,
- * so the pose does not change. Where you free a rotation on layer 0 the surface stays as it is and lets the old rotation
- * go as handles move, as with in_place; place the handles after that call. On a higher layer a changed handle moves the
- * surface at the next frame. A handle alone in its component keeps the rotation it has. restart also starts free
- * rotations anew. refine keeps the rotation of the smooth pose. Cost: one iteration of a solve for each free handle, at
- * this call and when handles are added or removed; little in a frame. Errors: HF_ERROR_NOT_FOUND,
- * HF_ERROR_INVALID_ARGUMENT (free_rotation), HF_ERROR_UNSUPPORTED (HF_DEFORM_PAPER). Thread safety: changes `pose`.
- * Since 0.1. */
+ * rotation is a place. Its centroid lands exactly where its transform puts it; the rotation of the transform is
+ * ignored. Each hf_deform finds the rotation of least elastic energy for that place, together with the pose
+ * (as-rigid-as-possible energy with positional constraints, Sorkine and Alexa 2007). hf_pose_get_handle writes it. Drag
+ * with a free rotation: the wrist follows the hand. Give the rotation when the user turns a ring. A given rotation
+ * starts as the handle stands, so the pose does not change. Where you free a rotation on layer 0 the surface stays as
+ * it is and lets the old rotation go as handles move, as with in_place; place the handles after that call. On a higher
+ * layer a changed handle moves the surface at the next frame. A handle alone in its component keeps the rotation it
+ * has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose. Cost: one iteration of a
+ * solve for each free handle, at this call and when handles are added or removed; little in a frame. Errors:
+ * HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (free_rotation), HF_ERROR_UNSUPPORTED (HF_DEFORM_PAPER). Thread safety:
+ * changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
                                             int32_t free_rotation);
 
