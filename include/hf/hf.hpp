@@ -197,7 +197,7 @@ struct Sites {
   std::vector<uint32_t> triangles{};
   // site_count x 3 numbers with triangles or corners, else none: weights of the corners, >= 0, of sum 1 within 1e-6
   std::vector<double> barycentrics{};
-  // site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to 1e-12 ..
+  // site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to 1e-12 to
   // 1e12
   std::vector<double> stiffness{};
   // site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
@@ -1302,7 +1302,7 @@ class Solver {
   // barycentrics: site_count x 3 numbers with triangles or corners, else none: weights of the corners, >= 0, of sum 1
   // within 1e-6
   // stiffness: site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped
-  // to 1e-12 .. 1e12
+  // to 1e-12 to 1e12
   // radii: site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
   // corners: site_count x 3 numbers three vertices as given, of one face, or none: hf_hit has them. In a face of more
   // corners this places a site in a triangle of them
@@ -1352,7 +1352,7 @@ class Solver {
   // barycentrics: site_count x 3 numbers with triangles or corners, else none: weights of the corners, >= 0, of sum 1
   // within 1e-6
   // stiffness: site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped
-  // to 1e-12 .. 1e12
+  // to 1e-12 to 1e12
   // radii: site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
   // corners: site_count x 3 numbers three vertices as given, of one face, or none: hf_hit has them. In a face of more
   // corners this places a site in a triangle of them

@@ -87,7 +87,7 @@ typedef struct hf_sites_desc {
                                  sum 1 within 1e-6 */
   const double* values;       /* [site_count][channel_count], up to 1e200 in size; NULL = 0 */
   const double* stiffness;    /* [site_count] >= 0, relative to the mean diagonal of K; 0 = hard (exact); NULL = all
-                                 hard; clamped to 1e-12 .. 1e12 */
+                                 hard; clamped to 1e-12 to 1e12 */
   const double* radii;        /* [site_count] >= 0, geodesic, in the unit of the mesh; 0 = a point; NULL = all points */
   const uint32_t* corners;    /* [site_count][3] three vertices as given, of one face, or NULL: hf_hit has them. In a
                                  face of more corners this places a site in a triangle of them */

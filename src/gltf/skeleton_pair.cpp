@@ -156,9 +156,14 @@ struct Body {
     double lows = 0, highs = 0;
     for (const Limb& limb : limbs) {
       const glm::dvec3 place = place_of(globals, limb.nodes[0]);
-      if (limb.role == Role::leg && limb.number + 1 >= leg_pairs) low += place, lows += 1;
-      if (limb.role == Role::arm || (limb.role == Role::leg && leg_pairs > 1 && limb.number == 0))
-        high += place, highs += 1;
+      if (limb.role == Role::leg && limb.number + 1 >= leg_pairs) {
+        low += place;
+        lows += 1;
+      }
+      if (limb.role == Role::arm || (limb.role == Role::leg && leg_pairs > 1 && limb.number == 0)) {
+        high += place;
+        highs += 1;
+      }
     }
     return lows > 0 && highs > 0 ? high / highs - low / lows : glm::dvec3(0);
   }
@@ -241,8 +246,11 @@ glm::dvec3 take_travel(const Body& body, const std::vector<double>& times, std::
     const std::vector<glm::dmat4> globals = global_matrices(body.side.model, pose);
     glm::dvec3 sum(0);
     double count = 0;
-    for (const Limb& limb : body.limbs)
-      if (limb.role == body.limbs.front().role) sum += place_of(globals, limb.nodes[0]), count += 1;
+    for (const Limb& limb : body.limbs) {
+      if (limb.role != body.limbs.front().role) continue;
+      sum += place_of(globals, limb.nodes[0]);
+      count += 1;
+    }
     return sum / std::max(count, 1.0);
   };
   if (body.limbs.empty() || poses.size() < 2 || !(times.back() > times.front())) return glm::dvec3(0);

@@ -1,6 +1,5 @@
 // Fingers find each other by name, else by their order across the palm from the thumb.
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 
 #include "retarget/match.h"
@@ -14,11 +13,14 @@ struct Finger {
   double place = 0;  // across the palm, the thumb's side first
 };
 
+// By hand: std::tolower depends on the locale of the host.
+char small_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
 bool has_word(const char* text, const char* word) {
   const std::size_t n = std::strlen(word);
   for (; *text; ++text) {
     std::size_t k = 0;
-    while (k < n && std::tolower(static_cast<unsigned char>(text[k])) == word[k]) ++k;
+    while (k < n && small_letter(text[k]) == word[k]) ++k;
     if (k == n) return true;
   }
   return false;

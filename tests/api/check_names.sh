@@ -4,7 +4,7 @@
 set -u
 exports=$1
 plain='hf_create hf_add_sites hf_remove_sites hf_solve hf_deform' # the five names without a noun
-nouns='surface solver pose region detail transfer direction geodesics quads flow weights progress error result version'
+nouns='surface solver pose region detail transfer direction geodesics quads flow weights skeleton retarget progress error result version'
 verbs='add apply cancel cast certify clone create deform destroy edit find get measure mirror morph move prepare propose release relink remove
   rotate save set solve space trace transfer update'
 status=0

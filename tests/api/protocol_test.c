@@ -2,6 +2,7 @@
  * else; the exact size works; what an array has more than the count stays as it was. check_protocol.sh sees that no
  * function with a capacity is missing here. */
 #include "bad_scene.h"
+#include "support/stick_man.h"
 
 static Scene scene;
 static hf_quads quads;
@@ -10,6 +11,8 @@ static double height[TUBE_VERTICES];
 static hf_surface linked;        /* two octahedra side by side */
 static hf_region curved;         /* enclosed by a curve round the tube */
 static hf_direction round_field; /* on a closed surface, where the field has singularities */
+static hf_skeleton skeleton;     /* of a stick man, played on itself */
+static hf_retarget retarget;
 
 enum { DIMENSIONS = 4, ARRAYS = 7 };
 
@@ -263,6 +266,39 @@ static hf_result transfer_get_skin(Call* c) {
   c->count[1] = skin.vertex_count;
   return r;
 }
+static hf_result skeleton_get_joints(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_skeleton_get_joints(skeleton, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result skeleton_get_chains(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_skeleton_get_chains(skeleton, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result skeleton_get_chain_joints(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_skeleton_get_chain_joints(skeleton, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result retarget_get_chains(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_retarget_get_chains(retarget, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result retarget_get_partners(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_retarget_get_partners(retarget, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
+static hf_result skeleton_get_reasons(Call* c) {
+  return hf_skeleton_get_reasons(skeleton, c->capacity[0], c->array[0], &c->count[0]);
+}
 
 static const struct {
   const char* function;
@@ -298,6 +334,12 @@ static const struct {
     {"hf_weights_get_helpers", weights_get_helpers, {{0, 4, 0}}, 0},
     {"hf_weights_transfer", weights_carry, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
     {"hf_weights_mirror", weights_mirror, {{0, 16, 0}, {0, 8, 0}, {0, 16, 0}, {0, 1, 0}}, 0},
+    {"hf_skeleton_get_joints", skeleton_get_joints, {{0, sizeof(hf_joint_info), 0}}, 0},
+    {"hf_skeleton_get_chains", skeleton_get_chains, {{0, sizeof(hf_chain), 0}}, 0},
+    {"hf_skeleton_get_chain_joints", skeleton_get_chain_joints, {{0, 4, 0}}, 0},
+    {"hf_retarget_get_chains", retarget_get_chains, {{0, sizeof(hf_chain_match), 0}}, 0},
+    {"hf_retarget_get_partners", retarget_get_partners, {{0, 4, 0}}, 0},
+    {"hf_skeleton_get_reasons", skeleton_get_reasons, {{0, 1, 0}}, 0},
     {"hf_pose_get_skin",
      pose_get_skin,
      {{0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {1, 16, 0}, {1, 16, 0}},
@@ -355,6 +397,10 @@ static void scene_with_quads_create(void) {
   assert_ok(hf_region_create(scene.body, NULL, &curved));
   assert_ok(hf_region_edit(curved, &enclose));
   round_field_create();
+  const StickMan man = stick_man(1, 0);
+  const hf_skeleton_desc desc = man_desc(&man, NULL);
+  assert_ok(hf_skeleton_create(&desc, &skeleton));
+  assert_ok(hf_retarget_create(skeleton, skeleton, NULL, &retarget));
   linked_create();
 }
 
@@ -471,6 +517,8 @@ static void every_function_with_a_capacity_keeps_the_protocol(void** state) {
   hf_quads_destroy(quads);
   hf_flow_destroy(flow);
   hf_direction_destroy(round_field);
+  hf_retarget_destroy(retarget);
+  hf_skeleton_destroy(skeleton);
   hf_region_destroy(curved);
   hf_surface_destroy(linked);
   scene_destroy(&scene);

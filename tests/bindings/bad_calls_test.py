@@ -37,7 +37,10 @@ def objects():
     solver, pose = hf.Solver(surface), hf.Pose(surface)
     solver.add_sites([0, 35], [0.0, 1.0])
     pose.add_handles([[0, 1], [34, 35]])
-    made = {"hf_surface": surface, "hf_region": region, "hf_solver": solver, "hf_pose": pose, "hf_progress": hf.Progress()}
+    places = [[0, 1, 0], [0, 0.5, 0], [0.1, -0.1, 0], [0, -0.4, 0], [-0.1, -0.1, 0], [0, -0.4, 0]]
+    rest = np.array([[*place, 0, 0, 0, 1, 1, 1, 1] for place in places], np.float32)
+    man = hf.Skeleton(["hips", "spine", "left_thigh", "left_shin", "right_thigh", "right_shin"], [hf.NO_INDEX, 0, 0, 2, 0, 4], rest)
+    made = {"hf_skeleton": man, "hf_retarget": hf.Retarget(man, man), "hf_surface": surface, "hf_region": region, "hf_solver": solver, "hf_pose": pose, "hf_progress": hf.Progress()}
     makers = {"hf_detail": lambda: hf.Detail(region, region.clone()), "hf_weights": lambda: hf.Weights(surface, [[0.0, 0, 0], [5.0, 5, 0]]),
               "hf_transfer": lambda: hf.Transfer(surface, surface)}
     for name in HANDLES - made.keys():  # what is made on a surface alone needs no line here

@@ -234,7 +234,9 @@ class Refusals(unittest.TestCase):
     def everything(self):
         region = hf.Region(self.surface)
         region.edit(add_vertices=[0, 1, 2, 12, 13, 14])
-        return [self.surface, self.solver, hf.Pose(self.surface), hf.Transfer(self.surface, self.surface),
+        rest = np.array([[*place, 0, 0, 0, 1, 1, 1, 1] for place in ([0, 1, 0], [0.1, -0.1, 0], [0, -0.4, 0], [-0.1, -0.1, 0], [0, -0.4, 0])], np.float32)
+        man = hf.Skeleton(["hips", "left_thigh", "left_shin", "right_thigh", "right_shin"], [hf.NO_INDEX, 0, 1, 0, 3], rest)
+        return [man, hf.Retarget(man, man), self.surface, self.solver, hf.Pose(self.surface), hf.Transfer(self.surface, self.surface),
                 hf.Geodesics(self.surface), hf.Direction(self.surface), region, hf.Detail(region, region.clone()),
                 hf.Flow(self.surface), hf.Quads(self.surface, edge_length=1.0), hf.Progress(),
                 hf.Weights(self.surface, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])]

@@ -1,3 +1,5 @@
+#include <array>
+
 #include "../support/stick_man.h"
 #include "whole_api_run.h"
 
@@ -401,7 +403,8 @@ void Run::graph() {
 }
 
 void Run::skeletons() {
-  const StickMan man = stick_man(1, 0), other = stick_man(1.3f, 35);
+  // Made once: the sines of the C library follow the rounding that a host may set.
+  static const StickMan man = stick_man(1, 0), other = stick_man(1.3f, 35);
   const auto make_man = [&](const StickMan& of) {
     const hf_skin_desc skin = man_skin(&of);
     hf_skeleton_desc d = man_desc(&of, &skin);
@@ -425,8 +428,13 @@ void Run::skeletons() {
   std::size_t size = 0;
   call(hf_skeleton_get_reasons(target, 0, nullptr, &size), "hf_skeleton_get_reasons");
   take(&size, 1);
-  float poses[4][MAN_JOINTS][10], posed[MAN_JOINTS][10];
-  for (int f = 0; f < 4; ++f) man_walk(&man, 0.2f * static_cast<float>(f), poses[f]);
+  using Pose = std::array<float[10], MAN_JOINTS>;
+  static const std::array<Pose, 4> poses = [] {
+    std::array<Pose, 4> made{};
+    for (int f = 0; f < 4; ++f) man_walk(&man, 0.2f * static_cast<float>(f), made[static_cast<std::size_t>(f)].data());
+    return made;
+  }();
+  float posed[MAN_JOINTS][10];
   double velocity[3];
   call(hf_skeleton_get_ground_velocity(source, 4, poses[0][0], 0.1, velocity), "hf_skeleton_get_ground_velocity");
   take(velocity, 3);
@@ -434,7 +442,8 @@ void Run::skeletons() {
   call(hf_retarget_create(source, target, nullptr, &retarget), "hf_retarget_create");
   hf_skeleton_destroy(source);
   hf_skeleton_destroy(target);
-  for (int f = 0; f < 3; ++f) call(hf_retarget_solve(retarget, poses[f][0], 0.1, posed[0]), "hf_retarget_solve");
+  for (std::size_t f = 0; f < 3; ++f)
+    call(hf_retarget_solve(retarget, poses[f][0], 0.1, posed[0]), "hf_retarget_solve");
   call(hf_retarget_clone(retarget, &clone), "hf_retarget_clone");
   call(hf_retarget_reset(retarget), "hf_retarget_reset");
   call(hf_retarget_solve(clone, poses[3][0], 0.1, posed[0]), "hf_retarget_solve");

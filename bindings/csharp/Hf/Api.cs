@@ -1895,7 +1895,7 @@ namespace Hf
         /// within 1e-6</summary>
         public double[] Barycentrics;
         /// <summary>siteCount numbers &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
-        /// clamped to 1e-12 .. 1e12</summary>
+        /// clamped to 1e-12 to 1e12</summary>
         public double[] Stiffness;
         /// <summary>siteCount numbers &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points</summary>
         public double[] Radii;
@@ -2785,7 +2785,7 @@ namespace Hf
         /// barycentrics: siteCount x 3 numbers with triangles or corners, else null: weights of the corners, &gt;=
         ///     0, of sum 1 within 1e-6
         /// stiffness: siteCount numbers &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all
-        ///     hard; clamped to 1e-12 .. 1e12
+        ///     hard; clamped to 1e-12 to 1e12
         /// radii: siteCount numbers &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
         /// corners: siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of
         ///     more corners this places a site in a triangle of them
@@ -2855,7 +2855,7 @@ namespace Hf
         /// barycentrics: siteCount x 3 numbers with triangles or corners, else null: weights of the corners, &gt;=
         ///     0, of sum 1 within 1e-6
         /// stiffness: siteCount numbers &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all
-        ///     hard; clamped to 1e-12 .. 1e12
+        ///     hard; clamped to 1e-12 to 1e12
         /// radii: siteCount numbers &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
         /// corners: siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of
         ///     more corners this places a site in a triangle of them

@@ -1021,7 +1021,7 @@ export interface SitesDescGiven {
   barycentrics?: Rows | null;
   /**
    * siteCount numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
-   * 1e-12 .. 1e12
+   * 1e-12 to 1e12
    */
   stiffness?: Rows | null;
   /** siteCount numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points */
@@ -1341,7 +1341,7 @@ export interface Solver extends Recorded {
    * barycentrics: siteCount x 3 numbers with triangles or corners, else null: weights of the corners, >= 0, of sum
    *     1 within 1e-6
    * stiffness: siteCount numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
-   *     clamped to 1e-12 .. 1e12
+   *     clamped to 1e-12 to 1e12
    * radii: siteCount numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
    * corners: siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of more
    *     corners this places a site in a triangle of them
@@ -1379,7 +1379,7 @@ export interface Solver extends Recorded {
    * barycentrics: siteCount x 3 numbers with triangles or corners, else null: weights of the corners, >= 0, of sum
    *     1 within 1e-6
    * stiffness: siteCount numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
-   *     clamped to 1e-12 .. 1e12
+   *     clamped to 1e-12 to 1e12
    * radii: siteCount numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
    * corners: siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of more
    *     corners this places a site in a triangle of them

@@ -1543,7 +1543,7 @@ class Solver(Recorded):
         barycentrics: (site_count, 3) with triangles or corners, else None: weights of the corners, >= 0, of sum 1
             within 1e-6
         stiffness: (site_count,) >= 0, relative to the mean diagonal of K; 0 = hard (exact); None = all hard; clamped
-            to 1e-12 .. 1e12
+            to 1e-12 to 1e12
         radii: (site_count,) >= 0, geodesic, in the unit of the mesh; 0 = a point; None = all points
         corners: (site_count, 3) three vertices as given, of one face, or None: Hit has them. In a face of more
             corners this places a site in a triangle of them
@@ -1597,7 +1597,7 @@ class Solver(Recorded):
         barycentrics: (site_count, 3) with triangles or corners, else None: weights of the corners, >= 0, of sum 1
             within 1e-6
         stiffness: (site_count,) >= 0, relative to the mean diagonal of K; 0 = hard (exact); None = all hard; clamped
-            to 1e-12 .. 1e12
+            to 1e-12 to 1e12
         radii: (site_count,) >= 0, geodesic, in the unit of the mesh; 0 = a point; None = all points
         corners: (site_count, 3) three vertices as given, of one face, or None: Hit has them. In a face of more
             corners this places a site in a triangle of them

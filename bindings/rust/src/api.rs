@@ -344,7 +344,7 @@ pub struct Sites<'a> {
     /// site_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
     pub barycentrics: Option<&'a [f64]>,
     /// site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped to 1e-12
-    /// .. 1e12
+    /// to 1e12
     pub stiffness: Option<&'a [f64]>,
     /// site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
     pub radii: Option<&'a [f64]>,
@@ -2076,7 +2076,7 @@ impl Solver {
     /// barycentrics: site_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum
     /// 1 within 1e-6
     /// stiffness: site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard;
-    /// clamped to 1e-12 .. 1e12
+    /// clamped to 1e-12 to 1e12
     /// radii: site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
     /// corners: site_count x 3 numbers three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a
     /// face of more corners this places a site in a triangle of them
@@ -2135,7 +2135,7 @@ impl Solver {
     /// barycentrics: site_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum
     /// 1 within 1e-6
     /// stiffness: site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard;
-    /// clamped to 1e-12 .. 1e12
+    /// clamped to 1e-12 to 1e12
     /// radii: site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
     /// corners: site_count x 3 numbers three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a
     /// face of more corners this places a site in a triangle of them
