@@ -77,8 +77,9 @@ void Retargeter::find_same(const RetargetSide& s, const RetargetSide& t) {
   for (std::size_t i = 0; i < at(source.count); ++i) {
     if (!found[i] && s.character.kinds[i] == JointKind::body) return;
   }
-  if (root_joint < 0 || !(sum_source > 0) || !(sum_target > 0)) return;
-  same.bones = std::fabs(sum_target / sum_source - 1) < same_rest ? 1 : sum_target / sum_source;
+  if (root_joint < 0 || (sum_source > 0) != (sum_target > 0)) return;
+  const double bones = sum_source > 0 ? sum_target / sum_source : 1;  // 0: every joint is a root
+  same.bones = std::fabs(bones - 1) < same_rest ? 1 : bones;
   bool exact = same.bones == 1;
   for (std::size_t j = 0; j < at(target.count); ++j) {
     const Index i = same.partners[j];

@@ -8,6 +8,7 @@
 #include "../skeleton/rig_family.h"
 #include "base/memory.h"
 #include "plain_retarget.h"
+#include "poses.h"
 #include "retarget/retarget.h"
 #include "retarget/turns.h"
 
