@@ -101,9 +101,10 @@ double confidence_of(const ClipFaults& faults, size_t frame_count) {
       faults.moving > 0 ? static_cast<double>(faults.lost.size()) / static_cast<double>(faults.moving) : 0;
   return fall(static_cast<double>(faults.spikes) / frames, spikes_limit) *
          fall(std::max(0.0, faults.acceleration - 1), acceleration_limit) * fall(faults.stretch, stretch_limit) *
-         fall(faults.sunk, sunk_limit) * fall(faults.held, held_limit) * fall(faults.gap, gap_limit) * fall(lost, lost_limit) *
-         fall(std::max(0.0, faults.limbs), limbs_limit) * fall(std::max(0.0, faults.trunk), trunk_limit) *
-         fall(std::max(0.0, faults.slide), slide_limit) * fall(faults.unmatched, unmatched_limit);
+         fall(faults.sunk, sunk_limit) * fall(faults.held, held_limit) * fall(faults.gap, gap_limit) *
+         fall(lost, lost_limit) * fall(std::max(0.0, faults.limbs), limbs_limit) *
+         fall(std::max(0.0, faults.trunk), trunk_limit) * fall(std::max(0.0, faults.slide), slide_limit) *
+         fall(faults.unmatched, unmatched_limit);
 }
 
 ClipFaults motion_faults(const Stage& stage, const PlayedClip& played) {

@@ -34,8 +34,8 @@ void pair_children(const RetargetSide& s, const RetargetSide& t, const Vector<In
     const Index p = t.input.parents[j], parent = p < 0 ? -1 : partners[at(p)];
     if (p >= 0 && parent < 0) continue;
     const char* const name = name_of(t.input, j);
-    const auto first = std::lower_bound(sorted.begin(), sorted.end(), 0,
-                                        [&](Index i, int) { return compare(i, parent, name) < 0; });
+    const auto first =
+        std::lower_bound(sorted.begin(), sorted.end(), 0, [&](Index i, int) { return compare(i, parent, name) < 0; });
     const std::size_t begin = static_cast<std::size_t>(first - sorted.begin());
     if (begin == ns) continue;
     const std::size_t next = begin + taken[begin];

@@ -55,6 +55,23 @@ TEST(TransferWay, TheSkeletonLeadsWhereLimbsMatch) {
   }
 }
 
+// Their arms have the same joints, but the one nearest to the middle is another joint in each.
+TEST(TransferWay, LimbsOfTheSameJointsAreComparedJointByJoint) {
+  const fs::path source = data() / "q_Trex.glb", target = data() / "q_Velociraptor.glb";
+  if (!fs::exists(source) || !fs::exists(target))
+    GTEST_SKIP() << "the optional shared data is not there (HF_SHARED_DATA)";
+  std::string said;
+  const fs::path report = folder() / "raptor.json";
+  ASSERT_EQ(transfer(quoted(source) + " " + quoted(target) + " --clip \"Armature|TRex_Walk\" --fps 12 -o " +
+                         quoted(folder() / "raptor.glb") + " --json " + quoted(report),
+                     said),
+            0)
+      << said;
+  const json clip = read_json(report)["clips"][0];
+  EXPECT_LT(clip["limbs"]["degrees"], 10);
+  EXPECT_GT(clip["confidence"], 0.7);
+}
+
 TEST(TransferWay, TheWayIsTakenAsAskedAndTheReportSaysWhy) {
   const fs::path target = written(rigged("biped_tall"), "way_tall.glb");
   const json surface = walked(target, "asked_surface", "--way surface");

@@ -200,7 +200,8 @@ TEST(Limbs, ASleeveThatCarriesAnArmIsItsCollar) {
 // Rigify puts both joints of the pelvis at one place.
 TEST(Limbs, HipsAtOnePlaceDoNotSwapTheSides) {
   Rig rig = make_biped("rigify", {});
-  for (const auto& [pelvis, thigh] : {std::pair{"DEF-pelvis.R", "DEF-thigh.R"}, std::pair{"DEF-pelvis.L", "DEF-thigh.L"}}) {
+  for (const auto& [pelvis, thigh] :
+       {std::pair{"DEF-pelvis.R", "DEF-thigh.R"}, std::pair{"DEF-pelvis.L", "DEF-thigh.L"}}) {
     const int leg = rig.find(thigh), hips = rig.joints[static_cast<size_t>(leg)].parent;
     const int between = rig.add(pelvis, hips, rig.joints[static_cast<size_t>(hips)].pivot, Role::other);
     rig.joints.back().judged = false;
