@@ -392,13 +392,14 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
     out.trunk_degrees += angle / frames;
     out.trunk_worst = std::max(out.trunk_worst, angle);
   }
+  double sum = 0;
   for (size_t k = 0; k < out.limbs.size(); ++k) {
     if (std::none_of(bones.begin(), bones.end(), [&](const Bone& bone) { return bone.limb == k; })) continue;
     ++out.compared;
-    out.degrees += out.limbs[k].mean;
+    sum += out.limbs[k].mean;
     out.worst = std::max(out.worst, out.limbs[k].worst);
   }
-  out.degrees = out.compared > 0 ? out.degrees / static_cast<double>(out.compared) : -1;
+  if (out.compared > 0) out.degrees = sum / static_cast<double>(out.compared);
   return out;
 }
 

@@ -48,6 +48,9 @@ TEST(TransferWay, TheSkeletonLeadsWhereLimbsMatch) {
     EXPECT_EQ(figures["way"], "skeleton") << name;
     const json clip = figures["clips"][0];
     EXPECT_LT(clip["limbs"]["degrees"], 3) << name;
+    double sum = 0;
+    for (const json& limb : clip["limbs"]["each"]) sum += limb["mean"].get<double>();
+    EXPECT_NEAR(clip["limbs"]["degrees"].get<double>(), sum / 4, 1e-9) << name;
     EXPECT_EQ(clip["limbs"]["partners"], 4) << name;
     EXPECT_LT(clip["depth"], 0.003) << name;
     EXPECT_GT(clip["confidence"], 0.8) << name;
