@@ -58,6 +58,25 @@ TEST(TransferWay, TheSkeletonLeadsWhereLimbsMatch) {
   }
 }
 
+// A run whose hands hang low, on a body with a sword in its hand.
+TEST(TransferWay, ASwordInTheGroundIsSaidAndTheBodyIsNot) {
+  const fs::path source = data() / "q_KnightCharacter.glb", target = data() / "kk_Knight.glb";
+  if (!fs::exists(source) || !fs::exists(target))
+    GTEST_SKIP() << "the optional shared data is not there (HF_SHARED_DATA)";
+  std::string said;
+  const fs::path report = folder() / "sword.json";
+  ASSERT_EQ(transfer(quoted(source) + " " + quoted(target) + " --clip \"HumanArmature|Run_swordRight\" --fps 12 -o " +
+                         quoted(folder() / "sword.glb") + " --json " + quoted(report),
+                     said),
+            0)
+      << said;
+  const json clip = read_json(report)["clips"][0];
+  EXPECT_GT(clip["faults"]["held"], 0.05);
+  EXPECT_LT(clip["faults"]["sunk"], 0.005);
+  EXPECT_LT(clip["confidence"], 0.7);
+  EXPECT_TRUE(has(said, "what a hand holds is")) << said;
+}
+
 // Their arms have the same joints, but the one nearest to the middle is another joint in each.
 TEST(TransferWay, LimbsOfTheSameJointsAreComparedJointByJoint) {
   const fs::path source = data() / "q_Trex.glb", target = data() / "q_Velociraptor.glb";
