@@ -7,8 +7,8 @@
  * differ are aligned about shoulder and hip first, so a T pose, an A pose and a crouch meet. Chains with different
  * counts of joints share their turns by arc length. The hips travel by the ratio of leg lengths. Then feet go where the
  * feet of the source are over the ground: planted feet stay, legs bend so that feet reach, and soles, tails, necks and
- * the trunk stay above the ground. No bone changes its length. A joint without a partner keeps its rest under its
- * parent. Between equal skeletons, the library copies the keys.
+ * the trunk stay above the ground. What the source puts deep into the ground goes as deep. No bone changes its length.
+ * A joint without a partner keeps its rest under its parent. Between equal skeletons, the library copies the keys.
  *
  * A pose is 10 numbers for each joint, relative to its parent: translation x y z, rotation x y z w, scale x y z. A
  * frame allocates nothing. Its cost does not depend on the pose. */

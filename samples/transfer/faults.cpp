@@ -27,9 +27,11 @@ constexpr double spikes_limit = 0.06, acceleration_limit = 0.5, stretch_limit = 
 // The same for degrees of limbs and trunk, boxes a second that standing soles slide, and a share of limbs without a
 // partner.
 constexpr double limbs_limit = 20, trunk_limit = 25, slide_limit = 0.5, unmatched_limit = 0.5;
+// What a hand holds goes through the ground unseen from afar: half is lost at this depth, in boxes.
+constexpr double held_limit = 0.15;
 // Faults that a report names, one by one.
 constexpr double named_acceleration = 1.5, named_stretch = 0.4, named_sunk = 0.01, named_gap = 0.01, named_limbs = 10,
-                 named_trunk = 12, named_slide = 0.2;
+                 named_trunk = 12, named_slide = 0.2, named_held = 0.02;
 
 using Frames = std::vector<std::vector<double>>;
 
@@ -99,9 +101,10 @@ double confidence_of(const ClipFaults& faults, size_t frame_count) {
       faults.moving > 0 ? static_cast<double>(faults.lost.size()) / static_cast<double>(faults.moving) : 0;
   return fall(static_cast<double>(faults.spikes) / frames, spikes_limit) *
          fall(std::max(0.0, faults.acceleration - 1), acceleration_limit) * fall(faults.stretch, stretch_limit) *
-         fall(faults.sunk, sunk_limit) * fall(faults.gap, gap_limit) * fall(lost, lost_limit) *
-         fall(std::max(0.0, faults.limbs), limbs_limit) * fall(std::max(0.0, faults.trunk), trunk_limit) *
-         fall(std::max(0.0, faults.slide), slide_limit) * fall(faults.unmatched, unmatched_limit);
+         fall(faults.sunk, sunk_limit) * fall(faults.held, held_limit) * fall(faults.gap, gap_limit) *
+         fall(lost, lost_limit) * fall(std::max(0.0, faults.limbs), limbs_limit) *
+         fall(std::max(0.0, faults.trunk), trunk_limit) * fall(std::max(0.0, faults.slide), slide_limit) *
+         fall(faults.unmatched, unmatched_limit);
 }
 
 ClipFaults motion_faults(const Stage& stage, const PlayedClip& played) {
@@ -156,6 +159,10 @@ std::vector<std::string> fault_sentences(const ClipFaults& faults, const std::st
   }
   if (faults.sunk > named_sunk) {
     std::snprintf(text, sizeof text, "the surface sinks by %.1f %% of the box", 100 * faults.sunk);
+    out.push_back(name + text);
+  }
+  if (faults.held > named_held) {
+    std::snprintf(text, sizeof text, "what a hand holds is %.1f %% of the box in the ground", 100 * faults.held);
     out.push_back(name + text);
   }
   if (faults.gap > named_gap) {

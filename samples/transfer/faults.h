@@ -17,6 +17,7 @@ struct ClipFaults {
   double acceleration = 0;  // root mean square, over the source's; 0: the source does not move
   double stretch = 0;       // 95 % of the edges' |log(length / rest length)| in the worst frame, beyond the source's
   double sunk = 0, gap = 0;
+  double held = 0;  // how deep the deepest vertex goes if hands hold it and the body itself does not go so deep
   std::vector<std::string> lost;  // pairs whose limb does not move as its source does
   size_t moving = 0;              // pairs whose limb moves on the source
   // Of the joints, where both skeletons are known. Degrees that arms and legs, and the trunk, are off; below 0:

@@ -172,7 +172,8 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
                 const std::vector<PlayedClip>& played, bool with_limbs, double scale, RunReport& report) {
   const StandingBody source{models.source, models.source_mesh, models.source_known},
       target{models.target, models.target_mesh, models.target_known};
-  const std::vector<uint8_t> source_out = beside_body(source), target_out = beside_body(target);
+  const std::vector<uint8_t> source_out = beside_body(source), target_out = beside_body(target),
+                             source_flesh = beside_flesh(source), target_flesh = beside_flesh(target);
   const bool has_source = !models.source_mesh.triangles.empty();
   for (size_t c = 0; c < played.size() && c < report.faults.size(); ++c) {
     ClipFaults& faults = report.faults[c];
@@ -196,6 +197,9 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
         slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
     report.depths.push_back(
         depth_of(source, target, scale, source_out, target_out, played[c].source_frames, played[c].target_frames));
+    const double flesh =
+        depth_of(source, target, scale, source_flesh, target_flesh, played[c].source_frames, played[c].target_frames);
+    if (report.depths.back() > flesh) faults.held = report.depths.back();
     faults.confidence = confidence_of(faults, played[c].target_frames.size());
     if ((!known || fit.compared == 0 || !has_source) && faults.confidence > unseen_confidence) {
       faults.confidence = unseen_confidence;

@@ -14,6 +14,8 @@ namespace {
 // Shares of the height of the body: vertices of a leg below the first are its sole; it stands below the second;
 // vertices this near to the lowest carry it.
 constexpr double sole_height = 0.07, stands_below = 0.015, carries = 0.01;
+// A sole that its clip puts deeper into the ground than this does not stand.
+constexpr double stands_above = -0.06;
 // A sole that goes faster against the ground than this, in heights a second, does not stand.
 constexpr double standing_speed = 0.5;
 
@@ -155,9 +157,11 @@ double slide_of(const StandingBody& source, const StandingBody& target, double s
     if (a.soles[k].side != b.soles[k].side) return -1;
     for (size_t f = 0; f + 1 < times.size(); ++f) {
       const double seconds = times[f + 1] - times[f];
-      if (a.low(a.soles[k], source_frames[f]) > stands_below * a.height ||
-          a.low(a.soles[k], source_frames[f + 1]) > stands_below * a.height)
-        continue;
+      const auto stands = [&](const std::vector<double>& frame) {
+        const double low = a.low(a.soles[k], frame) / a.height;
+        return low < stands_below && low > stands_above;
+      };
+      if (!stands(source_frames[f]) || !stands(source_frames[f + 1])) continue;
       steps.push_back({1 / seconds * a.step(a.soles[k], source_frames[f], source_frames[f + 1]),
                        1 / seconds * b.step(b.soles[k], target_frames[f], target_frames[f + 1])});
     }

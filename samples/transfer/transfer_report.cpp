@@ -272,6 +272,7 @@ nlohmann::json to_json(const RunReport& report) {
                                 {"acceleration", faults.acceleration},
                                 {"stretch", faults.stretch},
                                 {"sunk", faults.sunk},
+                                {"held", faults.held},
                                 {"gap", faults.gap},
                                 {"lost", faults.lost},
                                 {"slide", faults.slide < 0 ? nlohmann::json() : nlohmann::json(faults.slide)},

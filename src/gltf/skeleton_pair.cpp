@@ -69,6 +69,8 @@ struct Limb {
   Side side = Side::middle;
   std::uint32_t number = 0;
   int nodes[3] = {-1, -1, -1};
+  std::vector<int> path;       // from root to end
+  std::vector<double> shares;  // of its length, from root to each
 };
 
 struct Body {
@@ -117,7 +119,7 @@ struct Body {
 
   Limb limb_of(const Chain& chain, const std::vector<glm::dmat4>& globals) const {
     const Character& c = *character;
-    Limb out{chain.role, chain.side, chain.number, {-1, -1, -1}};
+    Limb out{chain.role, chain.side, chain.number, {-1, -1, -1}, {}, {}};
     std::vector<int> path;
     for (std::uint32_t k = 0; k < chain.count; ++k) path.push_back(static_cast<int>(c.chain_joints[chain.first + k]));
     const auto index = static_cast<std::int32_t>(&chain - c.chains.data());
@@ -143,6 +145,8 @@ struct Body {
       if (middle == 0 || std::abs(along[k] - along.back() / 2) < std::abs(along[middle] - along.back() / 2)) middle = k;
     if (middle > 0) out.nodes[1] = path[middle];
     out.nodes[2] = path.back();
+    out.path = std::move(path);
+    for (const double length : along) out.shares.push_back(along.back() > 0 ? length / along.back() : 0);
     return out;
   }
 
@@ -168,6 +172,17 @@ struct Body {
     return lows > 0 && highs > 0 ? high / highs - low / lows : glm::dvec3(0);
   }
 };
+
+// The joint of a limb that stands for the middle one of its partner. Limbs whose joints lie at about the same shares
+// are the same bones, though the joint nearest to the middle may be another in each.
+int middle_of(const Limb& limb, const Limb& partner) {
+  constexpr double same_share = 0.15;
+  if (partner.nodes[1] < 0 || limb.path.empty() || limb.path.size() != partner.path.size()) return limb.nodes[1];
+  for (size_t k = 0; k < limb.shares.size(); ++k)
+    if (std::abs(limb.shares[k] - partner.shares[k]) > same_share) return limb.nodes[1];
+  const auto at = std::find(partner.path.begin(), partner.path.end(), partner.nodes[1]) - partner.path.begin();
+  return limb.path[static_cast<size_t>(at)];
+}
 
 const char* side_word(Side side) { return side == Side::left ? "left " : side == Side::right ? "right " : ""; }
 
@@ -355,9 +370,9 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
     const size_t index = out.limbs.size() - 1;
     const bool alike = limb.role == Role::arm ? a.upright == b.upright : a.upright && b.upright;
     const auto both = [&](size_t k) { return limb.nodes[k] >= 0 && by->nodes[k] >= 0; };
-    if (both(1)) bones.push_back({index, alike, {by->nodes[0], by->nodes[1]}, {limb.nodes[0], limb.nodes[1]}});
-    if (both(2) && both(1))
-      bones.push_back({index, alike, {by->nodes[1], by->nodes[2]}, {limb.nodes[1], limb.nodes[2]}});
+    const int middle = middle_of(limb, *by);
+    if (both(1)) bones.push_back({index, alike, {by->nodes[0], by->nodes[1]}, {limb.nodes[0], middle}});
+    if (both(2) && both(1)) bones.push_back({index, alike, {by->nodes[1], by->nodes[2]}, {middle, limb.nodes[2]}});
     if (both(2) && !both(1))
       bones.push_back({index, alike, {by->nodes[0], by->nodes[2]}, {limb.nodes[0], limb.nodes[2]}});
   }
@@ -385,13 +400,14 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
     out.trunk_degrees += angle / frames;
     out.trunk_worst = std::max(out.trunk_worst, angle);
   }
+  double sum = 0;
   for (size_t k = 0; k < out.limbs.size(); ++k) {
     if (std::none_of(bones.begin(), bones.end(), [&](const Bone& bone) { return bone.limb == k; })) continue;
     ++out.compared;
-    out.degrees += out.limbs[k].mean;
+    sum += out.limbs[k].mean;
     out.worst = std::max(out.worst, out.limbs[k].worst);
   }
-  out.degrees = out.compared > 0 ? out.degrees / static_cast<double>(out.compared) : -1;
+  if (out.compared > 0) out.degrees = sum / static_cast<double>(out.compared);
   return out;
 }
 

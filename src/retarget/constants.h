@@ -39,10 +39,15 @@ constexpr double most_offset = 0.15;
 // A leg that was not stretched further by its turns is stretched up to the first share of its length, and softly up to
 // the second.
 constexpr double soft_reach = 0.985, full_reach = 0.999;
+// A leg is not folded shorter than this share of its length, so that its knee does not turn round the hip.
+constexpr double least_fold = 0.3;
 // The hips sink at most by this, so that feet reach the ground.
 constexpr double most_drop = 0.25;
 // A knee keeps bending to the side of its rest by this share of the thigh.
 constexpr double knee_side = 0.1;
+// A side counts in full above the first sine of its angle to the line from hip to ankle, not at all below the other. A
+// leg that is folded up has its knee along that line.
+constexpr double side_seen = 0.5, side_unseen = 0.25;
 // Steps of a leg of three segments, and their damping as a share of its squared length. Eight steps meet a goal that is
 // a tenth of the leg away to a thousandth.
 constexpr int leg_steps = 8;

@@ -14,6 +14,11 @@ double smooth_step(double low, double high, double x) noexcept {
   return t * t * (3 - 2 * t);
 }
 
+// A sole that dips into the ground stays on it. One that goes as deep as a free one is high was put there: it sinks.
+double held_height(double height) noexcept {
+  return height < 0 ? height * smooth_step(standing_height, free_height, -height) : height;
+}
+
 // How much a sole stands: it is low, and it is slow against the ground.
 double stands(const Retargeter& r, const FootPair& foot, double seconds) noexcept {
   const double low = 1 - smooth_step(standing_height, free_height, foot.height);
@@ -45,7 +50,7 @@ double follows_down(const Retargeter& r, FootPair& foot) {
   read_sole(leg, r.to, foot.target_now);
   const double ankle = dot(turned_ankle(r, foot) - r.to.place[at(leg.foot)], r.target.up);
   const double own = ankle + lowest(r.target, foot.target_now) - r.target.ground;
-  const double lift = own - r.height_scale * r.source.leg_length * std::max(0.0, foot.height);
+  const double lift = own - r.height_scale * r.source.leg_length * foot.height;
   return 1 - smooth_step(0, free_lift, lift / leg.length);
 }
 
@@ -53,7 +58,7 @@ double follows_down(const Retargeter& r, FootPair& foot) {
 void read_foot(const Retargeter& r, FootPair& foot, double seconds) {
   const RigLeg &by = r.source.legs[at(foot.source)], &leg = r.target.legs[at(foot.target)];
   read_sole(by, r.from, foot.source_now);
-  foot.height = (lowest(r.source, foot.source_now) - r.source.ground) / r.source.leg_length;
+  foot.height = held_height((lowest(r.source, foot.source_now) - r.source.ground) / r.source.leg_length);
   if (foot.known)
     foot.step = sole_step(r.source, foot.source_was, foot.source_now, sole_softness * r.source.leg_length);
   const std::size_t n = leg.segments.count();
@@ -66,6 +71,15 @@ void read_foot(const Retargeter& r, FootPair& foot, double seconds) {
   foot.knee_now = r.to.turn[thigh] * (inverse(r.target.rest.turn[thigh]) * foot.knee);
 }
 
+// How high an ankle comes under its hip. The leg folds no shorter than its turns or a share of its length.
+double highest_ankle(const Retargeter& r, const FootPair& foot, Vec3 turned) noexcept {
+  const Vec3 hip = foot.places[0], d = turned - hip;
+  const double least = std::min(norm(d), least_fold * r.target.legs[at(foot.target)].length);
+  const double aside = norm(r.target.level(d)), under = -dot(d, r.target.up);
+  if (!(under > 0) || !(aside < least)) return 1e300;
+  return dot(hip, r.target.up) - std::sqrt(least * least - aside * aside);
+}
+
 // Sets the goal of the ankle. A standing sole is as high as that of the source; one in the air is not lower.
 void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
   const Rig& rig = r.target;
@@ -76,10 +90,11 @@ void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
   Vec3 goal = turned_ankle(r, foot);
   const double own = dot(goal, rig.up);
   const double near = 1 - smooth_step(near_height, far_height, foot.height);
-  const double sole = rig.ground + r.height_scale * r.source.leg_length * std::max(0.0, foot.height) - below;
+  const double sole = rig.ground + r.height_scale * r.source.leg_length * foot.height - below;
   const double free = own + near * std::max(0.0, sole - own);
   const double height = foot.standing * sole + (1 - foot.standing) * free;
-  goal = rig.level(goal) + std::max(height, rig.ground - below) * rig.up;
+  const double clear = std::max(height, std::min(sole, rig.ground - below));
+  goal = rig.level(goal) + std::min(clear, highest_ankle(r, foot, goal)) * rig.up;
   if (r.options.lock_feet && first) {
     for (Vec3& p : foot.target_now) p = p - now + goal;
     if (foot.known && seconds > 0) {

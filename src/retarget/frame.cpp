@@ -44,6 +44,9 @@ Retargeter::Retargeter(const RetargetSide& s, const RetargetSide& t, const Retar
   find_feet();
   find_parts(s, t);
   if (chosen.copy_same && chosen.root_motion == RootMotion::keep && !(chosen.scale > 0)) find_same(s, t);
+  if (pairs.empty() && !same.found)
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX,
+         "source and target have no chain of joints in common; declare roles in their characters");
   for (const ChainPair& pair : pairs)
     report_.chains.push_back({pair.role, pair.side, static_cast<std::uint32_t>(pair.source.joints.size()),
                               static_cast<std::uint32_t>(pair.target.joints.size()), 0, 0});

@@ -26,9 +26,10 @@ void bend_two(const Vec3* p, Vec3 goal, double distance, Vec3 side, Vector<Turn>
   const Turn whole = shortest_turn(p[2] - p[0], goal - p[0]);
   const Vec3 turned = whole * thigh;
   Vec3 out = turned - dot(turned, line) * line;
-  const Vec3 wanted = unit_vector(side - dot(side, line) * line);
+  const Vec3 aside = side - dot(side, line) * line, wanted = unit_vector(aside);
   const double least = knee_side * a, is = dot(out, wanted);
-  if (is < least) out = out + (least * (1 - is / least) * (1 - is / least)) * wanted;
+  const double clear = std::min(1.0, std::max(0.0, (norm(aside) - side_unseen) / (side_seen - side_unseen)));
+  if (is < least) out = out + (clear * least * (1 - is / least) * (1 - is / least)) * wanted;
   out = unit_vector(out);
   const double c = std::min(1.0, std::max(-1.0, (a * a + d * d - b * b) / (2 * a * d)));
   const Vec3 knee = (a * c) * line + (a * std::sqrt(1 - c * c)) * out;

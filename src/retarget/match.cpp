@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-
 namespace hf_inner {
 
 void Matcher::follow(Index target, Index a, Index b, double share, Turn align) {
@@ -220,9 +218,6 @@ void Retargeter::match_chains(const RetargetSide& s, const RetargetSide& t) {
   matcher.add_limbs();
   matcher.add_others();
   report_.matched_joints = static_cast<std::uint32_t>(follows.size());
-  if (pairs.empty())
-    fail(HF_ERROR_EMPTY, HF_NO_INDEX,
-         "source and target have no chain of joints in common; declare roles in their characters");
   const auto list = [&](const Character& c, const Vector<std::uint8_t>& done, Vector<std::uint32_t>& out) {
     for (std::uint32_t j = 0; j < c.kinds.size(); ++j) {
       if (c.kinds[j] == JointKind::body && !done[j]) out.push_back(j);

@@ -7,8 +7,9 @@
 // A joint of the target turns as its partner of the source has turned since rest, seen from the body. Limbs whose
 // rests differ are aligned about shoulder and hip first, so T, A and crouch meet. Chains of unequal length share their
 // turns by arc length. The hips travel by the ratio of leg lengths. On top, feet go where the feet of the source are
-// over the ground; soles, tails, necks and the trunk stay above it. Lengths of bones never change. A joint without a
-// partner keeps its rest under its parent. Two equal skeletons are noticed: their keys are copied.
+// over the ground; soles, tails, necks and the trunk stay above it. What the source puts deep into the ground goes as
+// deep. Lengths of bones never change. A joint without a partner keeps its rest under its parent. Two equal skeletons
+// are noticed: their keys are copied.
 //
 // A frame depends on its source pose and on the state of the feet. The state says whether a foot is planted, and how
 // far the foot is moved to keep its place. It comes from the frames since the last reset and fades within a step. With

@@ -34,8 +34,8 @@ void pair_children(const RetargetSide& s, const RetargetSide& t, const Vector<In
     const Index p = t.input.parents[j], parent = p < 0 ? -1 : partners[at(p)];
     if (p >= 0 && parent < 0) continue;
     const char* const name = name_of(t.input, j);
-    const auto first = std::lower_bound(sorted.begin(), sorted.end(), 0,
-                                        [&](Index i, int) { return compare(i, parent, name) < 0; });
+    const auto first =
+        std::lower_bound(sorted.begin(), sorted.end(), 0, [&](Index i, int) { return compare(i, parent, name) < 0; });
     const std::size_t begin = static_cast<std::size_t>(first - sorted.begin());
     if (begin == ns) continue;
     const std::size_t next = begin + taken[begin];
@@ -77,8 +77,9 @@ void Retargeter::find_same(const RetargetSide& s, const RetargetSide& t) {
   for (std::size_t i = 0; i < at(source.count); ++i) {
     if (!found[i] && s.character.kinds[i] == JointKind::body) return;
   }
-  if (root_joint < 0 || !(sum_source > 0) || !(sum_target > 0)) return;
-  same.bones = std::fabs(sum_target / sum_source - 1) < same_rest ? 1 : sum_target / sum_source;
+  if (root_joint < 0 || (sum_source > 0) != (sum_target > 0)) return;
+  const double bones = sum_source > 0 ? sum_target / sum_source : 1;  // 0: every joint is a root
+  same.bones = std::fabs(bones - 1) < same_rest ? 1 : bones;
   bool exact = same.bones == 1;
   for (std::size_t j = 0; j < at(target.count); ++j) {
     const Index i = same.partners[j];

@@ -42,7 +42,8 @@ std::size_t find_foot(const Body& body, const Vector<Index>& path, std::size_t f
 bool has_collar(const Body& body, const Vector<Index>& path, std::size_t hand) {
   const JointName& first = body.names[at(path[0])];
   if (body.named && path.size() > 2 && (first.named == NameClass::trunk || first.collar)) return true;
-  if (first.named != NameClass::none || hand < 3) return false;
+  const bool says_nothing = first.named == NameClass::none || first.named == NameClass::loose;  // a sleeve carries it
+  if (!says_nothing || hand < 3) return false;
   return hand == 3 || bone(body, path, 0) < 0.6 * bone(body, path, 1);
 }
 

@@ -116,6 +116,55 @@ TEST(Feet, ToesThatDragDoNotStretchALegThatLiftsThem) {
   }
 }
 
+// The whole source is put into the ground, straight legs and all. A little of it is an error: soles stay on the ground.
+// Legs do not fold to keep away from more.
+TEST(Feet, SolesSinkAsDeepAsTheSourceIsPutAndDipsAreHeld) {
+  const RigActor source("mixamo", {}), target("unreal", {0.8, 1, 1, 3, Rest::t});
+  for (const double depth : {0.01, 0.1}) {
+    std::vector<double> pose = rest_trs(source.side().input);
+    for (std::size_t j = 0; j < source.parents().size(); ++j) {
+      if (source.parents()[j] < 0) pose[10 * j + 1] -= depth * source.height();
+    }
+    Memory memory;
+    Retarget retarget(source.side(), target.side(), {}, memory);
+    std::vector<double> out(10 * target.parents().size());
+    retarget.frame(pose.data(), 0, out.data());
+    const double low = lowest_of(target, out, {Role::foot, Role::toe}) * target.height();
+    if (depth < 0.05) {
+      EXPECT_NEAR(low, 0, 1e-3 * target.height());
+      continue;
+    }
+    EXPECT_NEAR(low, -retarget.report().scale * depth * source.height(), 1e-3 * target.height());
+    for (const auto& chain : retarget.report().chains) {
+      if (chain.role == Role::leg) {
+        EXPECT_LT(chain.worst_degrees, 1);
+      }
+    }
+  }
+}
+
+// Hips sink until the foot of a leg folded to the front would need the place of the hip: the thigh does not turn over.
+TEST(Feet, ALegDoesNotFoldIntoItsHip) {
+  const RigActor source("mixamo", {}), target("unreal", {0.45, 1, 1, 3, Rest::t});
+  std::vector<double> pose = rest_trs(source.side().input);
+  const auto world = world_of(source.parents(), pose.data());
+  const double hip = place_at(world, static_cast<std::size_t>(source.rig().find("mixamorig:LeftUpLeg"))).y;
+  for (const char* side : {"mixamorig:Left", "mixamorig:Right"}) {
+    turn_joint(source, pose, std::string(side) + "UpLeg", hf_inner::turn_about({1, 0, 0}, -75 * degree));
+    turn_joint(source, pose, std::string(side) + "Leg", hf_inner::turn_about({1, 0, 0}, 150 * degree));
+  }
+  pose[10 * static_cast<std::size_t>(source.rig().find("mixamorig:Hips")) + 1] -= 0.93 * hip;
+  Memory memory;
+  Retarget retarget(source.side(), target.side(), {}, memory);
+  std::vector<double> out(10 * target.parents().size());
+  retarget.frame(pose.data(), 0, out.data());
+  for (const auto& chain : retarget.report().chains) {
+    if (chain.role == Role::leg) {
+      EXPECT_LT(chain.worst_degrees, 60);
+    }
+  }
+}
+
 std::size_t joint_of(const RigActor& actor, Role role, bool last = false) {
   std::size_t found = 0;
   for (std::size_t j = 0; j < actor.parents().size(); ++j) {

@@ -352,6 +352,32 @@ TEST(Bad, SidesThatAreNoCharactersAreRefused) {
   EXPECT_EQ(code_of(actor, good, options), HF_ERROR_INVALID_ARGUMENT);
 }
 
+// One joint on another: no part is known, and nothing matches but the joints themselves.
+TEST(Same, KeysAreCopiedBetweenEqualSkeletonsThatNobodyUnderstands) {
+  const std::int32_t parents[] = {-1};
+  const char* const names[] = {"q1"};
+  const char* const others[] = {"q2"};
+  const double trs[] = {1, 0, 0, 0, 0, 0, 1, 1, 1, 1};
+  hf_inner::CharacterInput one;
+  one.joint_count = 1;
+  one.parents = parents;
+  one.names = names;
+  one.trs = trs;
+  hf_inner::CharacterInput other = one;
+  other.names = others;
+  Memory memory;
+  const hf_inner::Character character = hf_inner::know_character(one, memory),
+                            stranger = hf_inner::know_character(other, memory);
+  Retarget retarget({one, character, nullptr}, {one, character, nullptr}, {}, memory);
+  EXPECT_TRUE(retarget.report().same_skeleton);
+  std::vector<double> pose(trs, trs + 10);
+  pose[2] = 0.3;
+  pose[3] = 0.6;
+  pose[6] = 0.8;
+  EXPECT_EQ(run(retarget, pose, 1), pose);
+  EXPECT_THROW(Retarget({one, character, nullptr}, {other, stranger, nullptr}, {}, memory), Error);
+}
+
 // A body whose joints are parts of nothing.
 TEST(Bad, NoChainInCommonIsRefused) {
   const RigActor source("mixamo", {});

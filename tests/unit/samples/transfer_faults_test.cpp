@@ -74,6 +74,17 @@ TEST(TransferFaults, WhatIsPutInIsFoundAndSaid) {
   EXPECT_GE(expect(frozen, "does not move as its source").lost.size(), 4u);
 }
 
+// A sword in the ground: an artist mends it by hand, so it is said and lowers the confidence, less than a foot would.
+TEST(TransferFaults, AHeldThingInTheGroundIsSaidAndCountsLessThanTheBody) {
+  ClipFaults good, held, sunk;
+  held.held = sunk.sunk = 0.14;
+  EXPECT_LT(confidence_of(held, 30), 0.6 * confidence_of(good, 30));
+  EXPECT_GT(confidence_of(held, 30), 5 * confidence_of(sunk, 30));
+  const std::vector<std::string> said = fault_sentences(held, "walk", 30);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("what a hand holds is 14.0 %"), std::string::npos) << said[0];
+}
+
 TEST(TransferFaults, TheReportHoldsThem) {
   const fs::path out = folder() / "faults.glb", report = folder() / "faults.json";
   std::string said;
@@ -85,7 +96,7 @@ TEST(TransferFaults, TheReportHoldsThem) {
   EXPECT_NE(said.find("confidence"), std::string::npos) << said;
   const json clip = read_json(report)["clips"][0];
   EXPECT_GT(clip["confidence"].get<double>(), 0.5);
-  for (const char* key : {"spikes", "acceleration", "stretch", "sunk", "gap", "lost", "sentences"})
+  for (const char* key : {"spikes", "acceleration", "stretch", "sunk", "held", "gap", "lost", "sentences"})
     EXPECT_TRUE(clip["faults"].contains(key)) << key;
 }
 

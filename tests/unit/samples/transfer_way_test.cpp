@@ -48,11 +48,50 @@ TEST(TransferWay, TheSkeletonLeadsWhereLimbsMatch) {
     EXPECT_EQ(figures["way"], "skeleton") << name;
     const json clip = figures["clips"][0];
     EXPECT_LT(clip["limbs"]["degrees"], 3) << name;
+    double sum = 0;
+    for (const json& limb : clip["limbs"]["each"]) sum += limb["mean"].get<double>();
+    EXPECT_NEAR(clip["limbs"]["degrees"].get<double>(), sum / 4, 1e-9) << name;
     EXPECT_EQ(clip["limbs"]["partners"], 4) << name;
     EXPECT_LT(clip["depth"], 0.003) << name;
     EXPECT_GT(clip["confidence"], 0.8) << name;
     EXPECT_TRUE(has(figures["said"], "limbs         follow the source to ")) << figures["said"];
   }
+}
+
+// A run whose hands hang low, on a body with a sword in its hand.
+TEST(TransferWay, ASwordInTheGroundIsSaidAndTheBodyIsNot) {
+  const fs::path source = data() / "q_KnightCharacter.glb", target = data() / "kk_Knight.glb";
+  if (!fs::exists(source) || !fs::exists(target))
+    GTEST_SKIP() << "the optional shared data is not there (HF_SHARED_DATA)";
+  std::string said;
+  const fs::path report = folder() / "sword.json";
+  ASSERT_EQ(transfer(quoted(source) + " " + quoted(target) + " --clip \"HumanArmature|Run_swordRight\" --fps 12 -o " +
+                         quoted(folder() / "sword.glb") + " --json " + quoted(report),
+                     said),
+            0)
+      << said;
+  const json clip = read_json(report)["clips"][0];
+  EXPECT_GT(clip["faults"]["held"], 0.05);
+  EXPECT_LT(clip["faults"]["sunk"], 0.005);
+  EXPECT_LT(clip["confidence"], 0.7);
+  EXPECT_TRUE(has(said, "what a hand holds is")) << said;
+}
+
+// Their arms have the same joints, but the one nearest to the middle is another joint in each.
+TEST(TransferWay, LimbsOfTheSameJointsAreComparedJointByJoint) {
+  const fs::path source = data() / "q_Trex.glb", target = data() / "q_Velociraptor.glb";
+  if (!fs::exists(source) || !fs::exists(target))
+    GTEST_SKIP() << "the optional shared data is not there (HF_SHARED_DATA)";
+  std::string said;
+  const fs::path report = folder() / "raptor.json";
+  ASSERT_EQ(transfer(quoted(source) + " " + quoted(target) + " --clip \"Armature|TRex_Walk\" --fps 12 -o " +
+                         quoted(folder() / "raptor.glb") + " --json " + quoted(report),
+                     said),
+            0)
+      << said;
+  const json clip = read_json(report)["clips"][0];
+  EXPECT_LT(clip["limbs"]["degrees"], 10);
+  EXPECT_GT(clip["confidence"], 0.7);
 }
 
 TEST(TransferWay, TheWayIsTakenAsAskedAndTheReportSaysWhy) {

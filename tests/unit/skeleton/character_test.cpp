@@ -185,11 +185,23 @@ TEST(Limbs, ALegFollowsTheGroundPastWhatHangsOnIt) {
   EXPECT_EQ(placed.faults(found), "") << why(found);
 }
 
+// Between trunk and arm stands a sleeve that the arm hangs on: it is no bone of the arm.
+TEST(Limbs, ASleeveThatCarriesAnArmIsItsCollar) {
+  Rig rig = make_biped("mixamo", {});
+  rig.joints[static_cast<size_t>(rig.find("mixamorig:LeftShoulder"))].name = "mixamorig:Sleeve.L";
+  rig.joints[static_cast<size_t>(rig.find("mixamorig:RightShoulder"))].name = "mixamorig:Sleeve.R";
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
 // Head and tail of a worm mirror each other; they are no pair, since one carries the other.
 // Rigify puts both joints of the pelvis at one place.
 TEST(Limbs, HipsAtOnePlaceDoNotSwapTheSides) {
   Rig rig = make_biped("rigify", {});
-  for (const auto& [pelvis, thigh] : {std::pair{"DEF-pelvis.R", "DEF-thigh.R"}, std::pair{"DEF-pelvis.L", "DEF-thigh.L"}}) {
+  for (const auto& [pelvis, thigh] :
+       {std::pair{"DEF-pelvis.R", "DEF-thigh.R"}, std::pair{"DEF-pelvis.L", "DEF-thigh.L"}}) {
     const int leg = rig.find(thigh), hips = rig.joints[static_cast<size_t>(leg)].parent;
     const int between = rig.add(pelvis, hips, rig.joints[static_cast<size_t>(hips)].pivot, Role::other);
     rig.joints.back().judged = false;
