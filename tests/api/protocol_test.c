@@ -398,8 +398,8 @@ static void scene_with_quads_create(void) {
   assert_ok(hf_region_edit(curved, &enclose));
   round_field_create();
   const StickMan man = stick_man(1, 0);
-  const hf_skeleton_desc desc = man_desc(&man, NULL);
-  assert_ok(hf_skeleton_create(&desc, &skeleton));
+  const hf_skeleton_desc joints = man_desc(&man, NULL);
+  assert_ok(hf_skeleton_create(&joints, &skeleton));
   assert_ok(hf_retarget_create(skeleton, skeleton, NULL, &retarget));
   linked_create();
 }
