@@ -93,11 +93,23 @@ export default async function story(host) {
   await check('one drag is one step', async () => {
     assert.equal(await page.evaluate(() => window.hfStudio.history.past.length), 1);
   });
-  await check('a ring of the gizmo turns the handle', async () => {
+  await check('a ring of the gizmo turns the handle from where the drag has left it', async () => {
+    assert.equal(await page.evaluate(() => window.hfStudio.state.handles.at(-1).free), true);
+    const { far, back } = await page.evaluate(async () => {
+      const app = window.hfStudio;
+      const shown = app.skin.positions.slice();
+      const far = () => app.skin.positions.reduce((most, x, i) => Math.max(most, Math.abs(x - shown[i])), 0) / app.view.size;
+      const { rotation } = app.standing(app.state.handles.at(-1));
+      await app.commit(app.tools.pose.with(app.state.handles.at(-1).id, { free: false, rotation }), 'give');
+      const given = far();
+      await app.step('undo');
+      return { far: given, back: far() };
+    });
+    assert.ok(far < 1e-5 && back < 1e-5, `given as it stands, the body moves by ${far} of the view; undone, by ${back}`);
     const ring = await studio.ring('pose');
     await studio.drag(...ring, 30, 50);
-    const turned = await page.evaluate(() => window.hfStudio.state.handles.at(-1).rotation);
-    assert.ok(Math.abs(turned[3]) < 0.999, `rotation ${turned}`);
+    const { rotation: turned, free } = await page.evaluate(() => window.hfStudio.state.handles.at(-1));
+    assert.ok(Math.abs(turned[3]) < 0.999 && free === false, `rotation ${turned}, free ${free}`);
     await studio.picture('pose_turned');
   });
   await check('pin, unpin and remove act on the chosen handle', async () => {
