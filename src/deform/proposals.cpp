@@ -43,8 +43,8 @@ class Proposer {
     find_feet();
     add_tips(tips);
     add_ends();
+    add_trunk(tips);
     add_joints();
-    add_middle(tips.field);
     Vector<HandleProposal> out = choose();
     report(1.0f);
     return out;
@@ -198,7 +198,8 @@ class Proposer {
     }
   }
 
-  // End joints name the proposals near them. Those without one, and joints where the skeleton branches, are proposed.
+  // End joints name the proposals near them, and the first joint in the trunk names the trunk. Those without one, and
+  // joints where the skeleton branches, are proposed.
   // Their place is the joint itself, so that the region goes around the limb.
   void add_joints() {
     const std::size_t count = options_.parents.size();
@@ -216,13 +217,15 @@ class Proposer {
       double least = end ? joint_reach : least_radius;
       for (Candidate& candidate : found_) {
         const double d = distance(candidate.position, place);
+        // joints inside the trunk belong to it
+        if (candidate.reason == HandleReason::middle && d <= candidate.radius) least = std::max(least, candidate.radius);
         if (d <= least) {
           least = d;
           near = &candidate;
         }
       }
       if (near) {
-        if (end && near->joint == no_joint) near->joint = joint;
+        if ((end || near->reason == HandleReason::middle) && near->joint == no_joint) near->joint = joint;
         continue;
       }
       add_joint(joint, place);
@@ -262,7 +265,7 @@ class Proposer {
     return order;
   }
 
-  void add_joint(std::uint32_t joint, Vec3 place) {
+  Index nearest_vertex(Vec3 place) const {
     Index vertex = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
@@ -272,33 +275,73 @@ class Proposer {
         vertex = static_cast<Index>(v);
       }
     }
-    if (least > joint_reach) return;  // a helper away from the surface
+    return vertex;
+  }
+
+  void add_joint(std::uint32_t joint, Vec3 place) {
+    const Index vertex = nearest_vertex(place);
+    const double depth = distance(mesh_.positions[at(vertex)], place);
+    if (depth > joint_reach) return;  // a helper away from the surface
     Candidate out;
     out.vertex = vertex;
     out.position = place;
     out.reason = HandleReason::joint;
     out.joint = joint;
-    out.radius = std::max(around_joint * least, least_radius);
-    out.length = least;
+    out.radius = std::max(around_joint * depth, least_radius);
+    out.length = depth;
     found_.push_back(out);
   }
 
-  // The vertex that is farthest from all tips, by the Poisson field, on the component of largest area.
-  void add_middle(const Vector<double>& field) {
-    Vector<double> area(at(mesh_.component_count()), 0.0, &memory_);
-    for (std::size_t v = 0; v < field.size(); ++v) area[at(mesh_.component[v])] += core_.areas[v];
-    const auto largest = static_cast<Index>(std::max_element(area.begin(), area.end()) - area.begin());
-    Index vertex = Mesh::none;
-    for (std::size_t v = 0; v < field.size(); ++v) {
-      if (mesh_.component[v] == largest && (vertex == Mesh::none || field[v] < field[at(vertex)]))
-        vertex = static_cast<Index>(v);
+  // The trunk is what no limb takes, on the component of largest area. A limb is the part around a tip or a foot where
+  // the Poisson field is above a share of its fall. Returns 1 for vertices of the trunk.
+  Vector<std::uint8_t> find_trunk(const Extremities& tips, Index component) const {
+    Vector<std::uint8_t> trunk(mesh_.positions.size(), 0, &memory_);
+    for (std::size_t v = 0; v < trunk.size(); ++v) trunk[v] = mesh_.component[v] == component;
+    Vector<Index> limb(&memory_);
+    for (const Extremity& tip : tips.points) {
+      if (tip.component != component) continue;
+      const double level = tips.field[at(tip.vertex)] - limb_share * 0.5 * tip.length * tip.length;
+      limb.assign(1, tip.vertex);
+      trunk[at(tip.vertex)] = 0;
+      for (std::size_t i = 0; i < limb.size(); ++i) {
+        const Index v = limb[i];
+        for (Index k = core_.topology.neighbour_start[at(v)]; k < core_.topology.neighbour_start[at(v) + 1]; ++k) {
+          const Index u = core_.topology.neighbour[at(k)];
+          if (!trunk[at(u)] || tips.field[at(u)] < level) continue;
+          trunk[at(u)] = 0;
+          limb.push_back(u);
+        }
+      }
     }
+    return trunk;
+  }
+
+  // The middle of the trunk, inside: the chest of a biped, the trunk between the legs of an animal. It holds, so that a
+  // pulled hand does not take the body along. The region goes around.
+  void add_trunk(const Extremities& tips) {
+    Vector<double> area(at(mesh_.component_count()), 0.0, &memory_);
+    for (std::size_t v = 0; v < mesh_.positions.size(); ++v) area[at(mesh_.component[v])] += core_.areas[v];
+    const auto largest = static_cast<Index>(std::max_element(area.begin(), area.end()) - area.begin());
+    const Vector<std::uint8_t> trunk = find_trunk(tips, largest);
+    Vec3 sum;
+    double all = 0;
+    for (std::size_t v = 0; v < trunk.size(); ++v) {
+      if (!trunk[v]) continue;
+      sum = sum + core_.areas[v] * mesh_.positions[v];
+      all += core_.areas[v];
+    }
+    if (!(all > 0)) return;
     Candidate out;
-    out.vertex = vertex;
-    out.position = mesh_.positions[at(vertex)];
+    out.position = (1 / all) * sum;
+    out.vertex = nearest_vertex(out.position);
+    double depth = distance(mesh_.positions[at(out.vertex)], out.position);
+    if (depth > most_depth) {  // outside, in a ring for example, or in a ball
+      out.position = mesh_.positions[at(out.vertex)];
+      depth = 0;
+    }
+    out.radius = std::max(around_joint * depth, least_trunk_radius);
     out.reason = HandleReason::middle;
-    out.radius = most_tip_radius;
-    out.pinned = std::none_of(found_.begin(), found_.end(), [](const Candidate& c) { return c.pinned; });
+    out.pinned = true;
     found_.push_back(out);
   }
 
