@@ -1201,9 +1201,9 @@ class Surface {
     return extremities;
   }
 
-  // Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first, then the
-  // others, each group by length, the longest first. The places do not depend on the order of the vertices. They follow
-  // translation and scale.
+  // Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals come
+  // first, then the others, each group by length, the longest first. The places do not depend on the order of the
+  // vertices. They follow translation and scale.
   //
   // joints: joint_count x 3 numbers their places at rest, in the unit and frame of the mesh
   // parents: joint_count numbers position of each joint's parent in the list; HF_NO_INDEX for a root

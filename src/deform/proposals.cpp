@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "deform/constants.h"
 #include "deform/handles.h"
+#include "deform/trunk.h"
 #include "field/extremities.h"
 #include "field/peaks.h"
 
@@ -218,7 +219,8 @@ class Proposer {
       for (Candidate& candidate : found_) {
         const double d = distance(candidate.position, place);
         // joints inside the trunk belong to it
-        if (candidate.reason == HandleReason::middle && d <= candidate.radius) least = std::max(least, candidate.radius);
+        if (candidate.reason == HandleReason::middle && d <= candidate.radius)
+          least = std::max(least, candidate.radius);
         if (d <= least) {
           least = d;
           near = &candidate;
@@ -292,50 +294,13 @@ class Proposer {
     found_.push_back(out);
   }
 
-  // The trunk is what no limb takes, on the component of largest area. A limb is the part around a tip or a foot where
-  // the Poisson field is above a share of its fall. Returns 1 for vertices of the trunk.
-  Vector<std::uint8_t> find_trunk(const Extremities& tips, Index component) const {
-    Vector<std::uint8_t> trunk(mesh_.positions.size(), 0, &memory_);
-    for (std::size_t v = 0; v < trunk.size(); ++v) trunk[v] = mesh_.component[v] == component;
-    Vector<Index> limb(&memory_);
-    for (const Extremity& tip : tips.points) {
-      if (tip.component != component) continue;
-      const double level = tips.field[at(tip.vertex)] - limb_share * 0.5 * tip.length * tip.length;
-      limb.assign(1, tip.vertex);
-      trunk[at(tip.vertex)] = 0;
-      for (std::size_t i = 0; i < limb.size(); ++i) {
-        const Index v = limb[i];
-        for (Index k = core_.topology.neighbour_start[at(v)]; k < core_.topology.neighbour_start[at(v) + 1]; ++k) {
-          const Index u = core_.topology.neighbour[at(k)];
-          if (!trunk[at(u)] || tips.field[at(u)] < level) continue;
-          trunk[at(u)] = 0;
-          limb.push_back(u);
-        }
-      }
-    }
-    return trunk;
-  }
-
-  // The middle of the trunk, inside: the chest of a biped, the trunk between the legs of an animal. It holds, so that a
-  // pulled hand does not take the body along. The region goes around.
+  // The trunk holds, so that a pulled hand does not take the body along. The region goes around.
   void add_trunk(const Extremities& tips) {
-    Vector<double> area(at(mesh_.component_count()), 0.0, &memory_);
-    for (std::size_t v = 0; v < mesh_.positions.size(); ++v) area[at(mesh_.component[v])] += core_.areas[v];
-    const auto largest = static_cast<Index>(std::max_element(area.begin(), area.end()) - area.begin());
-    const Vector<std::uint8_t> trunk = find_trunk(tips, largest);
-    Vec3 sum;
-    double all = 0;
-    for (std::size_t v = 0; v < trunk.size(); ++v) {
-      if (!trunk[v]) continue;
-      sum = sum + core_.areas[v] * mesh_.positions[v];
-      all += core_.areas[v];
-    }
-    if (!(all > 0)) return;
     Candidate out;
-    out.position = (1 / all) * sum;
+    if (!trunk_middle(core_, tips, height_, out.position)) return;
     out.vertex = nearest_vertex(out.position);
     double depth = distance(mesh_.positions[at(out.vertex)], out.position);
-    if (depth > most_depth) {  // outside, in a ring for example, or in a ball
+    if (depth > most_depth) {
       out.position = mesh_.positions[at(out.vertex)];
       depth = 0;
     }

@@ -439,18 +439,19 @@ fails("vertex 3", bpy.ops.hf.bind)
 for junk in (empty_mesh, broken, lamp):
     bpy.data.objects.remove(junk)
 
-# ---- proposed handles: the foot holds; a tip is offered, is a handle while it is away from its place, and none when back
+# ---- proposed handles: foot and trunk hold; a tip is offered, is a handle while it is away from its place, and none when back
 post, post_points = cylinder("post", 4.0, 0.5, 41, 24, (6, 0, 0))
 active(post)
 assert bpy.ops.hf.propose() == {"FINISHED"}
 held = session.session_of(post, bind=False)
 empties = [o for o in bpy.data.objects if o.type == "EMPTY" and o.get("hf_key") == post["hf_key"]]
-feet = [o for o in empties if o.empty_display_type == "CUBE"]
+feet = [o for o in empties if "foot" in o.name]
+cubes = [o for o in empties if o.empty_display_type == "CUBE"]
 tips = [o for o in empties if "tip" in o.name]
-assert len(feet) == 1 and held.pose.handle_count == 1 and len(tips) >= 1, [o.name for o in empties]
+assert len(feet) == 1 and len(cubes) == held.pose.handle_count == 2 and len(tips) >= 1, [o.name for o in empties]
 tips[0].location.x += 1.0
 bpy.context.view_layer.update()
-assert held.pose.handle_count == 2
+assert held.pose.handle_count == 3
 bent = mesh_data.positions_of(post.data)
 np.testing.assert_allclose(bent[list(feet[0]["hf_vertices"])], post_points[list(feet[0]["hf_vertices"])], atol=1e-5)
 assert np.abs(bent - post_points).max() > 0.9
@@ -490,7 +491,7 @@ tip.location.z -= 1e-3
 tip.location.x -= 1.0
 tip.rotation_quaternion = (1, 0, 0, 0)
 bpy.context.view_layer.update()
-assert held.pose.handle_count == 1
+assert held.pose.handle_count == 2
 fails("has handles at all proposed places", bpy.ops.hf.propose)
 active(post)
 assert bpy.ops.hf.unbind() == {"FINISHED"}

@@ -157,7 +157,7 @@ namespace Hf
         End = Constants.HF_HANDLE_REASON_END,
         /// <summary>a joint of the given skeleton: an end, or where it branches</summary>
         Joint = Constants.HF_HANDLE_REASON_JOINT,
-        /// <summary>the middle of the largest component; pinned if nothing else is</summary>
+        /// <summary>the trunk of the largest component: the chest of a biped; pinned, inside the surface</summary>
         Middle = Constants.HF_HANDLE_REASON_MIDDLE,
     }
 
@@ -1141,7 +1141,7 @@ namespace Hf
         public bool Pinned;
         /// <summary>the end joint nearby, or the joint proposed, by position in the list; uint.MaxValue = none</summary>
         public uint Joint;
-        /// <summary>at rest, in the unit and frame of the mesh; inside the surface for a joint</summary>
+        /// <summary>at rest, in the unit and frame of the mesh; inside the surface for a joint and the trunk</summary>
         public double[] Position = new double[3];
         /// <summary>in the unit of the mesh</summary>
         public double Radius;
@@ -2648,9 +2648,9 @@ namespace Hf
             }
         }
 
-        /// <summary>Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first,
-        /// then the others, each group by length, the longest first. The places do not depend on the order of the
-        /// vertices. They follow translation and scale.
+        /// <summary>Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned
+        /// proposals come first, then the others, each group by length, the longest first. The places do not depend
+        /// on the order of the vertices. They follow translation and scale.
         ///
         /// joints: jointCount x 3 numbers their places at rest, in the unit and frame of the mesh
         /// parents: jointCount numbers position of each joint's parent in the list; uint.MaxValue for a root

@@ -590,7 +590,7 @@ export interface HandleProposal {
   pinned: number;
   /** the end joint nearby, or the joint proposed, by position in the list; constants.HF_NO_INDEX = none */
   joint: number;
-  /** at rest, in the unit and frame of the mesh; inside the surface for a joint */
+  /** at rest, in the unit and frame of the mesh; inside the surface for a joint and the trunk */
   position: number[];
   /** in the unit of the mesh */
   radius: number;
@@ -1251,9 +1251,9 @@ export interface Surface extends Handle {
    */
   findExtremities(options?: { kind?: number; leastLengthShare?: number; sourceCount?: number; geodesics?: Geodesics | null; progress?: Progress | null; field?: Float64Array | null }): Extremity[];
   /**
-   * Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first, then
-   * the others, each group by length, the longest first. The places do not depend on the order of the vertices.
-   * They follow translation and scale.
+   * Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals
+   * come first, then the others, each group by length, the longest first. The places do not depend on the order of
+   * the vertices. They follow translation and scale.
    *
    * joints: jointCount x 3 numbers their places at rest, in the unit and frame of the mesh
    * parents: jointCount numbers position of each joint's parent in the list; constants.HF_NO_INDEX for a root

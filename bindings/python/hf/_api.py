@@ -210,7 +210,7 @@ class HandleReason(IntEnum):
     JOINT = _raw.HF_HANDLE_REASON_JOINT
     """a joint of the given skeleton: an end, or where it branches"""
     MIDDLE = _raw.HF_HANDLE_REASON_MIDDLE
-    """the middle of the largest component; pinned if nothing else is"""
+    """the trunk of the largest component: the chest of a biped; pinned, inside the surface"""
 
 
 class Base(IntEnum):
@@ -1451,9 +1451,9 @@ class Surface(Object):
     def propose_handles(self, joints: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None, *,
             up: Optional[ArrayLike] = None, least_length_share: float = 0.0, limit: int = 0,
             progress: Optional[Progress] = None) -> np.ndarray:
-        """Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first, then
-        the others, each group by length, the longest first. The places do not depend on the order of the vertices.
-        They follow translation and scale.
+        """Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals
+        come first, then the others, each group by length, the longest first. The places do not depend on the order of
+        the vertices. They follow translation and scale.
 
         joints: (joint_count, 3) their places at rest, in the unit and frame of the mesh
         parents: (joint_count,) position of each joint's parent in the list; NO_INDEX for a root

@@ -1,0 +1,18 @@
+// Finds the trunk of a body: what is left when all limbs are taken away.
+//
+// A limb is the connected part around a tip where the Poisson field of field/extremities.h is above a share of its fall
+// from the tip to the root of the limb. Higher parts of the trunk count more for its middle. So the middle is in the
+// chest of a biped, not in its hips, and between the legs of an animal. The middle follows translation and scale. Cost:
+// some passes over the mesh.
+#pragma once
+#include "base/span.h"
+#include "engine/core.h"
+#include "field/extremities.h"
+
+namespace hf_inner {
+
+// Writes the middle of the trunk of the component with the largest area. height: of every vertex. Returns false where
+// nothing is left.
+bool trunk_middle(const Core& core, const Extremities& tips, Span<const double> height, Vec3& middle);
+
+}  // namespace hf_inner
