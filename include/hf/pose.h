@@ -139,8 +139,10 @@ HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_t
  * rotations; 0: you give them.
  *
  * A handle of free rotation is a place. Its centroid lands exactly where its transform puts it; the rotation of the
- * transform is ignored. Each hf_deform finds the rotation of least elastic energy for that place, together with the
- * pose (as-rigid-as-possible energy with positional constraints, Sorkine and Alexa 2007). hf_pose_get_handle writes it.
+ * transform is ignored. Each hf_deform finds the rotation together with the pose (positional constraints, Sorkine and
+ * Alexa 2007): the one of least as-rigid-as-possible energy towards the shapes that groups of vertices aim at. A group
+ * that is pulled aims at a longer and thinner shape than at rest, so the rotation is not exactly the one of least
+ * energy towards the rest shape. hf_pose_get_handle writes it.
  * Drag with a free rotation: the wrist follows the hand. Give the rotation when the user turns a ring. A given rotation
  * starts as the handle stands, so the pose does not change. Where you free a rotation on layer 0 the surface stays as
  * it is and lets the old rotation go as handles move, as with in_place; place the handles after that call. On a higher

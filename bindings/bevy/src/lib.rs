@@ -127,7 +127,11 @@ struct Wanted {
     place: Affine3A,
 }
 
-fn pose_meshes(mut deformed: Query<(Entity, &mut DeformedMesh, &Deformer)>, handles: Query<(Entity, &DeformHandle, &HandleRotation)>, places: Places) {
+fn pose_meshes(
+    mut deformed: Query<(Entity, &mut DeformedMesh, &Deformer)>,
+    handles: Query<(Entity, &DeformHandle, &HandleRotation)>,
+    places: Places,
+) {
     let mut wanted: EntityHashMap<Vec<Wanted>> = default();
     for (entity, &handle, &rotation) in &handles {
         if let Some(place) = place_in(&places, entity, handle.deformer) {
