@@ -279,9 +279,9 @@ constexpr double sole_share = 0.02;
 constexpr double sole_margin = 1.2;
 // Radii: of every proposal at least, of a foot and a tip at most. With tips twice as large one tip less fits.
 constexpr double least_radius = 0.01, most_sole_radius = 0.06, most_tip_radius = 0.05;
-// A limb is where the Poisson field is above this share of its fall from the tip; the rest is trunk. A hand pulled up by
-// 0.25 of the box moves the highest vertex of six bipeds by at most 0.018, with feet alone by 0.06 to 0.17. 0.5: 0.023,
-// 0.7: 0.039, without shoulders in the trunk.
+// A limb is where the Poisson field is above this share of its fall from the tip; the rest is trunk. A hand pulled up
+// by 0.25 of the box moves the highest vertex of six bipeds by at most 0.018, with feet alone by 0.06 to 0.17. 0.5:
+// 0.023, 0.7: 0.039, without shoulders in the trunk.
 constexpr double limb_share = 0.4;
 // The least radius of the trunk, so that its region goes around. 0.05 holds the back of a slim body alone.
 constexpr double least_trunk_radius = 0.08;
