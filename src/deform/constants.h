@@ -285,6 +285,9 @@ constexpr double least_radius = 0.01, most_sole_radius = 0.06, most_tip_radius =
 constexpr double limb_share = 0.4;
 // The least radius of the trunk, so that its region goes around. 0.05 holds the back of a slim body alone.
 constexpr double least_trunk_radius = 0.08;
+// The radius grows until the region has this share of the area of the trunk. Less stops at parts inside a body, as in a
+// wolf and a robot; double is beyond most_radius in a horse.
+constexpr double least_held = 0.1;
 // A middle that is farther from the surface than this is in a ball or a ring; then a vertex stands for it.
 constexpr double most_depth = 0.12;
 // Added to heights as weights of a trunk. It decides in a flat one, whose heights differ by rounding alone.

@@ -294,10 +294,19 @@ class Proposer {
     found_.push_back(out);
   }
 
-  // The trunk holds, so that a pulled hand does not take the body along. The region goes around.
+  double area_near(Vec3 place, double radius) const {
+    double area = 0;
+    for (const Index v : region_near(core_, place, radius, memory_)) area += core_.areas[at(v)];
+    return area;
+  }
+
+  // The trunk holds, so that a pulled hand does not take the body along. The region goes around, also where a part
+  // inside the body is the nearest.
   void add_trunk(const Extremities& tips) {
+    const Trunk trunk = find_trunk(core_, tips, height_);
+    if (!trunk.found) return;
     Candidate out;
-    if (!trunk_middle(core_, tips, height_, out.position)) return;
+    out.position = trunk.middle;
     out.vertex = nearest_vertex(out.position);
     double depth = distance(mesh_.positions[at(out.vertex)], out.position);
     if (depth > most_depth) {
@@ -305,6 +314,8 @@ class Proposer {
       depth = 0;
     }
     out.radius = std::max(around_joint * depth, least_trunk_radius);
+    while (out.radius * radius_growth <= most_radius && area_near(out.position, out.radius) < least_held * trunk.area)
+      out.radius *= radius_growth;
     out.reason = HandleReason::middle;
     out.pinned = true;
     found_.push_back(out);

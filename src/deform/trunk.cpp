@@ -35,7 +35,7 @@ void remove_limb(const Core& core, const Vector<double>& field, const Extremity&
 
 }  // namespace
 
-bool trunk_middle(const Core& core, const Extremities& tips, Span<const double> height, Vec3& middle) {
+Trunk find_trunk(const Core& core, const Extremities& tips, Span<const double> height) {
   const Mesh& mesh = core.mesh;
   const Index component = largest_component(core);
   Vector<std::uint8_t> trunk(mesh.positions.size(), 0, core.memory.get());
@@ -48,6 +48,7 @@ bool trunk_middle(const Core& core, const Extremities& tips, Span<const double> 
   for (std::size_t v = 0; v < trunk.size(); ++v) {
     if (trunk[v]) lowest = std::min(lowest, height[v]);
   }
+  Trunk out;
   Vec3 sum;
   double weights = 0;
   for (std::size_t v = 0; v < trunk.size(); ++v) {
@@ -55,10 +56,11 @@ bool trunk_middle(const Core& core, const Extremities& tips, Span<const double> 
     const double weight = core.areas[v] * (height[v] - lowest + flat_trunk);
     sum = sum + weight * mesh.positions[v];
     weights += weight;
+    out.area += core.areas[v];
   }
-  if (!(weights > 0)) return false;
-  middle = (1 / weights) * sum;
-  return true;
+  out.found = weights > 0;
+  if (out.found) out.middle = (1 / weights) * sum;
+  return out;
 }
 
 }  // namespace hf_inner

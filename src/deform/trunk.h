@@ -11,8 +11,14 @@
 
 namespace hf_inner {
 
-// Writes the middle of the trunk of the component with the largest area. height: of every vertex. Returns false where
-// nothing is left.
-bool trunk_middle(const Core& core, const Extremities& tips, Span<const double> height, Vec3& middle);
+struct Trunk {
+  bool found = false;
+  Vec3 middle;
+  double area = 0;
+};
+
+// Finds the trunk of the component with the largest area. height: of every vertex. `found` is false where nothing is
+// left.
+Trunk find_trunk(const Core& core, const Extremities& tips, Span<const double> height);
 
 }  // namespace hf_inner
