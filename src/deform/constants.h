@@ -287,7 +287,7 @@ constexpr double limb_share = 0.4;
 constexpr double least_trunk_radius = 0.08;
 // The radius grows until the region has this share of the area of the trunk. Less stops at parts inside a body, as in a
 // wolf and a robot; double is beyond most_radius in a horse.
-constexpr double least_held = 0.1;
+constexpr double held_trunk_share = 0.1;
 // A middle that is farther from the surface than this is in a ball or a ring; then a vertex stands for it.
 constexpr double most_depth = 0.12;
 // Added to heights as weights of a trunk. It decides in a flat one, whose heights differ by rounding alone.

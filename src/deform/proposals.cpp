@@ -314,7 +314,8 @@ class Proposer {
       depth = 0;
     }
     out.radius = std::max(around_joint * depth, least_trunk_radius);
-    while (out.radius * radius_growth <= most_radius && area_near(out.position, out.radius) < least_held * trunk.area)
+    while (out.radius * radius_growth <= most_radius &&
+           area_near(out.position, out.radius) < held_trunk_share * trunk.area)
       out.radius *= radius_growth;
     out.reason = HandleReason::middle;
     out.pinned = true;
