@@ -139,8 +139,10 @@ HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_t
  * rotations; 0: you give them.
  *
  * A handle of free rotation is a place. Its centroid lands exactly where its transform puts it; the rotation of the
- * transform is ignored. Each hf_deform finds the rotation of least elastic energy for that place, together with the
- * pose (as-rigid-as-possible energy with positional constraints, Sorkine and Alexa 2007). hf_pose_get_handle writes it.
+ * transform is ignored. Each hf_deform finds the rotation together with the pose (positional constraints, Sorkine and
+ * Alexa 2007): the one of least as-rigid-as-possible energy towards the shapes that groups of vertices aim at. A group
+ * that is pulled aims at a longer and thinner shape than at rest, so the rotation is not exactly the one of least
+ * energy towards the rest shape. hf_pose_get_handle writes it.
  * Drag with a free rotation: the wrist follows the hand. Give the rotation when the user turns a ring. A given rotation
  * starts as the handle stands, so the pose does not change. Where you free a rotation on layer 0 the surface stays as
  * it is and lets the old rotation go as handles move, as with in_place; place the handles after that call. On a higher
@@ -282,7 +284,7 @@ enum hf_handle_reason {
   HF_HANDLE_REASON_TIP = 1,   /* a protruding part ends there: head, tail, hand, horn (hf_surface_find_extremities) */
   HF_HANDLE_REASON_END = 2,   /* one of the two ends of a component without feet or tips */
   HF_HANDLE_REASON_JOINT = 3, /* a joint of the given skeleton: an end, or where it branches */
-  HF_HANDLE_REASON_MIDDLE = 4 /* the middle of the largest component; pinned if nothing else is */
+  HF_HANDLE_REASON_MIDDLE = 4 /* the trunk of the largest component: the chest of a biped; pinned, inside the surface */
 };
 
 typedef struct hf_handle_proposals_desc {
@@ -305,18 +307,18 @@ typedef struct hf_handle_proposal {
   int32_t pinned;     /* 1: add it at once, it holds the body; 0: offer it, and add it when it is dragged */
   uint32_t joint;     /* the end joint nearby, or the joint proposed, by position in the list; HF_NO_INDEX = none */
   uint32_t reserved;  /* 0 */
-  double position[3]; /* at rest, in the unit and frame of the mesh; inside the surface for a joint */
+  double position[3]; /* at rest, in the unit and frame of the mesh; inside the surface for a joint and the trunk */
   double radius;      /* in the unit of the mesh */
   double length;      /* how far the part protrudes, in the unit of the mesh */
 } hf_handle_proposal;
 
-/* Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first, then the
- * others, each group by length, the longest first. The places do not depend on the order of the vertices. They follow
- * translation and scale. desc: NULL for defaults. out_proposals: NULL, or hf_handle_proposal[capacity]. out_count:
- * NULL, or receives the number of proposals. Cost: as hf_surface_find_extremities, and some passes over the mesh.
- * Errors: HF_ERROR_INVALID_ARGUMENT (least_length_share, limit, joints without parents), HF_ERROR_NON_FINITE (up; index
- * = joint), HF_ERROR_OUT_OF_RANGE (a parent; index = joint), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since
- * 0.1. */
+/* Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals come
+ * first, then the others, each group by length, the longest first. The places do not depend on the order of the
+ * vertices. They follow translation and scale. desc: NULL for defaults. out_proposals: NULL, or
+ * hf_handle_proposal[capacity]. out_count: NULL, or receives the number of proposals. Cost: as
+ * hf_surface_find_extremities, and some passes over the mesh. Errors: HF_ERROR_INVALID_ARGUMENT (least_length_share,
+ * limit, joints without parents), HF_ERROR_NON_FINITE (up; index = joint), HF_ERROR_OUT_OF_RANGE (a parent; index =
+ * joint), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_propose_handles(hf_surface surface, const hf_handle_proposals_desc* desc, uint32_t capacity,
                                             hf_handle_proposal* out_proposals, uint32_t* out_count);
 

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "deform/constants.h"
 #include "deform/handles.h"
+#include "deform/trunk.h"
 #include "field/extremities.h"
 #include "field/peaks.h"
 
@@ -43,8 +44,8 @@ class Proposer {
     find_feet();
     add_tips(tips);
     add_ends();
+    add_trunk(tips);
     add_joints();
-    add_middle(tips.field);
     Vector<HandleProposal> out = choose();
     report(1.0f);
     return out;
@@ -198,7 +199,8 @@ class Proposer {
     }
   }
 
-  // End joints name the proposals near them. Those without one, and joints where the skeleton branches, are proposed.
+  // End joints name the proposals near them, and the first joint in the trunk names the trunk. Those without one, and
+  // joints where the skeleton branches, are proposed.
   // Their place is the joint itself, so that the region goes around the limb.
   void add_joints() {
     const std::size_t count = options_.parents.size();
@@ -216,13 +218,16 @@ class Proposer {
       double least = end ? joint_reach : least_radius;
       for (Candidate& candidate : found_) {
         const double d = distance(candidate.position, place);
+        // joints inside the trunk belong to it
+        if (candidate.reason == HandleReason::middle && d <= candidate.radius)
+          least = std::max(least, candidate.radius);
         if (d <= least) {
           least = d;
           near = &candidate;
         }
       }
       if (near) {
-        if (end && near->joint == no_joint) near->joint = joint;
+        if ((end || near->reason == HandleReason::middle) && near->joint == no_joint) near->joint = joint;
         continue;
       }
       add_joint(joint, place);
@@ -262,7 +267,7 @@ class Proposer {
     return order;
   }
 
-  void add_joint(std::uint32_t joint, Vec3 place) {
+  Index nearest_vertex(Vec3 place) const {
     Index vertex = 0;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
@@ -272,33 +277,48 @@ class Proposer {
         vertex = static_cast<Index>(v);
       }
     }
-    if (least > joint_reach) return;  // a helper away from the surface
+    return vertex;
+  }
+
+  void add_joint(std::uint32_t joint, Vec3 place) {
+    const Index vertex = nearest_vertex(place);
+    const double depth = distance(mesh_.positions[at(vertex)], place);
+    if (depth > joint_reach) return;  // a helper away from the surface
     Candidate out;
     out.vertex = vertex;
     out.position = place;
     out.reason = HandleReason::joint;
     out.joint = joint;
-    out.radius = std::max(around_joint * least, least_radius);
-    out.length = least;
+    out.radius = std::max(around_joint * depth, least_radius);
+    out.length = depth;
     found_.push_back(out);
   }
 
-  // The vertex that is farthest from all tips, by the Poisson field, on the component of largest area.
-  void add_middle(const Vector<double>& field) {
-    Vector<double> area(at(mesh_.component_count()), 0.0, &memory_);
-    for (std::size_t v = 0; v < field.size(); ++v) area[at(mesh_.component[v])] += core_.areas[v];
-    const auto largest = static_cast<Index>(std::max_element(area.begin(), area.end()) - area.begin());
-    Index vertex = Mesh::none;
-    for (std::size_t v = 0; v < field.size(); ++v) {
-      if (mesh_.component[v] == largest && (vertex == Mesh::none || field[v] < field[at(vertex)]))
-        vertex = static_cast<Index>(v);
-    }
+  double area_near(Vec3 place, double radius) const {
+    double area = 0;
+    for (const Index v : region_near(core_, place, radius, memory_)) area += core_.areas[at(v)];
+    return area;
+  }
+
+  // The trunk holds, so that a pulled hand does not take the body along. The region goes around, also where a part
+  // inside the body is the nearest.
+  void add_trunk(const Extremities& tips) {
+    const Trunk trunk = find_trunk(core_, tips, height_);
+    if (!trunk.found) return;
     Candidate out;
-    out.vertex = vertex;
-    out.position = mesh_.positions[at(vertex)];
+    out.position = trunk.middle;
+    out.vertex = nearest_vertex(out.position);
+    double depth = distance(mesh_.positions[at(out.vertex)], out.position);
+    if (depth > most_depth) {
+      out.position = mesh_.positions[at(out.vertex)];
+      depth = 0;
+    }
+    out.radius = std::max(around_joint * depth, least_trunk_radius);
+    while (out.radius * radius_growth <= most_radius &&
+           area_near(out.position, out.radius) < held_trunk_share * trunk.area)
+      out.radius *= radius_growth;
     out.reason = HandleReason::middle;
-    out.radius = most_tip_radius;
-    out.pinned = std::none_of(found_.begin(), found_.end(), [](const Candidate& c) { return c.pinned; });
+    out.pinned = true;
     found_.push_back(out);
   }
 

@@ -1,9 +1,10 @@
-// Proposes handles for a surface: feet that hold, tips to drag, ends of pieces, joints of a skeleton.
+// Proposes handles for a surface: feet and a trunk that hold, tips to drag, ends of pieces, joints of a skeleton.
 //
 // Feet are minima of the height with a leg above them: the height rises by a share of the body on the way to a lower
 // minimum (find_peaks). Tips are the extremities of field/extremities.h; those at a foot belong to the foot. A
-// component without either gets its two ends. The middle of the largest component is proposed as well. It holds if
-// nothing else does. Places do not depend on the order of the vertices; they follow translation and scale.
+// component without either gets its two ends. The trunk of the largest component holds: what is left when all limbs are
+// taken away, by the Poisson field of the tips. Its middle is in the chest of a biped, and between the legs of an
+// animal. Places do not depend on the order of the vertices; they follow translation and scale.
 //
 // The regions of all proposals are disjoint: adding them as handles by position and radius does not overlap.
 #pragma once
@@ -28,7 +29,7 @@ struct HandleProposal {
 
 struct ProposalOptions {
   Vec3 up{0, 1, 0};                   // of length 1
-  double least_length_share = 0;            // share of the box diagonal
+  double least_length_share = 0;      // share of the box diagonal
   std::size_t limit = 0;              // most proposals
   Span<const double> joints;          // [n][3], in the unit of the mesh as given
   Span<const std::uint32_t> parents;  // [n]; 0xffffffff for a root

@@ -439,24 +439,60 @@ fails("vertex 3", bpy.ops.hf.bind)
 for junk in (empty_mesh, broken, lamp):
     bpy.data.objects.remove(junk)
 
-# ---- proposed handles: the foot holds; a tip is offered, is a handle while it is away from its place, and none when back
+# ---- proposed handles: foot and trunk hold; a tip is offered, is a handle while it is away from its place, and none when back
 post, post_points = cylinder("post", 4.0, 0.5, 41, 24, (6, 0, 0))
 active(post)
 assert bpy.ops.hf.propose() == {"FINISHED"}
 held = session.session_of(post, bind=False)
 empties = [o for o in bpy.data.objects if o.type == "EMPTY" and o.get("hf_key") == post["hf_key"]]
-feet = [o for o in empties if o.empty_display_type == "CUBE"]
+feet = [o for o in empties if "foot" in o.name]
+cubes = [o for o in empties if o.empty_display_type == "CUBE"]
 tips = [o for o in empties if "tip" in o.name]
-assert len(feet) == 1 and held.pose.handle_count == 1 and len(tips) >= 1, [o.name for o in empties]
+assert len(feet) == 1 and len(cubes) == held.pose.handle_count == 2 and len(tips) >= 1, [o.name for o in empties]
 tips[0].location.x += 1.0
 bpy.context.view_layer.update()
-assert held.pose.handle_count == 2
+assert held.pose.handle_count == 3
 bent = mesh_data.positions_of(post.data)
 np.testing.assert_allclose(bent[list(feet[0]["hf_vertices"])], post_points[list(feet[0]["hf_vertices"])], atol=1e-5)
 assert np.abs(bent - post_points).max() > 0.9
-tips[0].location.x -= 1.0
+
+# ---- the drag has freed the rotation of the tip; turning its empty gives it from there without a jump; a drag frees it again
+tip, region = tips[0], list(tips[0]["hf_vertices"])
+handle_of = lambda empty: held.pose.handle(held.numbers[empty["hf_id"]])
+angle_of = lambda info: 2 * math.degrees(math.acos(min(1.0, abs(info.rotation[3]))))
+
+
+def rest_pose_moves(turn, count=40):
+    """How far the mesh goes when the empty is turned by `turn` degrees; the pose comes to rest before and after."""
+    for _ in range(count):
+        bpy.ops.hf.update()
+    before = mesh_data.positions_of(post.data)
+    tip.rotation_quaternion = Quaternion((0, 1, 0), math.radians(turn)) @ tip.rotation_quaternion
+    bpy.context.view_layer.update()
+    for _ in range(count):
+        bpy.ops.hf.update()
+    return np.linalg.norm(mesh_data.positions_of(post.data) - before, axis=1).max()
+
+
+assert handle_of(tip).free_rotation and not handle_of(feet[0]).free_rotation
+found_angle = angle_of(handle_of(tip))
+assert found_angle > 5, found_angle
+np.testing.assert_allclose(bent[region].mean(0), post_points[region].mean(0) + (1.0, 0, 0), atol=2e-5)
+small = rest_pose_moves(0.1)
+assert not handle_of(tip).free_rotation and abs(angle_of(handle_of(tip)) - found_angle) < 3, angle_of(handle_of(tip))
+assert small < 0.01, small  # 0.1 degrees, not the way back to the rotation that the empty shows
+turned = rest_pose_moves(40)
+assert turned > 0.05 and not handle_of(tip).free_rotation
+before = mesh_data.positions_of(post.data)
+tip.location.z += 1e-3
 bpy.context.view_layer.update()
-assert held.pose.handle_count == 1
+assert handle_of(tip).free_rotation
+assert np.linalg.norm(mesh_data.positions_of(post.data) - before, axis=1).max() < 0.02
+tip.location.z -= 1e-3
+tip.location.x -= 1.0
+tip.rotation_quaternion = (1, 0, 0, 0)
+bpy.context.view_layer.update()
+assert held.pose.handle_count == 2
 fails("has handles at all proposed places", bpy.ops.hf.propose)
 active(post)
 assert bpy.ops.hf.unbind() == {"FINISHED"}

@@ -493,7 +493,12 @@ func imported():
 	moved.transform.origin += Vector3(0, 0.2 * size, 0)
 	var posed = deformer.update()
 	expect(posed.size() == rest.size(), "positions")
-	expect(abs(posed[last].y - rest[last].y - 0.2 * size) < 1e-3 * size, "the moved handle lands")
+	var number_of = deformer.handles[moved].number
+	var stands = deformer.surface.handle_info(number_of)
+	expect(stands.free_rotation == 1 and deformer.surface.handle_info(deformer.handles[fixed].number).free_rotation == 0,
+		"a move frees the rotation")
+	expect(abs(stands.translation_y - 0.2 * size) < 1e-6 * size and abs(posed[last].y - rest[last].y - 0.2 * size) < 0.1 * size,
+		"the moved handle lands")
 	expect(posed[first].distance_to(rest[first]) < 1e-4 * size, "the other stays")
 	var back = deformer.mesh.surface_get_arrays(0)[Mesh.ARRAY_VERTEX]
 	expect(back[last].distance_to(posed[last]) < 1e-4 * size, "read back from Godot's mesh")
@@ -513,7 +518,26 @@ func imported():
 		far = max(far, still[i].distance_to(posed[i]))
 	expect(went > 0.01 * size and far < 0.1 * went, "a handle in place, %f off rest, moves the mesh by %f" % [went, far])
 	deformer.remove_handle(third)
-	expect(deformer.update() != null, "after removing it")
+	for i in 40:
+		posed = deformer.update()
+	# a node that is turned gives the rotation, from where the handle stands
+	var before = deformer.rotation_of(deformer.surface.handle_info(number_of))
+	moved.rotate_x(0.01)
+	for i in 40:
+		still = deformer.update()
+	var after = deformer.rotation_of(deformer.surface.handle_info(number_of))
+	expect(abs(before.w) < 0.999 and deformer.surface.handle_info(number_of).free_rotation == 0 and deformer.handles[moved].given,
+		"a turn gives the rotation")
+	expect(abs(abs((after * before.inverse()).w) - cos(0.005)) < 1e-6, "the rotation goes on from where the handle stood")
+	far = 0.0
+	for i in rest.size():
+		far = max(far, still[i].distance_to(posed[i]))
+	expect(far < 0.01 * size, "a turn of 0.01 moves the mesh by %f of its size" % (far / size))
+	deformer.free_rotation(moved)
+	for i in 40:
+		deformer.update()
+	after = deformer.rotation_of(deformer.surface.handle_info(number_of))
+	expect(deformer.surface.handle_info(number_of).free_rotation == 1, "a rotation is freed again")
 	print("imported glb: ", rest.size(), " vertices posed")
 	root_node.free()
 	deformer.free()

@@ -115,7 +115,7 @@ export default async function story(host) {
   await check('after all of them the horse can be pulled', async () => {
     const box = await page.locator('.mark.pulse').boundingBox();
     await studio.drag(box.x + 22, box.y + 22, 40, -80);
-    assert.equal((await studio.facts()).handles, '5');
+    assert.equal((await studio.facts()).handles, '6');
   });
   await check('the sample of a card opens', async () => {
     await page.setInputFiles('#file', { name: 'x.glb', mimeType: 'model/gltf-binary', buffer: Buffer.alloc(0) });

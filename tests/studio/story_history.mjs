@@ -114,7 +114,7 @@ export default async function story(host) {
     await other.written();
     await other.page.reload();
     await other.ready();
-    await other.page.waitForFunction(() => window.hfStudio.state.handles.length > 4);
+    await other.page.waitForFunction(() => window.hfStudio.state.handles.length > 5);
     assert.equal(await other.page.evaluate(() => window.hfStudio.body.name), 'bull.glb');
     assert.equal(await other.page.evaluate(() => JSON.stringify(window.hfStudio.state)), state);
     await other.close();

@@ -60,7 +60,7 @@ export default async function story(host) {
     await page.mouse.click(spot[0], spot[1]);
     await studio.settle();
     const { handles, chosen, twin, middle } = await seen(studio);
-    assert.equal(handles.length, 6, await studio.told());
+    assert.equal(handles.length, 7, await studio.told());
     assert.ok(chosen && twin && chosen.id !== twin.id);
     assert.ok(Math.abs(chosen.position[0] + twin.position[0] - 2 * middle) < 1e-9);
     assert.equal((await studio.marks()).filter(({ classes }) => / twin/.test(classes)).length, 1);
@@ -111,11 +111,11 @@ export default async function story(host) {
     assert.ok(now.chosen.pinned && now.twin.pinned);
     await page.click('#remove');
     await studio.settle();
-    assert.equal((await seen(studio)).handles.length, 4);
+    assert.equal((await seen(studio)).handles.length, 5);
     await page.keyboard.press('Control+z');
     await studio.settle();
     now = await seen(studio);
-    assert.equal(now.handles.length, 6);
+    assert.equal(now.handles.length, 7);
   });
   await check('a foot of the file has its twin: a drag lifts both', async () => {
     const foot = await studio.mark('foot');

@@ -26,9 +26,9 @@ const feetShift = (studio) =>
 export default async function story(host) {
   const studio = await Studio.open(host);
   const { page } = studio;
-  await check('the first body opens with feet pinned and one handle that says "pull me"', async () => {
+  await check('the first body opens with feet and trunk pinned and one handle that says "pull me"', async () => {
     const marks = await studio.marks();
-    assert.equal(marks.filter(({ classes }) => classes.includes('pinned')).length, 4);
+    assert.equal(marks.filter(({ classes }) => classes.includes('pinned')).length, 5);
     assert.equal(await page.locator('.mark .say').textContent(), 'pull me');
     await studio.picture('pose_first', { kept: false });
   });
@@ -38,7 +38,7 @@ export default async function story(host) {
     assert.ok((await shift(studio)) > 0.05, `moved by ${await shift(studio)}`);
     assert.ok((await feetShift(studio)) < 1e-4, `feet moved by ${await feetShift(studio)}`);
     assert.equal(await page.locator('.mark .say').count(), 0);
-    assert.equal((await studio.facts()).handles, '5');
+    assert.equal((await studio.facts()).handles, '6');
     await studio.picture('pose_pulled');
   });
   await check(
@@ -93,11 +93,23 @@ export default async function story(host) {
   await check('one drag is one step', async () => {
     assert.equal(await page.evaluate(() => window.hfStudio.history.past.length), 1);
   });
-  await check('a ring of the gizmo turns the handle', async () => {
+  await check('a ring of the gizmo turns the handle from where the drag has left it', async () => {
+    assert.equal(await page.evaluate(() => window.hfStudio.state.handles.at(-1).free), true);
+    const { far, back } = await page.evaluate(async () => {
+      const app = window.hfStudio;
+      const shown = app.skin.positions.slice();
+      const far = () => app.skin.positions.reduce((most, x, i) => Math.max(most, Math.abs(x - shown[i])), 0) / app.view.size;
+      const { rotation } = app.standing(app.state.handles.at(-1));
+      await app.commit(app.tools.pose.with(app.state.handles.at(-1).id, { free: false, rotation }), 'give');
+      const given = far();
+      await app.step('undo');
+      return { far: given, back: far() };
+    });
+    assert.ok(far < 1e-5 && back < 1e-5, `given as it stands, the body moves by ${far} of the view; undone, by ${back}`);
     const ring = await studio.ring('pose');
     await studio.drag(...ring, 30, 50);
-    const turned = await page.evaluate(() => window.hfStudio.state.handles.at(-1).rotation);
-    assert.ok(Math.abs(turned[3]) < 0.999, `rotation ${turned}`);
+    const { rotation: turned, free } = await page.evaluate(() => window.hfStudio.state.handles.at(-1));
+    assert.ok(Math.abs(turned[3]) < 0.999 && free === false, `rotation ${turned}, free ${free}`);
     await studio.picture('pose_turned');
   });
   await check('pin, unpin and remove act on the chosen handle', async () => {
@@ -107,14 +119,14 @@ export default async function story(host) {
     await page.click('#pin');
     await page.click('#remove');
     await studio.settle();
-    assert.equal((await studio.facts()).handles, '4');
+    assert.equal((await studio.facts()).handles, '5');
   });
   await check('a click on the body adds a handle there', async () => {
     const spots = await studio.spots();
     const middle = spots[Math.floor(spots.length / 2)];
     await page.mouse.click(middle[0], middle[1]);
     await studio.settle();
-    assert.equal((await studio.facts()).handles, '5', await studio.told());
+    assert.equal((await studio.facts()).handles, '6', await studio.told());
     const centre = await page.evaluate(() => window.hfStudio.tools.pose.placeOf(window.hfStudio.state.handles.at(-1)));
     assert.ok(Math.hypot(...centre.map((x, k) => x - middle[3][k])) < 0.2, 'the handle is where the click was');
   });
@@ -193,7 +205,7 @@ export default async function story(host) {
     await page.mouse.click(near[0], near[1]);
     await studio.settle();
     assert.match(await studio.told(), /add a handle: /);
-    assert.equal((await studio.facts()).handles, '5');
+    assert.equal((await studio.facts()).handles, '6');
     assert.equal(await studio.bits(), before);
   });
   await check('a clip plays under the pose, and Rest brings the handles back', async () => {
@@ -278,7 +290,7 @@ export default async function story(host) {
       (await shift(other)) > 0.05 && (await feetShift(other)) < 1e-4,
       `${await shift(other)} ${await feetShift(other)}`,
     );
-    assert.equal((await other.marks()).filter(({ classes }) => classes.includes('pinned')).length, 4);
+    assert.equal((await other.marks()).filter(({ classes }) => classes.includes('pinned')).length, 5);
     await other.settle(); // a slow machine still shows the last frames of the drag
     assert.equal(await moving(), false);
     assert.equal(await other.page.evaluate(() => window.hfStudio.history.past.length), 1);

@@ -148,7 +148,7 @@ export default async function story(host) {
   });
   await check('the handles as bones: weights are computed, and saved with the pose as a valid glb', async () => {
     await page.selectOption('#bones-of', 'handles');
-    assert.equal((await studio.facts()).bones, '4');
+    assert.equal((await studio.facts()).bones, '5');
     await page.click('#compute');
     await page.waitForFunction(() => window.hfStudio.tools.weights.result);
     await studio.settle();

@@ -1,6 +1,6 @@
 //! The state of a bound deformer: its surface, its pose, and the meshes that it writes.
 use crate::shading::Shading;
-use crate::{DeformHandle, Wanted};
+use crate::{DeformHandle, HandleRotation, Wanted};
 use bevy::ecs::entity::EntityHashMap;
 use bevy::math::{Affine3A, DQuat, DVec3, Mat3A, Vec3A};
 use bevy::mesh::VertexAttributeValues;
@@ -13,6 +13,8 @@ use std::time::{Duration, Instant};
 /// Radians. A pose whose rotations changed less in a frame is not solved again until a handle moves. A tenth costs more
 /// frames after a drag and shows no difference; ten times as much lets a pose stop visibly early.
 const SETTLED: f64 = 1e-5;
+/// 1 minus the cosine of half an angle. An entity that turns by more was turned: single precision rounds by less.
+const TURNED: f64 = 1e-11;
 
 /// A mesh of the surface.
 pub(crate) struct Part {
@@ -42,9 +44,31 @@ struct Grip {
     /// its number in the pose; `None`: refused
     number: Option<u32>,
     centroid: DVec3,
+    /// of the entity in the last frame
     transform: Motion,
+    /// the pose finds the rotation
+    free: bool,
+    /// the entity was turned, with an automatic rotation
+    turned: bool,
+    /// the rotation of the region where the entity has none
+    offset: DQuat,
     /// the place of its entity was refused
     failed: bool,
+}
+
+impl Grip {
+    /// Whether the pose finds the rotation, now that the entity has this motion.
+    fn wants_free(&mut self, rotation: HandleRotation, motion: &Motion) -> bool {
+        match rotation {
+            HandleRotation::Free => true,
+            HandleRotation::Automatic if self.handle.layer == 0 => {
+                let cosine = DQuat::from_array(self.transform.0).dot(DQuat::from_array(motion.0));
+                self.turned |= 1.0 - cosine.abs() > TURNED;
+                !self.turned && (self.free || self.transform.1 != motion.1)
+            }
+            _ => false,
+        }
+    }
 }
 
 #[derive(PartialEq)]
@@ -236,7 +260,8 @@ impl DeformedMesh {
     }
 
     fn keep(&mut self, wanted: &Wanted, number: Option<u32>, centroid: DVec3) {
-        let grip = Grip { handle: wanted.handle, number, centroid, transform: AT_REST, failed: false };
+        let (free, turned, offset) = (false, false, DQuat::IDENTITY);
+        let grip = Grip { handle: wanted.handle, number, centroid, transform: AT_REST, free, turned, offset, failed: false };
         self.grips.insert(wanted.entity, grip);
     }
 
@@ -247,10 +272,20 @@ impl DeformedMesh {
             let Some(grip) = self.grips.get_mut(&wanted.entity) else { continue };
             let Some(number) = grip.number else { continue };
             let placed = motion(wanted, grip.centroid).and_then(|transform| {
-                if grip.transform != transform {
-                    self.pose.set_transform(number, Some(transform.0), Some(transform.1))?;
-                    (grip.transform, moved) = (transform, true);
+                let free = grip.wants_free(wanted.rotation, &transform);
+                if grip.free != free {
+                    if grip.free && grip.handle.layer == 0 {
+                        // the given rotation begins where the pose has turned the region to
+                        let found = DQuat::from_array(self.pose.handle(number)?.rotation);
+                        grip.offset = DQuat::from_array(grip.transform.0).inverse() * found;
+                    }
+                    self.pose.set_free_rotations(&[number], free)?;
+                } else if grip.transform == transform {
+                    return Ok(());
                 }
+                let turn = (DQuat::from_array(transform.0) * grip.offset).to_array();
+                self.pose.set_transform(number, Some(turn), Some(transform.1))?;
+                (grip.free, grip.transform, moved) = (free, transform, true);
                 Ok(())
             });
             if placed.is_err() != grip.failed {

@@ -63,10 +63,10 @@ impl Default for Deformer {
 /// A handle: its entity's `Transform` moves a region of the surface of `deformer`.
 ///
 /// The surface is at rest where the entity stands at `point` without a rotation, in the space of the deformer. From there the
-/// region moves rigidly with the entity. Scale is ignored. The entity can be a child of anything. Spawn, change and despawn
+/// region moves rigidly with the entity, and turns as [`HandleRotation`] says. Scale is ignored. The entity can be a child of anything. Spawn, change and despawn
 /// handles at any time: nothing is factorised again. A handle that is refused gets a [`DeformError`].
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[require(Transform)]
+#[require(Transform, HandleRotation)]
 pub struct DeformHandle {
     /// the entity with the [`Deformer`]
     pub deformer: Entity,
@@ -83,6 +83,19 @@ impl DeformHandle {
     pub fn at(deformer: Entity, point: Vec3, radius: f32) -> impl Bundle {
         (DeformHandle { deformer, point, radius, layer: 0 }, Transform::from_translation(point), ChildOf(deformer))
     }
+}
+
+/// Who says how the region of a [`DeformHandle`] is turned.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HandleRotation {
+    /// A handle at rest holds. When its entity moves, the pose finds the rotation, as a wrist follows a hand. When its entity is
+    /// turned, the entity gives the rotation from then on, from where the region stands. Above layer 0 as `Given`.
+    #[default]
+    Automatic,
+    /// The pose finds the rotation: the handle is a place alone.
+    Free,
+    /// The entity gives the rotation.
+    Given,
 }
 
 /// Why a deformer or a handle has no effect. It goes when the cause goes.
@@ -110,14 +123,19 @@ fn place_in(places: &Places, entity: Entity, root: Entity) -> Option<Affine3A> {
 struct Wanted {
     entity: Entity,
     handle: DeformHandle,
+    rotation: HandleRotation,
     place: Affine3A,
 }
 
-fn pose_meshes(mut deformed: Query<(Entity, &mut DeformedMesh, &Deformer)>, handles: Query<(Entity, &DeformHandle)>, places: Places) {
+fn pose_meshes(
+    mut deformed: Query<(Entity, &mut DeformedMesh, &Deformer)>,
+    handles: Query<(Entity, &DeformHandle, &HandleRotation)>,
+    places: Places,
+) {
     let mut wanted: EntityHashMap<Vec<Wanted>> = default();
-    for (entity, &handle) in &handles {
+    for (entity, &handle, &rotation) in &handles {
         if let Some(place) = place_in(&places, entity, handle.deformer) {
-            wanted.entry(handle.deformer).or_default().push(Wanted { entity, handle, place });
+            wanted.entry(handle.deformer).or_default().push(Wanted { entity, handle, rotation, place });
         }
     }
     // a pose depends on the order in which its handles are added, and a query has none

@@ -9,13 +9,20 @@ import uuid
 
 import bpy
 import numpy as np
-from mathutils import Matrix
+from mathutils import Matrix, Quaternion
 
 import hf
 
 from . import mesh_data
 
+# An empty that went farther than this was moved (a share of the mesh's box) or turned (entries of its matrix): single precision
+# rounds by less, and nobody sees it.
+SEEN_CHANGE = 1e-5
+
 PROPERTIES = ("hf_key", "hf_id", "hf_layer", "hf_vertices", "hf_rest")
+SEEN = "hf_seen"  # the motion of an empty when the pose was last solved
+FREE = "hf_free"  # True: the pose finds the rotation of the handle
+TURN = "hf_turn"  # the rotation of the handle where the empty has none: w, x, y, z; without it there is none
 OFFERED = "hf_offered"  # where an offered empty was put
 
 
@@ -62,6 +69,8 @@ def carriers_of(key):
 def mark(carrier, obj, vertices, rest, layer):
     carrier["hf_key"], carrier["hf_id"], carrier["hf_layer"] = obj["hf_key"], uuid.uuid4().hex, int(layer)
     carrier["hf_vertices"], carrier["hf_rest"] = [int(v) for v in vertices], [x for row in rest for x in row]
+    if not is_bone(carrier):
+        carrier[SEEN] = np.eye(4).ravel().tolist()
 
 
 def unmark(carrier):
@@ -80,6 +89,44 @@ def motion_of(to_local, carrier):
     rest = Matrix([carrier["hf_rest"][4 * r:4 * r + 4] for r in range(4)])
     shift, turn, _ = (to_local @ place @ rest.inverted()).decompose()
     return np.array(Matrix.Translation(shift) @ turn.to_matrix().to_4x4())
+
+
+def is_dragged(carrier):
+    """True for an empty that the user alone places, on layer 0. Others give the rotation of what moves them."""
+    if is_bone(carrier) or SEEN not in carrier or carrier["hf_layer"] or carrier.parent or carrier.constraints:
+        return False
+    return carrier.animation_data is None or not (carrier.animation_data.action or carrier.animation_data.drivers)
+
+
+def look_at(carrier, motion, stood, diagonal):
+    """Frees the rotation of a handle whose empty was moved and not turned; gives it when the empty was turned.
+
+    stood: the rotation of the handle in the last pose, a Quaternion; a given rotation begins there. diagonal: of the mesh's
+    box. All of it stands in properties of the empty, so undo takes it back with the move."""
+    if not is_dragged(carrier):
+        return
+    seen = np.array(carrier[SEEN]).reshape(4, 4)
+    if not np.allclose(seen[:3, :3], motion[:3, :3], rtol=0, atol=SEEN_CHANGE):
+        if carrier.get(FREE):
+            turn = Matrix(seen[:3, :3].tolist()).to_quaternion().inverted() @ stood
+            carrier[FREE], carrier[TURN] = False, turn[:]
+    elif np.linalg.norm(motion[:3, 3] - seen[:3, 3]) > SEEN_CHANGE * diagonal:
+        carrier[FREE] = True
+    else:
+        return
+    carrier[SEEN] = motion.ravel().tolist()
+
+
+def turned(motion, carrier):
+    """The motion with the rotation that is given to the handle. It turns about the middle of the region, which is the
+    origin of the empty."""
+    if TURN not in carrier or carrier.get(FREE):
+        return motion
+    middle = np.array(carrier["hf_rest"]).reshape(4, 4)[:3, 3]
+    out = motion.copy()
+    out[:3, :3] = motion[:3, :3] @ np.array(Quaternion(carrier[TURN]).to_matrix())
+    out[:3, 3] += (motion[:3, :3] - out[:3, :3]) @ middle
+    return out
 
 
 def make_empty(obj, name, vertices, rest_positions, diagonal, layer):

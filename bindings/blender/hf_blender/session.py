@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor, wait
 
 import bpy
 import numpy as np
-from mathutils import Vector
+from mathutils import Quaternion, Vector
 
 import hf
 
@@ -82,6 +82,7 @@ class Session:
         self.remarks = []  # sentences for the panel
         self.pose = hf.Pose(self.surface)
         self.numbers = {}  # hf_id -> handle
+        self.free = set()  # hf_id of handles whose rotation the pose finds
         self.placed = {}  # hf_id -> matrix of the last update
         self.posed = self.rest.copy()
         obj["hf_key"] = obj.get("hf_key") or uuid.uuid4().hex
@@ -101,6 +102,7 @@ class Session:
             self.pose.remove_handles([self.numbers[i] for i in gone])
             for i in gone:
                 del self.numbers[i]
+            self.free.difference_update(gone)
         for layer in sorted({int(found[i].get("hf_layer", 0)) for i in fresh}):
             batch = [i for i in fresh if int(found[i].get("hf_layer", 0)) == layer]
             regions = [np.array(found[i]["hf_vertices"], np.uint32) for i in batch]
@@ -108,6 +110,18 @@ class Session:
                 self.numbers[i] = int(number)
         figures["sync_ms"] = 1e3 * (time.perf_counter() - begin)
         return found
+
+    def free_rotations(self, found, motions):
+        """A drag frees the rotation of its handle; turning the empty gives it."""
+        diagonal = self.surface.report.bounding_box_diagonal or 1.0
+        for (i, carrier), motion in zip(found.items(), motions):
+            x, y, z, w = self.pose.handle(self.numbers[i]).rotation
+            carriers.look_at(carrier, motion, Quaternion((w, x, y, z)), diagonal)
+        wanted = {i for i, carrier in found.items() if carrier.get(carriers.FREE)}
+        for changed, free in ((wanted - self.free, True), (self.free - wanted, False)):
+            if changed:
+                self.pose.set_free_rotations([self.numbers[i] for i in sorted(changed)], free)
+        self.free = wanted
 
     def remarks_of(self, found):
         """What the pose leaves behind: vertices that no handle reaches, gaps between pieces, handles on light pieces."""
@@ -129,7 +143,9 @@ class Session:
         found = self.sync(obj)
         if found:
             to_local = obj.matrix_world.inverted()
-            matrices = np.array([carriers.motion_of(to_local, carrier) for carrier in found.values()])
+            motions = [carriers.motion_of(to_local, carrier) for carrier in found.values()]
+            self.free_rotations(found, motions)
+            matrices = np.array([carriers.turned(m, carrier) for m, carrier in zip(motions, found.values())])
             self.pose.set_matrices([self.numbers[i] for i in found], matrices)
             steps = LENGTH_STEPS if bpy.context.scene.hf_lengths else 0
             self.pose.deform(self.posed, info=self.info, refine=steps)

@@ -157,7 +157,7 @@ namespace Hf
         End = Constants.HF_HANDLE_REASON_END,
         /// <summary>a joint of the given skeleton: an end, or where it branches</summary>
         Joint = Constants.HF_HANDLE_REASON_JOINT,
-        /// <summary>the middle of the largest component; pinned if nothing else is</summary>
+        /// <summary>the trunk of the largest component: the chest of a biped; pinned, inside the surface</summary>
         Middle = Constants.HF_HANDLE_REASON_MIDDLE,
     }
 
@@ -1141,7 +1141,7 @@ namespace Hf
         public bool Pinned;
         /// <summary>the end joint nearby, or the joint proposed, by position in the list; uint.MaxValue = none</summary>
         public uint Joint;
-        /// <summary>at rest, in the unit and frame of the mesh; inside the surface for a joint</summary>
+        /// <summary>at rest, in the unit and frame of the mesh; inside the surface for a joint and the trunk</summary>
         public double[] Position = new double[3];
         /// <summary>in the unit of the mesh</summary>
         public double Radius;
@@ -2648,9 +2648,9 @@ namespace Hf
             }
         }
 
-        /// <summary>Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first,
-        /// then the others, each group by length, the longest first. The places do not depend on the order of the
-        /// vertices. They follow translation and scale.
+        /// <summary>Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned
+        /// proposals come first, then the others, each group by length, the longest first. The places do not depend
+        /// on the order of the vertices. They follow translation and scale.
         ///
         /// joints: jointCount x 3 numbers their places at rest, in the unit and frame of the mesh
         /// parents: jointCount numbers position of each joint's parent in the list; uint.MaxValue for a root
@@ -4159,14 +4159,15 @@ namespace Hf
 
         /// <summary>Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands
         /// exactly where its transform puts it; the rotation of the transform is ignored. Each Pose.Deform finds
-        /// the rotation of least elastic energy for that place, together with the pose (as-rigid-as-possible energy
-        /// with positional constraints, Sorkine and Alexa 2007). Pose.Handle writes it. Drag with a free rotation:
-        /// the wrist follows the hand. Give the rotation when the user turns a ring. A given rotation starts as the
-        /// handle stands, so the pose does not change. Where you free a rotation on layer 0 the surface stays as it
-        /// is and lets the old rotation go as handles move, as with in_place; place the handles after that call. On
-        /// a higher layer a changed handle moves the surface at the next frame. A handle alone in its component
-        /// keeps the rotation it has. restart also starts free rotations anew. refine keeps the rotation of the
-        /// smooth pose.
+        /// the rotation together with the pose (positional constraints, Sorkine and Alexa 2007): the one of least
+        /// as-rigid-as-possible energy towards the shapes that groups of vertices aim at. A group that is pulled
+        /// aims at a longer and thinner shape than at rest, so the rotation is not exactly the one of least energy
+        /// towards the rest shape. Pose.Handle writes it. Drag with a free rotation: the wrist follows the hand.
+        /// Give the rotation when the user turns a ring. A given rotation starts as the handle stands, so the pose
+        /// does not change. Where you free a rotation on layer 0 the surface stays as it is and lets the old
+        /// rotation go as handles move, as with in_place; place the handles after that call. On a higher layer a
+        /// changed handle moves the surface at the next frame. A handle alone in its component keeps the rotation
+        /// it has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose.
         ///
         /// handles: handleCount numbers.
         /// freeRotation: 1: the solve finds the rotations; 0: you give them.

@@ -5,11 +5,16 @@
 #   add_child(deformer)
 #   deformer.bind()
 #   var head = deformer.add_handle(Vector3(0, 1.2, 0.4), 0.2)   # a Node3D: move it
+#
+# A handle that is moved and was never turned has a free rotation: the pose finds it, as a wrist follows a hand. A node that
+# is turned gives the rotation from then on, from where the handle stands; free_rotation(head) frees it again.
 extends MeshInstance3D
 
 
 var surface = null
-var handles = {} # Node3D -> { number, rest }
+# Node3D -> { number, rest, layer, seen: the transform of the last update, free, given: the node was turned, turn: the rotation
+# of the handle where the node has none }
+var handles = {}
 var arrays = []
 var last = []
 
@@ -53,13 +58,52 @@ func add_handle(point, radius, layer = 0, in_place = false):
 	var info = surface.handle_info(numbers[0])
 	var handle = Node3D.new()
 	handle.transform.origin = Vector3(info.x, info.y, info.z)
-	handles[handle] = { "number": numbers[0], "rest": handle.transform }
+	handles[handle] = { "number": numbers[0], "rest": handle.transform, "layer": layer, "free": false, "given": false,
+		"turn": Quaternion(0, 0, 0, 1) }
 	if in_place:
-		var turn = Quaternion(info.rotation_x, info.rotation_y, info.rotation_z, info.rotation_w)
-		handle.transform = Transform3D(Basis(turn), handle.transform.origin + Vector3(info.translation_x, info.translation_y,
+		handle.transform = Transform3D(Basis(rotation_of(info)), handle.transform.origin + Vector3(info.translation_x, info.translation_y,
 			info.translation_z))
+	handles[handle].seen = handle.transform
 	add_child(handle)
 	return handle
+
+func rotation_of(info):
+	return Quaternion(info.rotation_x, info.rotation_y, info.rotation_z, info.rotation_w)
+
+func turn_of(entry, transform):
+	return (transform.basis * entry.rest.basis.inverse()).get_rotation_quaternion()
+
+# By more than single precision rounds.
+func is_turned(a, b):
+	return (a.x - b.x).length() + (a.y - b.y).length() + (a.z - b.z).length() > 1e-5
+
+# The pose finds the rotation of a handle, until its node is turned.
+func free_rotation(handle):
+	var entry = handles[handle]
+	if said(surface.set_free_rotations([entry.number], true)):
+		entry.free = true
+		entry.given = false
+
+# The node gives the rotation. It begins where the handle stands.
+func give_rotation(handle):
+	var entry = handles[handle]
+	if entry.free:
+		var info = surface.handle_info(entry.number)
+		if not said(info) or not said(surface.set_free_rotations([entry.number], false)):
+			return
+		entry.turn = turn_of(entry, entry.seen).inverse() * rotation_of(info)
+		entry.free = false
+	entry.given = true
+
+# On layer 0 a move frees the rotation, a turn gives it.
+func look_at_node(handle):
+	var entry = handles[handle]
+	if entry.layer == 0 and not entry.given:
+		if is_turned(handle.transform.basis, entry.seen.basis):
+			give_rotation(handle)
+		elif not entry.free and not handle.transform.origin.is_equal_approx(entry.seen.origin):
+			free_rotation(handle)
+	entry.seen = handle.transform
 
 func remove_handle(handle):
 	if handles.has(handle) and said(surface.remove_handles([handles[handle].number])):
@@ -74,7 +118,8 @@ func update():
 	var turns = []
 	var moves = []
 	for handle in handles:
-		var turn = (handle.transform.basis * handles[handle].rest.basis.inverse()).get_rotation_quaternion()
+		look_at_node(handle)
+		var turn = turn_of(handles[handle], handle.transform) * handles[handle].turn
 		numbers.append(handles[handle].number)
 		turns += [turn.x, turn.y, turn.z, turn.w]
 		var move = handle.transform.origin - handles[handle].rest.origin

@@ -32,14 +32,16 @@ Value pose_info(Surface& s, const Arguments&) {
                 {"vertex_count", info.vertex_count}});
 }
 
-// add_handles(regions, layer = 0, in_place = false). in_place: the handles start where the posed surface stands, not at
-// rest. add_handles_at takes points and radii, then the same.
+// add_handles(regions, layer = 0, in_place = false, free_rotation = false). in_place: the handles start where the posed
+// surface stands, not at rest. free_rotation: the pose finds their rotations. add_handles_at takes points and radii,
+// then the same.
 Value add_handles(Surface& s, const Arguments& a) {
   const Regions regions(at(a, 0), "regions");
   auto desc = make<hf_handles_desc>();
   desc.handle_count = regions.count();
   desc.layer = whole(at(a, 1).number, "layer");
   desc.in_place = signed_whole(at(a, 2).number, "in_place");
+  desc.free_rotation = signed_whole(at(a, 3).number, "free_rotation");
   if (!regions.counts.empty()) {
     desc.region_counts = regions.counts.data();
     desc.region_vertices = regions.vertices.data();
@@ -58,6 +60,7 @@ Value add_handles_at(Surface& s, const Arguments& a) {
   desc.radii = doubles(at(a, 1), count, "radii");
   desc.layer = whole(at(a, 2).number, "layer");
   desc.in_place = signed_whole(at(a, 3).number, "in_place");
+  desc.free_rotation = signed_whole(at(a, 4).number, "free_rotation");
   Numbers made(count + 1);
   check(hf_pose_add_handles(pose_of(s), &desc, made.data()));
   made.resize(count);
@@ -69,6 +72,13 @@ Value add_handle_at(Surface& s, const Arguments& a) {
   uint32_t made = 0;
   check(hf_pose_add_handle_at(pose_of(s), doubles(at(a, 0), 3, "point"), at(a, 1).number, &made));
   return number(made);
+}
+
+// set_free_rotations(handles, free): true: the pose finds the rotations; false: they are given, from where they stand
+Value set_free_rotations(Surface& s, const Arguments& a) {
+  const List handles = integers(at(a, 0), "handles");
+  check(hf_pose_set_free_rotations(pose_of(s), handles.count(), handles.data(), signed_whole(at(a, 1).number, "free")));
+  return done();
 }
 
 Value remove_handles(Surface& s, const Arguments& a) {
@@ -116,7 +126,8 @@ Value handle_info(Surface& s, const Arguments& a) {
                 {"translation_x", info.translation[0]},
                 {"translation_y", info.translation[1]},
                 {"translation_z", info.translation[2]},
-                {"layer", info.layer}});
+                {"layer", info.layer},
+                {"free_rotation", info.free_rotation}});
 }
 
 Value handle_field(Surface& s, const Arguments& a) {
@@ -284,9 +295,10 @@ const std::vector<Entry>& pose_methods() {
   static const std::vector<Entry> all = {
       {"pose_create", 0, 1, pose_create},
       {"pose_info", 0, 0, pose_info},
-      {"add_handles", 1, 3, add_handles},
-      {"add_handles_at", 2, 4, add_handles_at},
+      {"add_handles", 1, 4, add_handles},
+      {"add_handles_at", 2, 5, add_handles_at},
       {"add_handle_at", 2, 2, add_handle_at},
+      {"set_free_rotations", 2, 2, set_free_rotations},
       {"remove_handles", 1, 1, remove_handles},
       {"set_transforms", 3, 3, set_transforms},
       {"set_transform", 2, 3, set_transform},

@@ -210,7 +210,7 @@ class HandleReason(IntEnum):
     JOINT = _raw.HF_HANDLE_REASON_JOINT
     """a joint of the given skeleton: an end, or where it branches"""
     MIDDLE = _raw.HF_HANDLE_REASON_MIDDLE
-    """the middle of the largest component; pinned if nothing else is"""
+    """the trunk of the largest component: the chest of a biped; pinned, inside the surface"""
 
 
 class Base(IntEnum):
@@ -1451,9 +1451,9 @@ class Surface(Object):
     def propose_handles(self, joints: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None, *,
             up: Optional[ArrayLike] = None, least_length_share: float = 0.0, limit: int = 0,
             progress: Optional[Progress] = None) -> np.ndarray:
-        """Proposes handles for the first drag of a mesh: feet hold, tips are dragged. Pinned proposals come first, then
-        the others, each group by length, the longest first. The places do not depend on the order of the vertices.
-        They follow translation and scale.
+        """Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals
+        come first, then the others, each group by length, the longest first. The places do not depend on the order of
+        the vertices. They follow translation and scale.
 
         joints: (joint_count, 3) their places at rest, in the unit and frame of the mesh
         parents: (joint_count,) position of each joint's parent in the list; NO_INDEX for a root
@@ -2218,13 +2218,15 @@ class Pose(Recorded):
     def set_free_rotations(self, handles: ArrayLike, free_rotation: bool = False) -> None:
         """Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands
         exactly where its transform puts it; the rotation of the transform is ignored. Each Pose.deform finds the
-        rotation of least elastic energy for that place, together with the pose (as-rigid-as-possible energy with
-        positional constraints, Sorkine and Alexa 2007). Pose.handle writes it. Drag with a free rotation: the wrist
-        follows the hand. Give the rotation when the user turns a ring. A given rotation starts as the handle stands,
-        so the pose does not change. Where you free a rotation on layer 0 the surface stays as it is and lets the old
-        rotation go as handles move, as with in_place; place the handles after that call. On a higher layer a changed
-        handle moves the surface at the next frame. A handle alone in its component keeps the rotation it has. restart
-        also starts free rotations anew. refine keeps the rotation of the smooth pose.
+        rotation together with the pose (positional constraints, Sorkine and Alexa 2007): the one of least as-rigid-
+        as-possible energy towards the shapes that groups of vertices aim at. A group that is pulled aims at a longer
+        and thinner shape than at rest, so the rotation is not exactly the one of least energy towards the rest shape.
+        Pose.handle writes it. Drag with a free rotation: the wrist follows the hand. Give the rotation when the user
+        turns a ring. A given rotation starts as the handle stands, so the pose does not change. Where you free a
+        rotation on layer 0 the surface stays as it is and lets the old rotation go as handles move, as with in_place;
+        place the handles after that call. On a higher layer a changed handle moves the surface at the next frame. A
+        handle alone in its component keeps the rotation it has. restart also starts free rotations anew. refine keeps
+        the rotation of the smooth pose.
 
         handles: (handle_count,).
         free_rotation: 1: the solve finds the rotations; 0: you give them.

@@ -45,9 +45,19 @@ namespace Hf.Unity.Editor
             {
                 EditorGUI.BeginChangeCheck();
                 Vector3 place = Handles.PositionHandle(handle.transform.position, handle.transform.rotation);
+                if (EditorGUI.EndChangeCheck())
+                {
+                    // a drag frees the rotation
+                    Undo.RecordObjects(new Object[] { handle, handle.transform }, "Move hf handle");
+                    if (handle.rotation == HfRotation.Given && handle.layer == 0) handle.rotation = HfRotation.Free;
+                    handle.transform.position = place;
+                }
+                EditorGUI.BeginChangeCheck();
+                Quaternion turn = Handles.RotationHandle(handle.transform.rotation, handle.transform.position);
                 if (!EditorGUI.EndChangeCheck()) continue;
-                Undo.RecordObject(handle.transform, "Move hf handle");
-                handle.transform.position = place;
+                Undo.RecordObjects(new Object[] { handle, handle.transform }, "Turn hf handle");
+                handle.rotation = HfRotation.Given; // rings give it
+                handle.transform.rotation = turn;
             }
         }
     }

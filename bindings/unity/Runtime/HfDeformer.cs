@@ -101,6 +101,11 @@ namespace Hf.Unity
                 handle.number = pose.AddHandles(points: new double[] { at.x, at.y, at.z },
                     radii: new double[] { handle.radius }, layer: (uint)handle.layer)[0];
                 handle.bound = true;
+                double[] middle = pose.Handle(handle.number).Centroid;
+                handle.centroid = new Vector3((float)middle[0], (float)middle[1], (float)middle[2]);
+                handle.free = false;
+                handle.seen = Matrix4x4.identity;
+                handle.turn = Quaternion.identity;
                 bound.Add(handle);
                 numbers.Add(handle.number);
             }
@@ -110,6 +115,39 @@ namespace Hf.Unity
 
         static Matrix4x4 Rigid(Matrix4x4 matrix) { return Matrix4x4.TRS(matrix.GetColumn(3), matrix.rotation,
             Vector3.one); }
+
+        /// <summary>What a change of the transform says of the rotation, and the motion of the handle.</summary>
+        Matrix4x4 Look(HfHandle handle, Matrix4x4 motion)
+        {
+            bool moved = Far(motion, handle.seen, 12, 15), turned = Far(motion, handle.seen, 0, 12);
+            bool wanted = handle.rotation == HfRotation.Free;
+            if (handle.rotation == HfRotation.Automatic && handle.layer == 0)
+            {
+                wanted = !turned && (handle.free || moved);
+                if (turned) handle.rotation = HfRotation.Given;
+            }
+            if (handle.free && !wanted && handle.layer == 0)
+            {
+                // the given rotation begins where the pose has turned the handle to
+                double[] q = pose.Handle(handle.number).Rotation;
+                var found = new Quaternion((float)q[0], (float)q[1], (float)q[2], (float)q[3]);
+                handle.turn = Quaternion.Inverse(handle.seen.rotation) * found;
+            }
+            if (handle.free != wanted) pose.SetFreeRotations(new uint[] { handle.number }, wanted);
+            handle.free = wanted;
+            handle.seen = motion;
+            // about the centroid, whose place a free handle keeps too
+            Vector3 centre = handle.centroid;
+            return motion * Matrix4x4.Translate(centre) * Matrix4x4.Rotate(handle.turn) * Matrix4x4.Translate(-centre);
+        }
+
+        /// <summary>Whether entries of two matrices differ by more than single precision rounds.</summary>
+        static bool Far(Matrix4x4 a, Matrix4x4 b, int first, int end)
+        {
+            for (int k = first; k < end; ++k)
+                if (Mathf.Abs(a[k] - b[k]) > 1e-5f * Mathf.Max(1, Mathf.Abs(b[k]))) return true;
+            return false;
+        }
 
         void LateUpdate()
         {
@@ -123,6 +161,7 @@ namespace Hf.Unity
                 {
                     Matrix4x4 motion = Rigid(transform.worldToLocalMatrix * bound[i].transform.localToWorldMatrix)
                         * bound[i].restLocal.inverse;
+                    motion = Look(bound[i], motion);
                     for (int k = 0; k < 16; ++k) matrices[16 * i + k] = motion[k]; // column by column in both
                 }
                 pose.SetMatrices(numbers.ToArray(), matrices);

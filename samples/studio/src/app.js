@@ -27,6 +27,7 @@ export class App {
     this.timeline = new Timeline(this);
     this.marksLayer = new Marks(this, $('marks'));
     this.centres = new Map();
+    this.turns = new Map(); // rotations of the handles in the picture
     this.ids = 0;
     this.tools = {};
     this.later = {};
@@ -40,6 +41,10 @@ export class App {
   }
   get state() {
     return this.live ?? this.history.state;
+  }
+  /** A handle with the rotation that it has in the picture: where it is free, the pose has found it. */
+  standing(handle) {
+    return handle.free ? { ...handle, rotation: this.turns.get(handle.id) ?? handle.rotation } : handle;
   }
   nextId() {
     return ++this.ids;
@@ -77,6 +82,7 @@ export class App {
       this.skin?.dispose();
       Object.assign(this, { body, opened, skin, told: null, fieldTold: null, shownState: null });
       this.centres.clear();
+      this.turns.clear();
       this.shape = { positions: body.positions.slice(), normals: opened.normals };
       skin.set(this.shape);
       this.view.frame(skin.box());
@@ -256,7 +262,10 @@ export class App {
           if (!answer || this.skin !== skin) return;
           this.shape = { positions: answer.positions, normals: answer.normals };
           this.told = answer.told;
-          for (const { id, centroid } of answer.told.handles) this.centres.set(id, centroid);
+          for (const { id, centroid, rotation } of answer.told.handles) {
+            this.centres.set(id, centroid);
+            this.turns.set(id, Array.from(rotation));
+          }
           ++this.figures.frames;
           this.figures.shape = answer.told.milliseconds;
           this.timeline.show();

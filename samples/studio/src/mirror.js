@@ -62,16 +62,16 @@ function nearestVertex({ positions, triangles }, place) {
   return { vertex, away: Math.sqrt(least) };
 }
 
-/** A handle moved by a step, and turned by a quaternion. */
+/** A handle moved by a step, which frees its rotation, or turned by a quaternion, which gives it. */
 function shifted(handle, step, turn) {
+  const translation = handle.translation.map((t, k) => t + step[k]);
+  if (!turn) return { ...handle, pinned: false, free: true, translation };
   const rotation = turn
-    ? turn
-        .clone()
-        .multiply(new Quaternion(...handle.rotation))
-        .normalize()
-        .toArray()
-    : handle.rotation;
-  return { ...handle, pinned: false, rotation, translation: handle.translation.map((t, k) => t + step[k]) };
+    .clone()
+    .multiply(new Quaternion(...handle.rotation))
+    .normalize()
+    .toArray();
+  return { ...handle, pinned: false, free: false, rotation, translation };
 }
 
 /** The mirror of the Pose tool, and its plane in the picture. axis: 0 to 2, or '' for none. */
@@ -132,10 +132,17 @@ export class Mirror {
     const handle = handles.find((other) => other.id === id);
     const twin = this.twin(handle, handles);
     const held = axis !== '' && inMiddle(handle, axis, middle);
+    const moved = held
+      ? shifted(handle, inPlane(step, axis), turn && aboutNormal(turn, axis))
+      : shifted(handle, step, turn);
     return handles.map((other) => {
-      if (other.id === id)
-        return held ? shifted(other, inPlane(step, axis), turn && aboutNormal(turn, axis)) : shifted(other, step, turn);
-      return other === twin ? shifted(other, imageOfStep(step, axis), turn && imageOfTurn(turn, axis)) : other;
+      if (other.id === id) return moved;
+      if (other !== twin) return other;
+      const image = shifted(other, imageOfStep(step, axis), turn && imageOfTurn(turn, axis));
+      // a rotation that was free is given as the image of the handle's, so that both go on as one
+      return turn && handle.free
+        ? { ...image, rotation: imageOfTurn(new Quaternion(...moved.rotation), axis).toArray() }
+        : image;
     });
   }
   /**

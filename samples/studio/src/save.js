@@ -209,7 +209,7 @@ function handleGlb(app, result, { heads, handles }) {
     translations: pivots,
   };
   const pose = {
-    rotations: Float64Array.from(handles.flatMap(({ rotation }) => rotation)),
+    rotations: Float64Array.from(handles.flatMap((handle) => app.standing(handle).rotation)),
     translations: Float64Array.from(handles.flatMap(({ translation }) => translation)).map((t, i) => t + pivots[i]),
   };
   return skinnedGlb(app, { ...result, pivots, jointCount: handles.length }, [rest, pose], [0, 1], 'pose');

@@ -296,7 +296,7 @@ export class Timeline {
   setKey() {
     const { app } = this;
     const state = app.state;
-    const keys = withKey(this.keys, this.time, this.length, state.handles);
+    const keys = withKey(this.keys, this.time, this.length, state.handles.map((handle) => app.standing(handle)));
     return app.commit({ ...state, keys, time: this.time }, 'set a key');
   }
   removeKey() {
@@ -308,9 +308,10 @@ export class Timeline {
   }
   /** What a step keeps: where there are keys, an act at a time is a key at that time. */
   keyed(state) {
-    const { handles, keys } = this.app.history.state;
-    if (!keys.length || state.keys !== keys || state.handles === handles) return state;
-    return { ...state, keys: withKey(this.keys, this.time, this.length, state.handles), time: this.time };
+    const { handles: before, keys } = this.app.history.state;
+    if (!keys.length || state.keys !== keys || state.handles === before) return state;
+    const handles = state.handles.map((handle) => this.app.standing(handle));
+    return { ...state, keys: withKey(this.keys, this.time, this.length, handles), time: this.time };
   }
   /** Another state is shown: with keys it says at which time it was made. */
   arrive({ keys = [], time = 0 }) {

@@ -16,7 +16,7 @@ const sameRegion = (a, b) => a.id === b.id && a.radius === b.radius && a.positio
 export function poseOf(body) {
   const { hf, surface } = body;
   let pose = null;
-  let held = []; // { id, position, radius, number }
+  let held = []; // { id, position, radius, number, free }
   let told = {};
   let grabbed = false; // since the last deform
 
@@ -36,7 +36,7 @@ export function poseOf(body) {
         radii: added.map(({ radius }) => radius),
         inPlace,
       });
-      added.forEach(({ id, position, radius }, i) => held.push({ id, position, radius, number: numbers[i] }));
+      added.forEach(({ id, position, radius }, i) => held.push({ id, position, radius, number: numbers[i], free: false }));
     }
   };
 
@@ -56,8 +56,22 @@ export function poseOf(body) {
     return { refine: live ? 1 : LENGTH_STEPS, refineFromLast: Number(live) };
   };
 
+  /** Frees rotations, or gives them as the handles stand. */
+  const free = (handles) => {
+    for (const wanted of [true, false]) {
+      const changed = held.filter((one, i) => one.free !== wanted && Boolean(handles[i].free) === wanted);
+      if (!changed.length) continue;
+      pose.setFreeRotations(
+        changed.map(({ number }) => number),
+        Number(wanted),
+      );
+      for (const one of changed) one.free = wanted;
+    }
+  };
+
   const place = (handles) => {
     change(handles);
+    free(handles);
     pose.setTransforms(
       held.map(({ number }) => number),
       {
@@ -109,7 +123,10 @@ export function poseOf(body) {
         surface.measureGaps(positions);
         told.gap = surface.gapsInfo.worst / surface.report.boundingBoxDiagonal;
       }
-      told.handles = held.map(({ id, number }) => ({ id, centroid: pose.handle(number).centroid }));
+      told.handles = held.map(({ id, number }) => {
+        const { centroid, rotation } = pose.handle(number);
+        return { id, centroid, rotation };
+      });
       return positions;
     },
     told: () => told,

@@ -3,7 +3,7 @@ use bevy::asset::{AssetPlugin, RenderAssetUsages};
 use bevy::mesh::skinning::{SkinnedMesh, SkinnedMeshInverseBindposes};
 use bevy::mesh::{Indices, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::*;
-use hf_bevy::{DeformError, DeformHandle, DeformPlugin, DeformedMesh, Deformer};
+use hf_bevy::{DeformError, DeformHandle, DeformPlugin, DeformedMesh, Deformer, HandleRotation};
 use std::f32::consts::TAU;
 
 const RINGS: usize = 41;
@@ -62,7 +62,7 @@ fn deformed(app: &App, entity: Entity) -> &DeformedMesh {
 }
 
 fn handle(app: &mut App, deformer: Entity, point: [f32; 3]) -> Entity {
-    app.world_mut().spawn(DeformHandle::at(deformer, point.into(), 0.4)).id()
+    app.world_mut().spawn((DeformHandle::at(deformer, point.into(), 0.4), HandleRotation::Given)).id()
 }
 
 fn place(app: &mut App, entity: Entity, transform: Transform) {
@@ -122,6 +122,41 @@ fn regions_move_rigidly_with_their_entities() {
         assert_eq!(shown(&app, body).attribute(attribute.id), original.attribute(attribute.id));
     }
     assert_eq!(shown(&app, body).indices(), original.indices());
+}
+
+#[test]
+fn a_move_frees_the_rotation_and_a_turn_gives_it_from_where_the_region_stands() {
+    let mut app = app();
+    let (body, foot, tip) = held_tube(&mut app);
+    for entity in [foot, tip] {
+        app.world_mut().entity_mut(entity).insert(HandleRotation::Automatic);
+    }
+    let rest = deformed(&app, body).rest().to_vec();
+    // the axis of the upper cap: one across the tube at its end
+    let across = |app: &App| {
+        let rows = rows(shown(app, body), false);
+        let (a, b) = ((RINGS - 1) * (AROUND + 1), (RINGS - 1) * (AROUND + 1) + AROUND / 2);
+        (Vec3::from_array(rows[a]) - Vec3::from_array(rows[b])).normalize()
+    };
+    place(&mut app, tip, Transform::from_xyz(1.0, 1.7, 0.0));
+    settle(&mut app);
+    let leans = across(&app);
+    assert!(leans.angle_between(Vec3::X) > 0.2, "{leans}");
+    let bottom = |rows: &[[f32; 3]]| rows[..AROUND + 1].to_vec();
+    near(&bottom(rows(shown(&app, body), false)), &bottom(&rest), 1e-4);
+    let stands = rows(shown(&app, body), false).to_vec();
+    place(&mut app, tip, Transform::from_xyz(1.0, 1.7, 0.0).with_rotation(Quat::from_rotation_z(0.01)));
+    settle(&mut app);
+    near(rows(shown(&app, body), false), &stands, 0.03);
+    assert!((across(&app).angle_between(leans) - 0.01).abs() < 2e-3);
+    // from then on the entity gives it, until it is freed
+    place(&mut app, tip, Transform::from_xyz(0.5, 1.9, 0.0).with_rotation(Quat::from_rotation_z(0.01)));
+    settle(&mut app);
+    assert!((across(&app).angle_between(leans) - 0.01).abs() < 2e-3);
+    app.world_mut().entity_mut(tip).insert(HandleRotation::Free);
+    place(&mut app, tip, Transform::from_xyz(0.0, 2.0, 0.0));
+    settle(&mut app);
+    assert!(across(&app).angle_between(leans) > 0.1);
 }
 
 #[test]

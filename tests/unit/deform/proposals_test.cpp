@@ -122,6 +122,34 @@ TEST(HandleProposals, of_a_lying_tube_are_a_foot_its_ends_and_joints_by_the_skel
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(two[i].vertex, list[i].vertex);
 }
 
+// No region of a thick body goes around.
+TEST(HandleProposals, a_drum_is_held_at_a_vertex_because_its_middle_is_too_deep) {
+  const auto core = hf_test::make_core(tube(16, 21, 2));
+  const std::vector<HandleProposal> list = propose(*core, plain());
+  expect_list(*core, list);
+  const auto trunk = of(list, HandleReason::middle);
+  ASSERT_EQ(trunk.size(), 1u);
+  EXPECT_TRUE(trunk[0].pinned);
+  const Vec3 vertex = core->mesh.to_given(core->mesh.positions[static_cast<std::size_t>(trunk[0].vertex)]);
+  EXPECT_NEAR(norm(trunk[0].position - vertex), 0, 1e-9);
+}
+
+TEST(HandleProposals, the_region_of_the_trunk_goes_around_the_axis) {
+  const auto core = hf_test::make_core(tube(16, 101, 20));
+  const auto trunk = of(propose(*core, plain()), HandleReason::middle);
+  ASSERT_EQ(trunk.size(), 1u);
+  const auto region =
+      region_near(*core, core->mesh.to_inner(trunk[0].position), trunk[0].radius / core->mesh.scale, *core->memory);
+  double low = 0, high = 0;
+  for (const std::int32_t v : region) {
+    const Vec3 p = core->mesh.to_given(core->mesh.positions[static_cast<std::size_t>(v)]);
+    low = std::min(low, p.z);
+    high = std::max(high, p.z);
+  }
+  EXPECT_NEAR(low, -1, 1e-6);
+  EXPECT_NEAR(high, 1, 1e-6);
+}
+
 TEST(HandleProposals, the_end_farther_from_the_middle_comes_first_in_any_numbering) {
   PlainMesh mesh = tube(16, 41, 30);  // lies below; the other tube has no foot, and no tip is long enough
   append(mesh, tube(8, 11, 6), 12);

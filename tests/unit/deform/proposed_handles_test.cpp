@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <numeric>
 #include <random>
+#include <tuple>
 
 #include "assets/creature.h"
 #include "gltf/animate.h"
@@ -171,7 +173,94 @@ TEST(Proposals, OfAGivenSkeletonDoNotDependOnTheOrderOfItsJoints) {
   }
 }
 
-TEST(Proposals, WithoutAGroundTheMiddleHoldsAndPiecesWithoutTipsGetTheirEnds) {
+glm::dvec3 vertex_of(const Body& body, uint32_t v) {
+  return {body.positions[3 * size_t{v}], body.positions[3 * size_t{v} + 1], body.positions[3 * size_t{v} + 2]};
+}
+
+struct KnownBody {
+  Body body;
+  std::map<std::string, glm::dvec3> joints;
+};
+
+KnownBody known_body(const char* name) {
+  const samples::Creature creature = samples::make_creature(name, 3000);
+  KnownBody out;
+  out.body.positions.assign(creature.positions.begin(), creature.positions.end());
+  out.body.triangles = creature.triangles;
+  glm::dvec3 low(1e300), high(-1e300);
+  for (size_t v = 0; v < out.body.positions.size(); v += 3) {
+    const glm::dvec3 p(out.body.positions[v], out.body.positions[v + 1], out.body.positions[v + 2]);
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  out.body.diagonal = glm::distance(low, high);
+  const std::vector<double> world = samples::rest_pose(creature);
+  for (size_t j = 0; j < creature.skeleton.size(); ++j)
+    out.joints[creature.skeleton[j].name] = {world[16 * j + 12], world[16 * j + 13], world[16 * j + 14]};
+  return out;
+}
+
+// The share of the vertices that move by more than 0.01 of the box when a tip goes up by 0.2 of it; what is held: the
+// feet, or all that holds.
+double share_that_moves(const KnownBody& known, const hf::Surface& surface, const Proposals& list, size_t tip,
+                        bool all) {
+  hf::Pose pose(surface);
+  for (const hf_handle_proposal& o : list) {
+    if (o.pinned && (all || o.reason == HF_HANDLE_REASON_FOOT)) {
+      EXPECT_EQ(hf_pose_add_handle_at(pose.get(), o.position, o.radius, nullptr), HF_OK);
+    }
+  }
+  uint32_t hand = 0;
+  EXPECT_EQ(hf_pose_add_handle_at(pose.get(), list[tip].position, list[tip].radius, &hand), HF_OK);
+  EXPECT_EQ(hf_pose_set_free_rotations(pose.get(), 1, &hand, 1), HF_OK);
+  const std::vector<double>& rest = known.body.positions;
+  std::vector<float> posed(rest.size());
+  for (int k = 1; k <= 20; ++k) {
+    const hf_transform up = {{0, 0, 0, 1}, {0, 0.01 * k * known.body.diagonal, 0}};
+    EXPECT_EQ(hf_pose_set_transform(pose.get(), hand, &up), HF_OK);
+    EXPECT_EQ(hf_deform(pose.get(), posed.data(), nullptr), HF_OK);
+  }
+  size_t moved = 0;
+  for (size_t v = 0; v < rest.size(); v += 3) {
+    const glm::dvec3 way(posed[v] - rest[v], posed[v + 1] - rest[v + 1], posed[v + 2] - rest[v + 2]);
+    moved += glm::length(way) > 0.01 * known.body.diagonal;
+  }
+  return 3.0 * static_cast<double>(moved) / static_cast<double>(rest.size());
+}
+
+TEST(Proposals, TheChestOrTheTrunkBetweenTheLegsHoldsSoThatATipIsPulledAndNotTheBody) {
+  // the trunk is between these joints along this axis
+  const std::map<std::string, std::tuple<int, std::string, std::string>> between = {
+      {"biped", {1, "hips", "neck"}}, {"horse", {2, "hips", "neck_1"}}, {"bull", {2, "hips", "neck_1"}}};
+  for (const auto& [name, where] : between) {
+    SCOPED_TRACE(name);
+    const KnownBody known = known_body(name.c_str());
+    const hf::Surface surface = surface_of(known.body);
+    const Proposals list = surface.propose_handles();
+    ASSERT_EQ(count_of(list, HF_HANDLE_REASON_MIDDLE), 1u);
+    const hf_handle_proposal& trunk =
+        *std::find_if(list.begin(), list.end(), [](const auto& o) { return o.reason == HF_HANDLE_REASON_MIDDLE; });
+    EXPECT_EQ(trunk.pinned, 1);
+    const auto& [axis, from, to] = where;
+    EXPECT_GT(trunk.position[axis], known.joints.at(from)[axis]);
+    EXPECT_LT(trunk.position[axis], known.joints.at(to)[axis]);
+    EXPECT_NEAR(trunk.position[0], 0, 0.02 * known.body.diagonal);
+    EXPECT_GT(glm::distance(place_of(trunk), vertex_of(known.body, trunk.vertex)), 0.02 * known.body.diagonal);
+    size_t pulled = 0;
+    for (size_t i = 0; i < list.size(); ++i) {
+      if (list[i].reason != HF_HANDLE_REASON_TIP || list[i].length < 0.2 * known.body.diagonal) continue;
+      const double feet = share_that_moves(known, surface, list, i, false);
+      const double all = share_that_moves(known, surface, list, i, true);
+      EXPECT_LT(all, 0.8 * feet) << "tip " << i;
+      std::printf("%s tip %zu: %.2f of the vertices move with feet alone, %.2f with the trunk\n", name.c_str(), i, feet,
+                  all);
+      ++pulled;
+    }
+    EXPECT_GE(pulled, 2u);
+  }
+}
+
+TEST(Proposals, WithoutAGroundTheMiddleAloneHoldsAndPiecesWithoutTipsGetTheirEnds) {
   // a stick beside a flat sheet that lies across the vertical axis
   std::vector<glm::dvec3> points;
   std::vector<uint32_t> triangles;

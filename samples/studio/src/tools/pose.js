@@ -1,5 +1,6 @@
 // Pose: handles are proposed; drag one, turn one by its rings or keys, pin one, add one by a click on the body. With a mirror
-// the twin of a handle on the other side does the same.
+// the twin of a handle on the other side does the same. A drag frees the rotation of a handle: the pose finds it. Rings and
+// keys give it, from where it stands.
 import { BufferGeometry, LineBasicMaterial, LineLoop, Matrix3, Quaternion, Vector3 } from 'three';
 import { button, facts, make, ms, say, slider, whole } from '../ui.js';
 import { Gizmo } from '../gizmo.js';
@@ -15,7 +16,7 @@ const RADIUS = 0.035;
 /** Corners of the circle that shows a radius. */
 const POINTS = 72;
 
-const rest = { rotation: [0, 0, 0, 1], translation: [0, 0, 0] };
+const rest = { rotation: [0, 0, 0, 1], translation: [0, 0, 0], free: false };
 
 export class PoseTool {
   static key = 'pose';
@@ -312,14 +313,18 @@ export class PoseTool {
     if (event.key.toLowerCase() === 'p') return (this.pin(handle), true);
     return false;
   }
+  /** The handles, the chosen one with the rotation that it has in the picture: there a given rotation begins. */
+  standing(id) {
+    return this.handles.map((handle) => (handle.id === id ? this.app.standing(handle) : handle));
+  }
   turn(handle, by, join) {
-    const handles = this.mirror.moved(this.handles, handle.id, [0, 0, 0], by);
+    const handles = this.mirror.moved(this.standing(handle.id), handle.id, [0, 0, 0], by);
     return this.app.commit({ ...this.app.state, handles }, 'turn a handle', join);
   }
   /** The gizmo turned the chosen handle by a quaternion from where the drag began. */
   turned(by, done) {
     const handle = this.present();
-    this.turnFrom ??= this.handles;
+    this.turnFrom ??= this.standing(handle.id);
     this.app.preview({ ...this.app.state, handles: this.mirror.moved(this.turnFrom, handle.id, [0, 0, 0], by) });
     if (done) {
       this.turnFrom = null;

@@ -1,0 +1,24 @@
+// Finds the trunk of a body: what is left when all limbs are taken away.
+//
+// A limb is the connected part around a tip where the Poisson field of field/extremities.h is above a share of its fall
+// from the tip to the root of the limb. Higher parts of the trunk count more for its middle. So the middle is in the
+// chest of a biped, not in its hips, and between the legs of an animal. The middle follows translation and scale. Cost:
+// some passes over the mesh.
+#pragma once
+#include "base/span.h"
+#include "engine/core.h"
+#include "field/extremities.h"
+
+namespace hf_inner {
+
+struct Trunk {
+  bool found = false;
+  Vec3 middle;
+  double area = 0;
+};
+
+// Finds the trunk of the component with the largest area. height: of every vertex. `found` is false where nothing is
+// left.
+Trunk find_trunk(const Core& core, const Extremities& tips, Span<const double> height);
+
+}  // namespace hf_inner

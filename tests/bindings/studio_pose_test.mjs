@@ -1,0 +1,76 @@
+// The pose of the studio (samples/studio/src/worker_pose.js) in node, with the native library: free and given rotations.
+// HF_LIBRARY: the shared library; HF_NODE_MODULES: where koffi is.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { loadBackend } from './backend.mjs';
+
+const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
+const { poseOf } = await import(pathToFileURL(join(root, 'samples/studio/src/worker_pose.js')));
+const { api: hf } = await loadBackend('native');
+const { positions, triangles } = JSON.parse(readFileSync(join(root, 'bindings/golden/meshes/bar.json'), 'utf8'));
+const surface = new hf.Surface(Float32Array.from(positions), triangles);
+const box = surface.report.boundingBoxDiagonal;
+const body = { hf, surface, positions: Float32Array.from(positions) };
+
+// two ends of the bar
+const middle = (count, from) =>
+  [0, 1, 2].map((k) => Array.from({ length: count }, (_, i) => positions[3 * (from + i) + k]).reduce((a, b) => a + b) / count);
+const along = [0, 1, 2]
+  .map((k) => {
+    const of = positions.filter((_, i) => i % 3 === k);
+    return { k, low: Math.min(...of), high: Math.max(...of) };
+  })
+  .sort((a, b) => b.high - b.low - (a.high - a.low))[0];
+const ends = [along.low, along.high].map((at) => {
+  const place = [0, 1, 2].map((k) => (k === along.k ? at : middle(positions.length / 3, 0)[k]));
+  return { position: place, radius: 0.2 * (along.high - along.low), translation: [0, 0, 0], rotation: [0, 0, 0, 1] };
+});
+const side = (along.k + 1) % 3;
+const step = (amount) => [0, 1, 2].map((k) => (k === side ? amount * box : k === along.k ? -0.3 * amount * box : 0));
+const far = (a, b) => a.reduce((most, x, i) => Math.max(most, Math.abs(x - b[i])), 0) / box;
+const turnedBy = (pose) => 2 * Math.acos(Math.min(1, Math.abs(pose.told().handles[1].rotation[3])));
+
+const pose = poseOf(body);
+const [foot, hand] = ends.map((end, i) => ({ ...end, id: `h${i}` }));
+const dragged = (amount, more = {}) => [foot, { ...hand, free: true, translation: step(amount), ...more }];
+// the first drag: every frame follows, then the drag comes to rest
+let last = pose.deform([foot, hand], 'exact');
+for (let i = 1; i <= 20; ++i) {
+  const shown = pose.deform(dragged(0.01 * i), 'follow');
+  assert.ok(far(shown, last) < 0.03, `frame ${i} jumps by ${far(shown, last)} of the box`);
+  last = shown;
+}
+const rest = pose.deform(dragged(0.2), 'rest');
+const found = turnedBy(pose);
+assert.ok(found > 0.1, `the pose turned the handle by ${found}`);
+const exact = poseOf(body);
+assert.ok(far(exact.deform(dragged(0.2), 'exact'), rest) < 1e-5, 'the same handles from the start give the same body');
+assert.ok(far(exact.deform(dragged(0.2, { free: false }), 'exact'), rest) > 0.01, 'with a given rotation it is another');
+exact.close();
+// a ring gives the rotation from where the handle stands
+const rotation = Array.from(pose.told().handles[1].rotation);
+const given = pose.deform(dragged(0.2, { free: false, rotation }), 'rest');
+assert.ok(far(given, rest) < 1e-5, `a rotation that is given as it stands moves the body by ${far(given, rest)}`);
+const half = Math.sin(0.2);
+const ring = [0, 0, 0, Math.cos(0.2)];
+ring[(along.k + 2) % 3] = half;
+const times = ([a, b, c, d], [x, y, z, w]) => [
+  d * x + a * w + b * z - c * y,
+  d * y - a * z + b * w + c * x,
+  d * z + a * y - b * x + c * w,
+  d * w - a * x - b * y - c * z,
+];
+const turned = { free: false, rotation: times(ring, rotation) };
+last = pose.deform(dragged(0.2, turned), 'rest');
+assert.ok(far(last, given) > 0.01, 'the ring turns');
+// a drag frees it again; the body goes on from where it stands
+for (let i = 0; i <= 20; ++i) {
+  const shown = pose.deform(dragged(0.2 + 0.005 * i), 'follow');
+  assert.ok(far(shown, last) < 0.03, `frame ${i} of the second drag jumps by ${far(shown, last)} of the box`);
+  last = shown;
+}
+pose.close();
+surface.close();
+console.log(`studio pose: the drag turned the handle by ${((found * 180) / Math.PI).toFixed(0)} degrees`);
