@@ -206,6 +206,9 @@ class Steps:
             lines += [f"  {safe(into)}.{name} = room.at({mine[name]});" for name, _, _ in arrays]
         told = ", ".join(f'{{"{key}", {safe(var)}{("->" if self.is_pointer(var) else ".") + field if field else ""}}}' for key, var, field in tell)
         lines += [f"  room.code = {self.called(function, values)};", f"}} while (!room.enough(c, {{{told}}}));"]
+        if into:
+            struct = self.w.structs[self.w.struct_of(self.plan, into)]
+            lines += [f"found.{safe(f['name'])} = {safe(into)}.{safe(f['name'])};" for f in self.w.figures_of(struct)]
         return lines + [("" if not on_request else f"if (want_{name}) ") + f"{mine[name]}.resize(c.product({self.dims(item['dims'])}));" for name, item, on_request in arrays]
 
     def is_pointer(self, var):
@@ -443,10 +446,13 @@ class Writer(class_rust.Writer):
         return [f"  // With the struct of C.", f"  {'explicit ' * (not objects)}{name}({given}{extra}) {{",
                 *indented([*body, f"{raw} raw = nullptr;", f"check({m.name}({call}, &raw));", f"own(raw, c.counts({{{counts}}}));"], 4), "  }"]
 
+    def figures_of(self, struct):
+        """Numbers that a struct of arrays has besides."""
+        return struct.results + [f for f in struct.scalars if f["name"] in self.sizes]
+
     def result_class(self, item):
         out = ["", *self.doc(item.struct["doc"], 0), f"struct {camel(item.name)} {{"]
-        figures = item.results + [f for f in item.scalars if f["name"] in self.sizes]
-        for f in item.filled + figures:
+        for f in item.filled + self.figures_of(item):
             out += self.doc(re.sub(r"^(in|out)[:;]?\s*", "", f["doc"]), 2)
             out.append(f"  std::vector<{f['type']}> {safe(f['name'])};" if f in item.filled else f"  {f['type']} {safe(f['name'])} = 0;")
         return out + ["};"]

@@ -1796,6 +1796,7 @@ class Geodesics {
       path.positions = room.at(found.positions);
       room.code = hf_geodesics_find_path(get(), &from, &to, &path);
     } while (!room.enough(c, {{"point_capacity", path.point_count}}));
+    found.length = path.length;
     found.point_edges.resize(c.product({"point_capacity", "2"}));
     found.parameters.resize(c.product({"point_capacity"}));
     found.positions.resize(c.product({"point_capacity", "3"}));
@@ -2362,6 +2363,7 @@ class Pose {
       room.code = hf_pose_get_skin(get(), &skin);
     } while (!room.enough(c, {{"joint_capacity", skin.joint_count}, {"vertex_capacity", skin.vertex_count},
         {"joint_count", skin.joint_count}, {"vertex_count", skin.vertex_count}}));
+    found.influence_count = skin.influence_count;
     found.pivots.resize(c.product({"joint_capacity", "3"}));
     found.rotations.resize(c.product({"joint_capacity", "4"}));
     found.translations.resize(c.product({"joint_capacity", "3"}));
@@ -3032,8 +3034,7 @@ class Skeleton {
 // The motion of one skeleton on another.
 class Retarget {
  public:
-  // Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through the allocator
-  // of the target.
+  // Pairs the joints of two skeletons.
   //
   // source_rest: source.joint_count x 10 numbers a pose that counts as rest, or none: the rest of the skeleton. Give
   // poses in which both characters stand alike
@@ -3384,6 +3385,7 @@ class Transfer {
       room.code = hf_transfer_get_skin(get(), &skin);
     } while (!room.enough(c, {{"joint_capacity", skin.joint_count}, {"vertex_capacity", skin.vertex_count},
         {"joint_count", skin.joint_count}, {"vertex_count", skin.vertex_count}}));
+    found.influence_count = skin.influence_count;
     found.pivots.resize(c.product({"joint_capacity", "3"}));
     found.rotations.resize(c.product({"joint_capacity", "4"}));
     found.translations.resize(c.product({"joint_capacity", "3"}));
@@ -3536,6 +3538,7 @@ class Weights {
       room.code = hf_weights_get(get(), &weights);
     } while (!room.enough(c, {{"vertex_capacity", weights.vertex_count}, {"vertex_count", weights.vertex_count},
         {"influence_count", weights.influence_count}}));
+    found.influence_count = weights.influence_count;
     found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
     found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
     found.origins.resize(c.product({"vertex_capacity"}));
@@ -3625,6 +3628,7 @@ class Weights {
       room.code = hf_weights_transfer(source.get(), target.get(), &desc, &weights_, info);
     } while (!room.enough(c, {{"vertex_capacity", weights_.vertex_count}, {"vertex_count", weights_.vertex_count},
         {"influence_count", weights_.influence_count}}));
+    found.influence_count = weights_.influence_count;
     found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
     found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
     found.origins.resize(c.product({"vertex_capacity"}));
@@ -3674,6 +3678,7 @@ class Weights {
       room.code = hf_weights_mirror(surface.get(), &desc, &weights_, partners_.data(), pairings.data(), info);
     } while (!room.enough(c, {{"vertex_capacity", weights_.vertex_count}, {"vertex_count", weights_.vertex_count},
         {"influence_count", weights_.influence_count}}));
+    found.influence_count = weights_.influence_count;
     found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
     found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
     found.origins.resize(c.product({"vertex_capacity"}));

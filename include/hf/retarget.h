@@ -55,11 +55,11 @@ typedef struct hf_retarget_desc {
   hf_progress progress;      /* NULL, or an object to poll and cancel through */
 } hf_retarget_desc;
 
-/* Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through the allocator
- * of the target. Sets *out_retarget to NULL first. Errors: HF_ERROR_EMPTY (no joint has a partner),
- * HF_ERROR_INVALID_ARGUMENT (root_motion, leave_out, a scale below 0; a rotation of length 0, a flat transform, no
- * joint above the hips with HF_ROOT_MOTION_ROOT: index = joint), HF_ERROR_NON_FINITE (index = joint). Thread safety:
- * reads both skeletons. Since 0.1. */
+/* Pairs the joints of two skeletons. desc: NULL, or the options. The object needs neither skeleton afterwards. It
+ * allocates through the allocator of the target. Sets *out_retarget to NULL first. Errors: HF_ERROR_EMPTY (no joint has
+ * a partner), HF_ERROR_INVALID_ARGUMENT (root_motion, leave_out, a scale below 0; a rotation of length 0, a flat
+ * transform, no joint above the hips with HF_ROOT_MOTION_ROOT: index = joint), HF_ERROR_NON_FINITE (index = joint).
+ * Thread safety: reads both skeletons. Since 0.1. */
 HF_API hf_result hf_retarget_create(hf_skeleton source, hf_skeleton target, const hf_retarget_desc* desc,
                                     hf_retarget* out_retarget);
 

@@ -6,7 +6,7 @@ exports=$1
 plain='hf_create hf_add_sites hf_remove_sites hf_solve hf_deform' # the five names without a noun
 nouns='surface solver pose region detail transfer direction geodesics quads flow weights skeleton retarget progress error result version'
 verbs='add apply cancel cast certify clone create deform destroy edit find get measure mirror morph move prepare propose release relink remove
-  rotate save set solve space trace transfer update'
+  reset rotate save set solve space trace transfer update'
 status=0
 complain() { printf 'error: %s\n' "$1"; status=1; }
 either() { printf '%s' "$*" | tr -s ' \n' '|'; }

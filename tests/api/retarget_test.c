@@ -511,6 +511,14 @@ static void bad_retargets_are_named(void** state) {
   ROW("too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_retarget_get_chains(retarget, 1, &chain, NULL));
   ROW("nothing to write", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_retarget_get_partners(retarget, 0, NULL, NULL));
   ROW("too small", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_retarget_get_partners(retarget, 1, &count, NULL));
+  const hf_skeleton no_skeletons[] = {NULL, (hf_skeleton)retarget};
+  for (size_t k = 0; k < COUNT_OF(no_skeletons); ++k) {
+    hf_skeleton_destroy(no_skeletons[k]);
+    count_row("hf_skeleton_destroy(no_skeletons[k])");
+    hf_retarget_destroy(wrong[k]);
+    count_row("hf_retarget_destroy(wrong[k])");
+    row_holds(__LINE__, "destroying what is no object", "the state is unchanged", UNCHANGED());
+  }
   finish_rows("retargets");
   teardown();
 }

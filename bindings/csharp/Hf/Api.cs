@@ -5294,8 +5294,7 @@ namespace Hf
 
     /// <summary>The motion of one skeleton on another.
     ///
-    /// Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through the
-    /// allocator of the target.
+    /// Pairs the joints of two skeletons.
     ///
     /// sourceRest: source.jointCount x 10 numbers a pose that counts as rest, or null: the rest of the skeleton.
     ///     Give poses in which both characters stand alike
@@ -5310,8 +5309,7 @@ namespace Hf
     {
         Retarget() { }
 
-        /// <summary>Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through
-        /// the allocator of the target.
+        /// <summary>Pairs the joints of two skeletons.
         ///
         /// sourceRest: source.jointCount x 10 numbers a pose that counts as rest, or null: the rest of the
         ///     skeleton. Give poses in which both characters stand alike

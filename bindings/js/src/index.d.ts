@@ -2098,8 +2098,7 @@ export interface DetailClass {
 /**
  * The motion of one skeleton on another.
  *
- * Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through the
- * allocator of the target.
+ * Pairs the joints of two skeletons.
  *
  * sourceRest: source.jointCount x 10 numbers a pose that counts as rest, or null: the rest of the skeleton. Give
  *     poses in which both characters stand alike

@@ -2717,8 +2717,7 @@ class Detail(Object):
 class Retarget(Recorded):
     """The motion of one skeleton on another.
 
-    Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through the
-    allocator of the target.
+    Pairs the joints of two skeletons.
 
     source_rest: (source.joint_count, 10) a pose that counts as rest, or None: the rest of the skeleton. Give poses in
         which both characters stand alike

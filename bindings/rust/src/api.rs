@@ -3699,8 +3699,7 @@ object!(
     Retarget: hf_retarget, hf_retarget_destroy
 );
 impl Retarget {
-    /// Pairs the joints of two skeletons. The object needs neither skeleton afterwards. It allocates through the
-    /// allocator of the target.
+    /// Pairs the joints of two skeletons.
     ///
     /// source_rest: source.joint_count x 10 numbers a pose that counts as rest, or `None`: the rest of the skeleton. Give
     /// poses in which both characters stand alike
