@@ -184,8 +184,8 @@ TEST(Wrapper, reads_lines_points_distances_and_tips_of_a_strip) {
   const auto distance = geodesics.solve_f64({0, 1});
   EXPECT_NEAR(distance[16], 8, 0.8);
   hf_surface_point from{}, to{};
-  to.triangle = 15;
-  from.barycentric[0] = to.barycentric[2] = 1;
+  to.corners[0] = 16;
+  from.barycentrics[0] = to.barycentrics[0] = 1;
   EXPECT_GE(geodesics.find_path(from, to).length, 7.9);  // figures come with the arrays
   const auto tips = surface.find_extremities();
   ASSERT_EQ(tips.size(), 2u);
