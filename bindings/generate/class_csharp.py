@@ -46,7 +46,7 @@ class Spoken:
         return upper(m.title())
 
     def shape(self, sizes):
-        return " x ".join(lower(size) for size in sizes) + " numbers"
+        return "[" + " x ".join(lower(size) for size in sizes) + "]"
 
 
 class Steps:

@@ -26,7 +26,7 @@ class Spoken:
         return js(m.title())
 
     def shape(self, sizes):
-        return " x ".join(js(size) for size in sizes) + " numbers"
+        return "[" + " x ".join(js(size) for size in sizes) + "]"
 
 
 class Steps:

@@ -31,7 +31,7 @@ class Spoken:
         return "try_clone" if m.kind == "clone" else m.title()
 
     def shape(self, sizes):
-        return " x ".join(sizes) + " numbers"
+        return "`[" + " x ".join(sizes) + "]`"  # without the marks rustdoc takes it for a link
 
 
 class Steps:

@@ -45,18 +45,18 @@ struct Factor {
 // Says which pieces to link. Joints and weights or tags help the automatic links; each array may be none. A light piece
 // is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it.
 struct Links {
-  // vertex_count x influence_count numbers of a skin: pieces of the same joint link sooner
+  // `[vertex_count x influence_count]` of a skin: pieces of the same joint link sooner
   std::vector<uint16_t> joints{};
-  // vertex_count x influence_count numbers of sum 1; where all are 0, a vertex shares no joint
+  // `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
   std::vector<float> weights{};
-  // vertex_count numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
+  // `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
   // counts
   std::vector<uint32_t> tags{};
-  // link_count numbers
+  // `[link_count]`
   std::vector<hf_link> links{};
-  // light_count numbers: their pieces are light
+  // `[light_count]`: their pieces are light
   std::vector<uint32_t> light_vertices{};
-  // heavy_count numbers: their pieces are not, as one that gets a site or handle
+  // `[heavy_count]`: their pieces are not, as one that gets a site or handle
   std::vector<uint32_t> heavy_vertices{};
   // HF_LINK_*
   int32_t mode = 0;
@@ -82,12 +82,12 @@ struct Links {
 // the library. It does not depend on the order of the corners. Where this interface names a triangle, it names the face
 // then. Normals of poses are sums of the area vectors of faces.
 struct SurfaceOptions {
-  // face_count numbers first corner of each face. none: the faces follow one another. Without face_sizes face_count + 1
-  // numbers: the corners of face f end where those of f + 1 start
+  // `[face_count]` first corner of each face. none: the faces follow one another. Without face_sizes `[face_count +
+  // 1]`: the corners of face f end where those of f + 1 start
   std::vector<uint32_t> face_starts{};
-  // face_count numbers corners of each face, 3 to 65,535. none: face_starts is enough
+  // `[face_count]` corners of each face, 3 to 65,535. none: face_starts is enough
   std::vector<uint32_t> face_sizes{};
-  // corner_count numbers vertices, counter-clockwise seen from outside
+  // `[corner_count]` vertices, counter-clockwise seen from outside
   std::vector<uint32_t> corners{};
   // HF_WELD_*
   int32_t weld = 0;
@@ -124,8 +124,8 @@ struct SurfaceOptions {
 // A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
 // the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of SurfaceOptions.
 struct GraphOptions {
-  // vertex_count numbers M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none: all 1. A mass below 1e-4 of
-  // the mean of its component counts as that
+  // `[vertex_count]` M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none: all 1. A mass below 1e-4 of the
+  // mean of its component counts as that
   std::vector<double> masses{};
   // >= 1, also without masses
   uint32_t vertex_count = 0;
@@ -161,7 +161,7 @@ struct Gaps {
 
 // Options of picking: posed positions, if the surface is not at rest, and which triangles count.
 struct PickOptions {
-  // vertex_count x 3 numbers posed positions (Pose.deform writes them), or none
+  // `[vertex_count x 3]` posed positions (Pose.deform writes them), or none
   Reals positions{};
   // 1: a ray passes triangles seen from behind
   bool front_only = false;
@@ -189,36 +189,36 @@ struct SolverOptions {
 // radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic
 // fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
 struct Sites {
-  // site_count numbers vertices as given, or none
+  // `[site_count]` vertices as given, or none
   std::vector<uint32_t> vertices{};
-  // site_count x channel_count numbers, up to 1e200 in size; none = 0
+  // `[site_count x channel_count]`, up to 1e200 in size; none = 0
   std::vector<double> values{};
-  // site_count numbers triangles (or faces of three corners) as given, or none
+  // `[site_count]` triangles (or faces of three corners) as given, or none
   std::vector<uint32_t> triangles{};
-  // site_count x 3 numbers with triangles or corners, else none: weights of the corners, >= 0, of sum 1 within 1e-6
+  // `[site_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1 within 1e-6
   std::vector<double> barycentrics{};
-  // site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to 1e-12 to
+  // `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to 1e-12 to
   // 1e12
   std::vector<double> stiffness{};
-  // site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
+  // `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
   std::vector<double> radii{};
-  // site_count x 3 numbers three vertices as given, of one face, or none: hf_hit has them. In a face of more corners
-  // this places a site in a triangle of them
+  // `[site_count x 3]` three vertices as given, of one face, or none: hf_hit has them. In a face of more corners this
+  // places a site in a triangle of them
   std::vector<uint32_t> corners{};
   hf_sites_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
 // One batch of edits, applied in the order remove, move, set, add. A count of 0 skips its part.
 struct Edit {
-  // remove_count numbers
+  // `[remove_count]`
   std::vector<uint32_t> remove_sites{};
-  // move_count numbers
+  // `[move_count]`
   std::vector<uint32_t> move_sites{};
-  // set_count numbers
+  // `[set_count]`
   std::vector<uint32_t> set_sites{};
-  // set_count x channel_count numbers
+  // `[set_count x channel_count]`
   std::vector<double> set_values{};
-  // none, or places of move_count numbers sites
+  // none, or places of `[move_count]` sites
   std::optional<Sites> move_to{};
   // none, or the sites to add
   std::optional<Sites> add{};
@@ -276,11 +276,11 @@ struct PoseOptions {
 
 // The handles to add. Give their regions as vertex lists one after the other, or as points with radii.
 struct HandlesOptions {
-  // handle_count x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-connected to it
-  // within the radius. none: regions are given
+  // `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to it within
+  // the radius. none: regions are given
   std::vector<double> points{};
-  // handle_count numbers of the regions of points, in the unit of the mesh; none: regions are given. A radius below 1 %
-  // of the box makes regions of 2 vertices or more
+  // `[handle_count]` of the regions of points, in the unit of the mesh; none: regions are given. A radius below 1 % of
+  // the box makes regions of 2 vertices or more
   std::vector<double> radii{};
   // 0 to HF_LAYER_COUNT - 1, for the whole batch
   uint32_t layer = 0;
@@ -318,9 +318,9 @@ struct DeformOptions {
 };
 
 struct HandleProposalsOptions {
-  // joint_count x 3 numbers their places at rest, in the unit and frame of the mesh
+  // `[joint_count x 3]` their places at rest, in the unit and frame of the mesh
   std::vector<double> joints{};
-  // joint_count numbers position of each joint's parent in the list; HF_NO_INDEX for a root
+  // `[joint_count]` position of each joint's parent in the list; HF_NO_INDEX for a root
   std::vector<uint32_t> parents{};
   // direction away from the ground, of any length; 0 0 0 = 0 1 0
   std::optional<std::array<double, 3>> up{};
@@ -335,20 +335,20 @@ struct HandleProposalsOptions {
 
 // Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals.
 struct QuadsOptions {
-  // crease_count x 2 numbers the two vertices of each edge, as given
+  // `[crease_count x 2]` the two vertices of each edge, as given
   std::vector<uint32_t> crease_edges{};
-  // guide_count numbers as given; guides of one vertex are averaged
+  // `[guide_count]` as given; guides of one vertex are averaged
   std::vector<uint32_t> guide_vertices{};
-  // guide_count x 3 numbers along the surface, of any length above 0; quads run along the vector and across it
+  // `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across it
   std::vector<double> guide_vectors{};
-  // none = all 1, or guide_count numbers, above 0 to 1: 1 holds the direction, less mixes it with that of the
-  // curvature, which has the rest of the weight
+  // none = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of the curvature,
+  // which has the rest of the weight
   std::vector<float> guide_weights{};
-  // irregular_count x 3 numbers at the surface, in the unit and frame of the mesh
+  // `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
   std::vector<double> irregular_points{};
-  // irregular_count numbers how many quads meet there: 3 or 5
+  // `[irregular_count]` how many quads meet there: 3 or 5
   std::vector<uint32_t> irregular_valences{};
-  // none = any, or irregular_count x 3 numbers: one side of the irregular vertex runs along it; 0 0 0 = any
+  // none = any, or `[irregular_count x 3]`: one side of the irregular vertex runs along it; 0 0 0 = any
   std::vector<double> irregular_directions{};
   // wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
   uint32_t face_count = 0;
@@ -370,8 +370,8 @@ struct QuadsOptions {
 };
 
 struct RegionOptions {
-  // vertex_count x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or any pose of them. none:
-  // the mesh's own to 1e-15 of the box. Copied
+  // `[vertex_count x 3]` the surface of weight 0, bit for bit: the positions of the mesh or any pose of them. none: the
+  // mesh's own to 1e-15 of the box. Copied
   Reals positions{};
   // HF_BASE_*. If the surface has no factor for it yet, it is made now
   int32_t base = 0;
@@ -385,13 +385,13 @@ struct RegionOptions {
 // beyond the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the curve. A
 // whole border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times.
 struct Curve {
-  // point_count numbers vertices as given, or none
+  // `[point_count]` vertices as given, or none
   std::vector<uint32_t> vertices{};
-  // point_count numbers triangles (or faces of three corners) as given, or none
+  // `[point_count]` triangles (or faces of three corners) as given, or none
   std::vector<uint32_t> triangles{};
-  // point_count x 3 numbers with triangles or corners, else none: weights of the corners, >= 0, of sum 1 within 1e-6
+  // `[point_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1 within 1e-6
   std::vector<double> barycentrics{};
-  // point_count x 3 numbers three vertices of one face, as hf_hit has them, or none
+  // `[point_count x 3]` three vertices of one face, as hf_hit has them, or none
   std::vector<uint32_t> corners{};
   // HF_SIDE_*
   int32_t side = 0;
@@ -405,9 +405,9 @@ struct Curve {
 // A change of a region. The parts are applied in the order curve, rings, remove, add. A part that is 0 or none is
 // skipped.
 struct RegionEditOptions {
-  // remove_count numbers vertices that leave the region; others are passed over
+  // `[remove_count]` vertices that leave the region; others are passed over
   std::vector<uint32_t> remove_vertices{};
-  // add_count numbers vertices that join it; those in it already are passed over
+  // `[add_count]` vertices that join it; those in it already are passed over
   std::vector<uint32_t> add_vertices{};
   // rings of vertices by which the region grows; below 0 it shrinks
   int32_t ring_count = 0;
@@ -424,9 +424,9 @@ struct MorphOptions {
 };
 
 struct DetailOptions {
-  // pair_count numbers rim vertices of the source, as given
+  // `[pair_count]` rim vertices of the source, as given
   std::vector<uint32_t> source_vertices{};
-  // pair_count numbers rim vertices of the target, as given
+  // `[pair_count]` rim vertices of the target, as given
   std::vector<uint32_t> target_vertices{};
   // of the detail, > 0; 0 = square root of target base area over source base area
   double scale = 0;
@@ -437,10 +437,10 @@ struct DetailOptions {
 
 // Options of a retarget. none in Retarget gives the defaults.
 struct RetargetOptions {
-  // source.joint_count x 10 numbers a pose that counts as rest, or none: the rest of the skeleton. Give poses in which
-  // both characters stand alike
+  // `[source.joint_count x 10]` a pose that counts as rest, or none: the rest of the skeleton. Give poses in which both
+  // characters stand alike
   std::vector<float> source_rest{};
-  // target.joint_count x 10 numbers the same for the target, or none
+  // `[target.joint_count x 10]` the same for the target, or none
   std::vector<float> target_rest{};
   // HF_ROOT_MOTION_*
   int32_t root_motion = 0;
@@ -458,13 +458,13 @@ struct RetargetOptions {
 
 // The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.
 struct Skin {
-  // vertex_count x 3 numbers
+  // `[vertex_count x 3]`
   std::vector<float> positions{};
-  // triangle_count x 3 numbers, or none with triangle_count 0
+  // `[triangle_count x 3]`, or none with triangle_count 0
   std::vector<uint32_t> triangles{};
-  // vertex_count x influence_count numbers
+  // `[vertex_count x influence_count]`
   std::vector<uint32_t> joints{};
-  // vertex_count x influence_count numbers >= 0; a vertex whose weights are all 0 has no joint
+  // `[vertex_count x influence_count]` >= 0; a vertex whose weights are all 0 has no joint
   std::vector<float> weights{};
   hf_skin_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
@@ -472,18 +472,18 @@ struct Skin {
 // The joints of a character at rest. A joint transform is 10 numbers relative to the parent: translation x y z,
 // rotation x y z w, scale x y z.
 struct SkeletonOptions {
-  // joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
+  // `[joint_count x 16]` inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
   // children and rigid meshes alone; or none: the skin is given in the pose `rest`, and all joints bend it
   std::vector<float> inverse_binds{};
-  // 3 numbers declared axis, any length, or none: find it
+  // `[3]` declared axis, any length, or none: find it
   std::vector<float> up{};
-  // 3 numbers declared axis, any length, or none: find it
+  // `[3]` declared axis, any length, or none: find it
   std::vector<float> forward{};
-  // joint_count numbers declared HF_ROLE_*, -1 for a joint without; or none
+  // `[joint_count]` declared HF_ROLE_*, -1 for a joint without; or none
   std::vector<int32_t> roles{};
-  // joint_count numbers HF_SIDE_* of joints with a declared role; or none: find the sides
+  // `[joint_count]` HF_SIDE_* of joints with a declared role; or none: find the sides
   std::vector<int32_t> sides{};
-  // travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or none
+  // `[travel_count x 3]` where each clip leads from its first to its last frame; it tells forward; or none
   std::vector<float> travels{};
   // none: there is none, and joints are judged by names and places alone
   std::optional<Skin> skin{};
@@ -496,11 +496,11 @@ struct SkeletonOptions {
 
 // most pairs of a transfer
 struct TransferOptions {
-  // source.vertex_count x 3 numbers, or none Poses in which the two bodies correspond, in each surface's unit, read by
-  // the call, or none for the positions of the surface. A character bound in a crouch gets a standing pose here. Motion
+  // `[source.vertex_count x 3]`, or none Poses in which the two bodies correspond, in each surface's unit, read by the
+  // call, or none for the positions of the surface. A character bound in a crouch gets a standing pose here. Motion
   // counts from these poses; the fields stay those of the surfaces.
   std::vector<float> source_rest{};
-  // target.vertex_count x 3 numbers, or none
+  // `[target.vertex_count x 3]`, or none
   std::vector<float> target_rest{};
   // HF_TRANSFER_*
   int32_t mode = 0;
@@ -558,9 +558,9 @@ struct TransferDials {
 // Describes one frame: the input is the posed source, the output the posed target. Set source_positions or
 // source_positions_f64, and at least one output. Strides are in bytes; 0 = packed.
 struct TransferFrame {
-  // hold_count numbers each pair at most once
+  // `[hold_count]` each pair at most once
   std::vector<uint32_t> hold_pairs{};
-  // hold_count x 3 numbers in the target's unit and frame
+  // `[hold_count x 3]` in the target's unit and frame
   std::vector<double> hold_positions{};
   hf_transfer_frame fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
       const Reals& source_positions) const;
@@ -568,20 +568,19 @@ struct TransferFrame {
 
 // The joints of a skeleton, in the unit and frame of the mesh.
 struct Joints {
-  // joint_count x 3 numbers
+  // `[joint_count x 3]`
   std::vector<double> heads{};
-  // joint_count x 3 numbers, or none: heads are joints, and the library finds the tails
+  // `[joint_count x 3]`, or none: heads are joints, and the library finds the tails
   std::vector<double> tails{};
-  // joint_count x 3 numbers with tails none: where each joint points, any length, 0 for unknown; or none. A joint
-  // reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a last
-  // joint ends
+  // `[joint_count x 3]` with tails none: where each joint points, any length, 0 for unknown; or none. A joint reaches
+  // to the child that lies there, or to the end of the skin. A child that does not deform says where a last joint ends
   std::vector<double> axes{};
-  // joint_count numbers number of the parent, HF_NO_INDEX for a root; none: all are roots
+  // `[joint_count]` number of the parent, HF_NO_INDEX for a root; none: all are roots
   std::vector<uint32_t> parents{};
-  // joint_count numbers 1: the joint gets weights; none: all do
+  // `[joint_count]` 1: the joint gets weights; none: all do
   std::vector<int32_t> deforms{};
-  // joint_count numbers for Weights::set_joints: the number that the joint had before, HF_NO_INDEX for a new one; none:
-  // the same number. Weights: none
+  // `[joint_count]` for Weights::set_joints: the number that the joint had before, HF_NO_INDEX for a new one; none: the
+  // same number. Weights: none
   std::vector<uint32_t> sources{};
   // none, or an object to poll and cancel through
   const Progress* progress = nullptr;
@@ -591,15 +590,15 @@ struct Joints {
 // Places with given weights. Set vertices, or triangles with barycentrics. Give every vertex of a painted region to
 // keep its weights.
 struct Pins {
-  // pin_count numbers triangles as given, or none
+  // `[pin_count]` triangles as given, or none
   std::vector<uint32_t> triangles{};
-  // pin_count x 3 numbers with triangles, else none: weights of the corners, >= 0, of sum 1 within 1e-6
+  // `[pin_count x 3]` with triangles, else none: weights of the corners, >= 0, of sum 1 within 1e-6
   std::vector<double> barycentrics{};
-  // pin_count numbers of the geodesic disc around the place, in the unit of the mesh; none or 0: the place alone
+  // `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; none or 0: the place alone
   std::vector<double> radii{};
-  // pin_count x influence_count numbers joints
+  // `[pin_count x influence_count]` joints
   std::vector<uint32_t> joints{};
-  // pin_count x influence_count numbers >= 0, scaled to the sum 1
+  // `[pin_count x influence_count]` >= 0, scaled to the sum 1
   std::vector<float> weights{};
   // none, or an object to poll and cancel through
   const Progress* progress = nullptr;
@@ -609,9 +608,9 @@ struct Pins {
 
 // Weights to transfer from one surface to another.
 struct WeightsTransferOptions {
-  // source.vertex_count x source_influence_count numbers
+  // `[source.vertex_count x source_influence_count]`
   std::vector<uint32_t> joints{};
-  // source.vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+  // `[source.vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
   std::vector<float> weights{};
   // a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
   double distance = 0;
@@ -626,17 +625,17 @@ struct WeightsTransferOptions {
 
 // Weights to mirror.
 struct WeightsMirrorOptions {
-  // joint_count x 3 numbers the joints at rest, in the frame of the mesh
+  // `[joint_count x 3]` the joints at rest, in the frame of the mesh
   std::vector<double> heads{};
   // one line for each joint in UTF-8, or none: joints are paired by their places
   std::vector<std::string> names{};
-  // joint_count numbers the joint of the other side, HF_NO_INDEX: find it; or none
+  // `[joint_count]` the joint of the other side, HF_NO_INDEX: find it; or none
   std::vector<uint32_t> partners{};
-  // 6 numbers a point and a normal, or none: find the plane
+  // `[6]` a point and a normal, or none: find the plane
   std::vector<double> plane{};
-  // vertex_count x source_influence_count numbers
+  // `[vertex_count x source_influence_count]`
   std::vector<uint32_t> joints{};
-  // vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+  // `[vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
   std::vector<float> weights{};
   // HF_MIRROR_*
   int32_t to = 0;
@@ -655,37 +654,37 @@ struct WeightsMirrorOptions {
 // a + parameter b. So you can interpolate any vertex attribute at the point. The arrays are yours: each is none or as
 // large as its capacity.
 struct Isolines {
-  // point_capacity x 2 numbers vertices a and b as given, of welded copies the first
+  // `[point_capacity x 2]` vertices a and b as given, of welded copies the first
   std::vector<uint32_t> point_edges;
-  // point_capacity numbers 0 to 1
+  // `[point_capacity]` 0 to 1
   std::vector<double> parameters;
-  // point_capacity x 3 numbers in the unit and frame of the mesh as given
+  // `[point_capacity x 3]` in the unit and frame of the mesh as given
   std::vector<double> positions;
-  // line_capacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1
+  // `[line_capacity + 1]` line i holds the points line_starts`[i]` to line_starts`[i + 1]` - 1
   std::vector<uint32_t> line_starts;
-  // line_capacity numbers position of its level in the list
+  // `[line_capacity]` position of its level in the list
   std::vector<uint32_t> line_levels;
-  // line_capacity numbers 1: closed, the first point is not repeated; 0: ends at borders
+  // `[line_capacity]` 1: closed, the first point is not repeated; 0: ends at borders
   std::vector<int32_t> line_closed;
 };
 
 // Places, values and fluxes of the sites. The arrays are yours; each is none or has `capacity` entries. The entries are
 // ordered by site number.
 struct SitesInfo {
-  // capacity numbers numbers
+  // `[capacity]` numbers
   std::vector<uint32_t> sites;
-  // capacity numbers the vertex given, HF_NO_INDEX for a point in a triangle
+  // `[capacity]` the vertex given, HF_NO_INDEX for a point in a triangle
   std::vector<uint32_t> vertices;
-  // capacity numbers
+  // `[capacity]`
   std::vector<uint32_t> components;
-  // capacity x channel_count numbers
+  // `[capacity x channel_count]`
   std::vector<double> values;
-  // capacity numbers 0 = hard
+  // `[capacity]` 0 = hard
   std::vector<double> stiffness;
-  // capacity x channel_count numbers lambda: what flows into the surface at the site, in value x weight; the sum over a
+  // `[capacity x channel_count]` lambda: what flows into the surface at the site, in value x weight; the sum over a
   // disc
   std::vector<double> flux;
-  // capacity numbers 0 = a point
+  // `[capacity]` 0 = a point
   std::vector<double> radii;
 };
 
@@ -693,11 +692,11 @@ struct SitesInfo {
 // and b, at the position (1 - parameter) a + parameter b; at a vertex a is b. An end inside a triangle has HF_NO_INDEX
 // for both. The arrays are yours: each is none or as large as the capacity.
 struct Path {
-  // point_capacity x 2 numbers vertices a and b as given, of welded copies the first
+  // `[point_capacity x 2]` vertices a and b as given, of welded copies the first
   std::vector<uint32_t> point_edges;
-  // point_capacity numbers 0 to 1
+  // `[point_capacity]` 0 to 1
   std::vector<double> parameters;
-  // point_capacity x 3 numbers in the unit and frame of the mesh as given
+  // `[point_capacity x 3]` in the unit and frame of the mesh as given
   std::vector<double> positions;
   // in the unit of the mesh; -1: no path
   double length = 0;
@@ -711,19 +710,19 @@ struct Path {
 // to R B diag(scale) B^-1 (p - pivot) + translation. In a scene file that is a node with rotation R B and that scale,
 // and the inverse bind matrix takes p to B^-1 (p - pivot). The arrays are yours; each may be none.
 struct SkinInfo {
-  // joint_capacity x 3 numbers rest centroid of what each joint moves
+  // `[joint_capacity x 3]` rest centroid of what each joint moves
   std::vector<double> pivots;
-  // joint_capacity x 4 numbers quaternion x, y, z, w of the last frame
+  // `[joint_capacity x 4]` quaternion x, y, z, w of the last frame
   std::vector<double> rotations;
-  // joint_capacity x 3 numbers posed place of the pivot
+  // `[joint_capacity x 3]` posed place of the pivot
   std::vector<double> translations;
-  // joint_capacity x 4 numbers quaternion of B, fixed while handles stay
+  // `[joint_capacity x 4]` quaternion of B, fixed while handles stay
   std::vector<double> axes;
-  // joint_capacity x 3 numbers along the axes in the last frame; none = joints are rigid
+  // `[joint_capacity x 3]` along the axes in the last frame; none = joints are rigid
   std::vector<double> scales;
-  // vertex_capacity x influence_count numbers
+  // `[vertex_capacity x influence_count]`
   std::vector<uint32_t> vertex_joints;
-  // vertex_capacity x influence_count numbers of sum 1, descending
+  // `[vertex_capacity x influence_count]` of sum 1, descending
   std::vector<float> vertex_weights;
   // joints per vertex, 4 or 8; 0 = 4
   uint32_t influence_count = 0;
@@ -731,37 +730,37 @@ struct SkinInfo {
 
 // Quads::mesh writes the quad mesh to these arrays. They are yours: each is none or as large as its capacity.
 struct QuadsMesh {
-  // vertex_capacity x 3 numbers in the unit and frame of the mesh as given
+  // `[vertex_capacity x 3]` in the unit and frame of the mesh as given
   std::vector<double> positions;
-  // face_capacity x 4 numbers vertices of each quad, counter-clockwise
+  // `[face_capacity x 4]` vertices of each quad, counter-clockwise
   std::vector<uint32_t> faces;
-  // vertex_capacity numbers triangle or face as given that the vertex lies in
+  // `[vertex_capacity]` triangle or face as given that the vertex lies in
   std::vector<uint32_t> triangles;
-  // vertex_capacity x 3 numbers weights of that triangle's corners, in its own order, of sum 1; in a face of more
-  // corners the weights of `corners`
+  // `[vertex_capacity x 3]` weights of that triangle's corners, in its own order, of sum 1; in a face of more corners
+  // the weights of `corners`
   std::vector<double> barycentrics;
-  // vertex_capacity x 3 numbers vertices as given, of welded copies the first, that barycentrics belong to
+  // `[vertex_capacity x 3]` vertices as given, of welded copies the first, that barycentrics belong to
   std::vector<uint32_t> corners;
 };
 
 struct Streamlines {
-  // point_capacity x 3 numbers in the unit and frame of the mesh as given
+  // `[point_capacity x 3]` in the unit and frame of the mesh as given
   std::vector<double> positions;
-  // point_capacity numbers of the field, rising along every line
+  // `[point_capacity]` of the field, rising along every line
   std::vector<double> values;
-  // line_capacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1
+  // `[line_capacity + 1]` line i holds the points line_starts`[i]` to line_starts`[i + 1]` - 1
   std::vector<uint32_t> line_starts;
-  // line_capacity x 2 numbers vertices where it starts and ends, of welded copies the first
+  // `[line_capacity x 2]` vertices where it starts and ends, of welded copies the first
   std::vector<uint32_t> line_ends;
 };
 
 // Receives the weights. The arrays are yours; each may be none.
 struct WeightsOut {
-  // vertex_capacity x influence_count numbers
+  // `[vertex_capacity x influence_count]`
   std::vector<uint32_t> joints;
-  // vertex_capacity x influence_count numbers descending, of sum exactly 1
+  // `[vertex_capacity x influence_count]` descending, of sum exactly 1
   std::vector<float> weights;
-  // vertex_capacity numbers HF_WEIGHTS_*
+  // `[vertex_capacity]` HF_WEIGHTS_*
   std::vector<uint8_t> origins;
   // joints per vertex, 4 or 8
   uint32_t influence_count = 0;
@@ -822,12 +821,12 @@ class Surface {
   // cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
   // second side alone get opposite normals from poses, and a ray with front_only hits both sides.
   //
-  // positions: vertex_count x 3 numbers, any unit, any offset
-  // triangles: triangle_count x 3 numbers, counter-clockwise seen from outside
-  // face_starts: face_count numbers first corner of each face. none: the faces follow one another. Without face_sizes
-  // face_count + 1 numbers: the corners of face f end where those of f + 1 start
-  // face_sizes: face_count numbers corners of each face, 3 to 65,535. none: face_starts is enough
-  // corners: corner_count numbers vertices, counter-clockwise seen from outside
+  // positions: `[vertex_count x 3]`, any unit, any offset
+  // triangles: `[triangle_count x 3]`, counter-clockwise seen from outside
+  // face_starts: `[face_count]` first corner of each face. none: the faces follow one another. Without face_sizes
+  // `[face_count + 1]`: the corners of face f end where those of f + 1 start
+  // face_sizes: `[face_count]` corners of each face, 3 to 65,535. none: face_starts is enough
+  // corners: `[corner_count]` vertices, counter-clockwise seen from outside
   // weld: HF_WELD_*
   // weld_tolerance: for HF_WELD_TOLERANCE, in the unit of the positions, > 0
   // operator_kind: HF_OPERATOR_*
@@ -865,10 +864,10 @@ class Surface {
   // median of their component are limited; hf_surface_report counts their vertices as changed. Bi-harmonic fields limit
   // weights to 1e3 times the median.
   //
-  // edges: edge_count x 2 numbers vertices, in any order. The weights of parallel edges are added up. Self loops are
+  // edges: `[edge_count x 2]` vertices, in any order. The weights of parallel edges are added up. Self loops are
   // ignored
-  // weights: edge_count numbers any unit, up to 1e100 in size. An edge of weight 0 is left out
-  // masses: vertex_count numbers M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none: all 1. A mass below
+  // weights: `[edge_count]` any unit, up to 1e100 in size. An edge of weight 0 is left out
+  // masses: `[vertex_count]` M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none: all 1. A mass below
   // 1e-4 of the mean of its component counts as that
   // vertex_count: >= 1, also without masses
   // allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of tetrahedra
@@ -965,7 +964,7 @@ class Surface {
   // Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends
   // are apart than at rest, and 0 if they are nearer.
   //
-  // positions: vertex_count x 3 numbers: of a pose, a frame of a transfer, or any other deformation
+  // positions: `[vertex_count x 3]`: of a pose, a frame of a transfer, or any other deformation
   // info: filled in when given
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -988,13 +987,13 @@ class Surface {
   // Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old one
   // where its matrix has the same pattern: other stiffness, weights or light pieces.
   //
-  // joints: vertex_count x influence_count numbers of a skin: pieces of the same joint link sooner
-  // weights: vertex_count x influence_count numbers of sum 1; where all are 0, a vertex shares no joint
-  // tags: vertex_count numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of a
-  // piece counts
-  // links: link_count numbers
-  // light_vertices: light_count numbers: their pieces are light
-  // heavy_vertices: heavy_count numbers: their pieces are not, as one that gets a site or handle
+  // joints: `[vertex_count x influence_count]` of a skin: pieces of the same joint link sooner
+  // weights: `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
+  // tags: `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
+  // counts
+  // links: `[link_count]`
+  // light_vertices: `[light_count]`: their pieces are light
+  // heavy_vertices: `[heavy_count]`: their pieces are not, as one that gets a site or handle
   // mode: HF_LINK_*
   // distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
   // stiffness: of all links, times each one's weight; 0 = 1
@@ -1039,9 +1038,9 @@ class Surface {
 
   // Finds what a mouse click hits: the first triangle on a ray.
   //
-  // origin: 3 numbers in the frame of the positions; the direction can have any length above 0.
-  // direction: 3 numbers in the frame of the positions; the direction can have any length above 0.
-  // positions: vertex_count x 3 numbers posed positions (Pose.deform writes them), or none
+  // origin: `[3]` in the frame of the positions; the direction can have any length above 0.
+  // direction: `[3]` in the frame of the positions; the direction can have any length above 0.
+  // positions: `[vertex_count x 3]` posed positions (Pose.deform writes them), or none
   // front_only: 1: a ray passes triangles seen from behind
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
@@ -1058,8 +1057,8 @@ class Surface {
 
   // Finds the vertex nearest to a point.
   //
-  // point: 3 numbers in the frame of the positions.
-  // positions: vertex_count x 3 numbers posed positions (Pose.deform writes them), or none
+  // point: `[3]` in the frame of the positions.
+  // positions: `[vertex_count x 3]` posed positions (Pose.deform writes them), or none
   // front_only: 1: a ray passes triangles seen from behind
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -1103,7 +1102,7 @@ class Surface {
   // function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is higher on
   // the left of a line.
   //
-  // levels: level_count numbers.
+  // levels: `[level_count]`.
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
   Isolines trace_isolines(const Reals& field, const std::vector<double>& levels) const {
@@ -1178,7 +1177,7 @@ class Surface {
   // geodesics: for HF_EXTREMITIES_GEODESIC: an object of this surface. If its method is HF_GEODESICS_HEAT its factor
   // serves; else, and for none, the call makes a factor
   // progress: an object to poll and cancel through
-  // field: vertex_count numbers, packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
+  // field: `[vertex_count]`, packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
   // (Poisson), length (geodesic), each up to a constant per component
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT.
@@ -1205,8 +1204,8 @@ class Surface {
   // first, then the others, each group by length, the longest first. The places do not depend on the order of the
   // vertices. They follow translation and scale.
   //
-  // joints: joint_count x 3 numbers their places at rest, in the unit and frame of the mesh
-  // parents: joint_count numbers position of each joint's parent in the list; HF_NO_INDEX for a root
+  // joints: `[joint_count x 3]` their places at rest, in the unit and frame of the mesh
+  // parents: `[joint_count]` position of each joint's parent in the list; HF_NO_INDEX for a root
   // up: direction away from the ground, of any length; 0 0 0 = 0 1 0
   // least_length_share: as in ExtremitiesOptions; 0 = 0.05
   // limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
@@ -1296,15 +1295,15 @@ class Solver {
 
   // Adds sites.
   //
-  // vertices: site_count numbers vertices as given, or none
-  // values: site_count x channel_count numbers, up to 1e200 in size; none = 0
-  // triangles: site_count numbers triangles (or faces of three corners) as given, or none
-  // barycentrics: site_count x 3 numbers with triangles or corners, else none: weights of the corners, >= 0, of sum 1
+  // vertices: `[site_count]` vertices as given, or none
+  // values: `[site_count x channel_count]`, up to 1e200 in size; none = 0
+  // triangles: `[site_count]` triangles (or faces of three corners) as given, or none
+  // barycentrics: `[site_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1
   // within 1e-6
-  // stiffness: site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped
-  // to 1e-12 to 1e12
-  // radii: site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
-  // corners: site_count x 3 numbers three vertices as given, of one face, or none: hf_hit has them. In a face of more
+  // stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to
+  // 1e-12 to 1e12
+  // radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
+  // corners: `[site_count x 3]` three vertices as given, of one face, or none: hf_hit has them. In a face of more
   // corners this places a site in a triangle of them
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -1319,7 +1318,7 @@ class Solver {
 
   // Adds one hard site at a vertex.
   //
-  // values: channel_count numbers, or none for 0.
+  // values: `[channel_count]`, or none for 0.
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -1334,7 +1333,7 @@ class Solver {
   // Removes sites by number. The field is 0 on a component that has no site left. If you add a site there again, the
   // field is exact.
   //
-  // sites: site_count numbers.
+  // sites: `[site_count]`.
   //
   // Fails with HF_ERROR_NOT_FOUND.
   void remove_sites(const std::vector<uint32_t>& sites) {
@@ -1345,16 +1344,16 @@ class Solver {
 
   // Moves sites to new places. Each site keeps its number, value, stiffness and radius.
   //
-  // sites: site_count numbers.
-  // vertices: site_count numbers vertices as given, or none
-  // values: site_count x channel_count numbers, up to 1e200 in size; none = 0
-  // triangles: site_count numbers triangles (or faces of three corners) as given, or none
-  // barycentrics: site_count x 3 numbers with triangles or corners, else none: weights of the corners, >= 0, of sum 1
+  // sites: `[site_count]`.
+  // vertices: `[site_count]` vertices as given, or none
+  // values: `[site_count x channel_count]`, up to 1e200 in size; none = 0
+  // triangles: `[site_count]` triangles (or faces of three corners) as given, or none
+  // barycentrics: `[site_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1
   // within 1e-6
-  // stiffness: site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped
-  // to 1e-12 to 1e12
-  // radii: site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
-  // corners: site_count x 3 numbers three vertices as given, of one face, or none: hf_hit has them. In a face of more
+  // stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to
+  // 1e-12 to 1e12
+  // radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
+  // corners: `[site_count x 3]` three vertices as given, of one face, or none: hf_hit has them. In a face of more
   // corners this places a site in a triangle of them
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -1368,8 +1367,8 @@ class Solver {
 
   // Gives sites new values. The call costs nothing until the next solve.
   //
-  // sites: site_count numbers.
-  // values: site_count x channel_count numbers.
+  // sites: `[site_count]`.
+  // values: `[site_count x channel_count]`.
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE.
   void set_values(const std::vector<uint32_t>& sites, const std::vector<double>& values) {
@@ -1381,11 +1380,11 @@ class Solver {
 
   // Applies a batch of edits at once.
   //
-  // remove_sites: remove_count numbers
-  // move_sites: move_count numbers
-  // set_sites: set_count numbers
-  // set_values: set_count x channel_count numbers
-  // move_to: places of move_count numbers sites
+  // remove_sites: `[remove_count]`
+  // move_sites: `[move_count]`
+  // set_sites: `[set_count]`
+  // set_values: `[set_count x channel_count]`
+  // move_to: places of `[move_count]` sites
   // add: the sites to add
   std::vector<uint32_t> edit_sites(const Edit& options = {}) {
     Call c(counts_);
@@ -1440,8 +1439,8 @@ class Solver {
   // and the influence of a site fades over a distance of about 1 / sqrt(H). A H is at most 1e12 times the mean diagonal
   // of K. Such a field needs no site on a component where some H is above 0.
   //
-  // screening: vertex_count numbers H >= 0, in 1 / length^2 with the unit of the mesh; none removes the screening.
-  // targets: vertex_count x channel_count numbers p, or none for 0. Both are copied; welded copies of a vertex take the
+  // screening: `[vertex_count]` H >= 0, in 1 / length^2 with the unit of the mesh; none removes the screening.
+  // targets: `[vertex_count x channel_count]` p, or none for 0. Both are copied; welded copies of a vertex take the
   // values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores the
   // screening with the sites.
   //
@@ -1456,8 +1455,8 @@ class Solver {
 
   // Solves for the field at every vertex of your mesh.
   //
-  // out: vertex_count x channel_count numbers. Hard sites hold their values exactly. The field is 0 on components
-  // without a site.
+  // out: `[vertex_count x channel_count]`. Hard sites hold their values exactly. The field is 0 on components without a
+  // site.
   // info: filled in when given
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.
@@ -1496,7 +1495,7 @@ class Solver {
   // harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of a component
   // without a site gets 0.
   //
-  // vertices: vertex_count numbers.
+  // vertices: `[vertex_count]`.
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
   std::vector<double> solve_at(const std::vector<uint32_t>& vertices) const {
@@ -1512,8 +1511,8 @@ class Solver {
   // The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects
   // the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
   //
-  // out: vertex_count x 3 numbers, not normalised.
-  // normals: vertex_count x 3 numbers, packed: the normals used.
+  // out: `[vertex_count x 3]`, not normalised.
+  // normals: `[vertex_count x 3]`, packed: the normals used.
   // info: filled in when given
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.
@@ -1564,7 +1563,7 @@ class Solver {
   // than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites. info.exact is then 1.
   //
   // correction_count: 0 to 8.
-  // out: vertex_count x channel_count numbers, as Solver::solve.
+  // out: `[vertex_count x channel_count]`, as Solver::solve.
   // info: filled in when given
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.
@@ -1609,8 +1608,8 @@ class Solver {
   // Moves vector sites to other vertices of their components. Each vector is carried along the shortest path of edges,
   // from vertex normal to vertex normal (parallel transport; Xu and others 2009, Section 3.3).
   //
-  // sites: site_count numbers.
-  // vertices: site_count numbers.
+  // sites: `[site_count]`.
+  // vertices: `[site_count]`.
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND,
   // HF_ERROR_OUT_OF_RANGE.
@@ -1621,11 +1620,10 @@ class Solver {
     check(hf_solver_move_vectors(get(), c.count("site_count", 1), sites_, vertices_));
   }
 
-  // Turns the vector of site i about its vertex normal, counter-clockwise by anglesi numbers radians. Does not
-  // factorise.
+  // Turns the vector of site i about its vertex normal, counter-clockwise by angles`[i]` radians. Does not factorise.
   //
-  // sites: site_count numbers.
-  // angles: site_count numbers.
+  // sites: `[site_count]`.
+  // angles: `[site_count]`.
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
   void rotate_vectors(const std::vector<uint32_t>& sites, const std::vector<double>& angles) {
@@ -1737,11 +1735,11 @@ class Geodesics {
 
   // Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
   //
-  // sources: source_count numbers vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
-  // links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance of
-  // EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The error of
-  // FRONT falls with the edge length. HEAT rounds the distance off at corners and where two shortest paths meet.
-  // out: vertex_count numbers. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+  // sources: `[source_count]` vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore links.
+  // Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance of EXACT
+  // and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The error of FRONT
+  // falls with the edge length. HEAT rounds the distance off at corners and where two shortest paths meet.
+  // out: `[vertex_count]`. The distance is 0 at the sources, and -1 at vertices that no source can reach.
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
   std::vector<float> solve(const std::vector<uint32_t>& sources) const {
@@ -1875,8 +1873,8 @@ class Direction {
   // many constraints, the function factorises once instead, with their vertices eliminated. Later edits cost paths and
   // rows again.
   //
-  // vertices: site_count numbers vertices of your mesh.
-  // vectors: site_count x 3 numbers; a zero vector makes the field 0 there.
+  // vertices: `[site_count]` vertices of your mesh.
+  // vectors: `[site_count x 3]`; a zero vector makes the field 0 there.
   //
   // Fails with HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
   // HF_ERROR_TOO_LARGE.
@@ -1891,7 +1889,7 @@ class Direction {
 
   // Removes constraints by number.
   //
-  // sites: site_count numbers.
+  // sites: `[site_count]`.
   //
   // Fails with HF_ERROR_NOT_FOUND.
   void remove_sites(const std::vector<uint32_t>& sites) {
@@ -1903,8 +1901,8 @@ class Direction {
   // Moves constraints to other vertices of the same component. The connection carries each vector along the shortest
   // path of edges, from tangent plane to tangent plane.
   //
-  // sites: site_count numbers.
-  // vertices: site_count numbers.
+  // sites: `[site_count]`.
+  // vertices: `[site_count]`.
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND,
   // HF_ERROR_OUT_OF_RANGE.
@@ -1917,8 +1915,8 @@ class Direction {
 
   // Gives constraints new vectors and projects them on the tangent planes. Does not factorise.
   //
-  // sites: site_count numbers.
-  // vectors: site_count x 3 numbers.
+  // sites: `[site_count]`.
+  // vectors: `[site_count x 3]`.
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
   void set_vectors(const std::vector<uint32_t>& sites, const std::vector<double>& vectors) {
@@ -1928,10 +1926,10 @@ class Direction {
     check(hf_direction_set_vectors(get(), c.count("site_count", 1), sites_, vectors_));
   }
 
-  // Turns constraint i by anglesi numbers radians, counter-clockwise seen from outside. Does not factorise.
+  // Turns constraint i by angles`[i]` radians, counter-clockwise seen from outside. Does not factorise.
   //
-  // sites: site_count numbers.
-  // angles: site_count numbers.
+  // sites: `[site_count]`.
+  // angles: `[site_count]`.
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
   void rotate_sites(const std::vector<uint32_t>& sites, const std::vector<double>& angles) {
@@ -1972,7 +1970,7 @@ class Direction {
   // degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors; vertices
   // that no constraint reaches get 0.
   //
-  // out: vertex_count x 3 numbers.
+  // out: `[vertex_count x 3]`.
   // info: filled in when given
   //
   // Fails with HF_ERROR_EMPTY.
@@ -2101,10 +2099,10 @@ class Pose {
   // layers hold the surface in place for the higher layers.
   //
   // region_vertices: lists of whole numbers: all regions one after the other; none: points are given
-  // points: handle_count x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-connected
-  // to it within the radius. none: regions are given
-  // radii: handle_count numbers of the regions of points, in the unit of the mesh; none: regions are given. A radius
-  // below 1 % of the box makes regions of 2 vertices or more
+  // points: `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to
+  // it within the radius. none: regions are given
+  // radii: `[handle_count]` of the regions of points, in the unit of the mesh; none: regions are given. A radius below
+  // 1 % of the box makes regions of 2 vertices or more
   // layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
   // in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
   // free_rotation: 1: you give the places of the handles only; see Pose::set_free_rotations
@@ -2124,7 +2122,7 @@ class Pose {
   // Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are edge-
   // connected to it within `radius` of the point.
   //
-  // point: 3 numbers.
+  // point: `[3]`.
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
   // HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -2140,7 +2138,7 @@ class Pose {
   // if the handle had never been added. On layer 0 this holds when you remove the handles that were added last, and for
   // frames with `restart`.
   //
-  // handles: handle_count numbers.
+  // handles: `[handle_count]`.
   //
   // Fails with HF_ERROR_NOT_FOUND.
   void remove_handles(const std::vector<uint32_t>& handles) {
@@ -2154,7 +2152,7 @@ class Pose {
   // the handle. Rotations continue from call to call, so a handle that you dragged past 180 degrees stays turned that
   // far. The transforms take effect at the next Pose.deform.
   //
-  // handles: handle_count numbers.
+  // handles: `[handle_count]`.
   // rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
   // translations: up to 1e15 box diagonals
   //
@@ -2197,7 +2195,7 @@ class Pose {
   // On a higher layer a changed handle moves the surface at the next frame. A handle alone in its component keeps the
   // rotation it has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose.
   //
-  // handles: handle_count numbers.
+  // handles: `[handle_count]`.
   // free_rotation: 1: the solve finds the rotations; 0: you give them.
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
@@ -2209,9 +2207,9 @@ class Pose {
 
   // Places handles by 4 x 4 matrices M.
   //
-  // handles: handle_count numbers.
-  // matrices: handle_count x 16 numbers, column by column, elements 12 to 14 the translation. M takes a rest position p
-  // to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
+  // handles: `[handle_count]`.
+  // matrices: `[handle_count x 16]`, column by column, elements 12 to 14 the translation. M takes a rest position p to
+  // the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
   // rotation. Its last row must be 0 0 0 1.
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
@@ -2240,7 +2238,7 @@ class Pose {
   // Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
   // reaches, the fields of all handles sum to 1.
   //
-  // out: vertex_count numbers.
+  // out: `[vertex_count]`.
   //
   // Fails with HF_ERROR_NOT_FOUND.
   std::vector<float> field(uint32_t handle) const {
@@ -2271,8 +2269,8 @@ class Pose {
   // Higher layers start at the smooth pose. Memory: 72 bytes a vertex
   // first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
   // vertex_count: positions of a range cost only the range, without higher layers, refine and normals
-  // out: vertex_count x 3 numbers posed positions, or none
-  // normals: vertex_count x 3 numbers unit normals of the posed surface, shared across seams, or none
+  // out: `[vertex_count x 3]` posed positions, or none
+  // normals: `[vertex_count x 3]` unit normals of the posed surface, shared across seams, or none
   // info: filled in when given
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
@@ -2331,7 +2329,7 @@ class Pose {
   // within 1 per cent and stretched surfaces within about 2.5 per cent.
   //
   // influence_count: joints per vertex, 4 or 8; 0 = 4
-  // scales: joint_capacity x 3 numbers along the axes in the last frame; none = joints are rigid
+  // scales: `[joint_capacity x 3]` along the axes in the last frame; none = joints are rigid
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.
   SkinInfo skin(uint32_t influence_count = 0, bool want_scales = false) const {
@@ -2426,16 +2424,16 @@ class Quads {
   // there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to four times the
   // Euler characteristic. On a torus or a knot a single one of 5 is often lost.
   //
-  // crease_edges: crease_count x 2 numbers the two vertices of each edge, as given
-  // guide_vertices: guide_count numbers as given; guides of one vertex are averaged
-  // guide_vectors: guide_count x 3 numbers along the surface, of any length above 0; quads run along the vector and
-  // across it
-  // guide_weights: none = all 1, or guide_count numbers, above 0 to 1: 1 holds the direction, less mixes it with that
-  // of the curvature, which has the rest of the weight
-  // irregular_points: irregular_count x 3 numbers at the surface, in the unit and frame of the mesh
-  // irregular_valences: irregular_count numbers how many quads meet there: 3 or 5
-  // irregular_directions: none = any, or irregular_count x 3 numbers: one side of the irregular vertex runs along it; 0
-  // 0 0 = any
+  // crease_edges: `[crease_count x 2]` the two vertices of each edge, as given
+  // guide_vertices: `[guide_count]` as given; guides of one vertex are averaged
+  // guide_vectors: `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across
+  // it
+  // guide_weights: none = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of
+  // the curvature, which has the rest of the weight
+  // irregular_points: `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
+  // irregular_valences: `[irregular_count]` how many quads meet there: 3 or 5
+  // irregular_directions: none = any, or `[irregular_count x 3]`: one side of the irregular vertex runs along it; 0 0 0
+  // = any
   // face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
   // edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
   // crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 = none.
@@ -2466,16 +2464,16 @@ class Quads {
   // relax_count = 0 at the end. Other sizes and planes are allowed; what belongs to them is made again. After an error
   // `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until `quads` is destroyed.
   //
-  // crease_edges: crease_count x 2 numbers the two vertices of each edge, as given
-  // guide_vertices: guide_count numbers as given; guides of one vertex are averaged
-  // guide_vectors: guide_count x 3 numbers along the surface, of any length above 0; quads run along the vector and
-  // across it
-  // guide_weights: none = all 1, or guide_count numbers, above 0 to 1: 1 holds the direction, less mixes it with that
-  // of the curvature, which has the rest of the weight
-  // irregular_points: irregular_count x 3 numbers at the surface, in the unit and frame of the mesh
-  // irregular_valences: irregular_count numbers how many quads meet there: 3 or 5
-  // irregular_directions: none = any, or irregular_count x 3 numbers: one side of the irregular vertex runs along it; 0
-  // 0 0 = any
+  // crease_edges: `[crease_count x 2]` the two vertices of each edge, as given
+  // guide_vertices: `[guide_count]` as given; guides of one vertex are averaged
+  // guide_vectors: `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across
+  // it
+  // guide_weights: none = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of
+  // the curvature, which has the rest of the weight
+  // irregular_points: `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
+  // irregular_valences: `[irregular_count]` how many quads meet there: 3 or 5
+  // irregular_directions: none = any, or `[irregular_count x 3]`: one side of the irregular vertex runs along it; 0 0 0
+  // = any
   // face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
   // edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
   // crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 = none.
@@ -2580,7 +2578,7 @@ class Flow {
   // HF_OPERATOR_CLAMPED the lines are denser where the field is steeper. Surface::trace_isolines gives the lines that
   // cross the streamlines.
   //
-  // seeds: seed_count numbers vertices as given
+  // seeds: `[seed_count]` vertices as given
   // wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
@@ -2634,7 +2632,7 @@ class Region {
  public:
   // Creates a region without vertices.
   //
-  // positions: vertex_count x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or any pose of
+  // positions: `[vertex_count x 3]` the surface of weight 0, bit for bit: the positions of the mesh or any pose of
   // them. none: the mesh's own to 1e-15 of the box. Copied
   // base: HF_BASE_*. If the surface has no factor for it yet, it is made now
   // progress: an object to poll and cancel through
@@ -2664,8 +2662,8 @@ class Region {
   // vertices need. A region may have several pieces, in several components. Progress covers curve, sites and base; the
   // call can be cancelled between them.
   //
-  // remove_vertices: remove_count numbers vertices that leave the region; others are passed over
-  // add_vertices: add_count numbers vertices that join it; those in it already are passed over
+  // remove_vertices: `[remove_count]` vertices that leave the region; others are passed over
+  // add_vertices: `[add_count]` vertices that join it; those in it already are passed over
   // ring_count: rings of vertices by which the region grows; below 0 it shrinks
   // curve: the region becomes what this curve encloses
   // progress: an object to poll and cancel through
@@ -2727,8 +2725,8 @@ class Region {
   // nothing.
   //
   // weight: any finite number
-  // out: vertex_count x 3 numbers in the unit and frame of the mesh as given, or none
-  // normals: vertex_count x 3 numbers unit normals of the morphed surface, shared across seams, or none
+  // out: `[vertex_count x 3]` in the unit and frame of the mesh as given, or none
+  // normals: `[vertex_count x 3]` unit normals of the morphed surface, shared across seams, or none
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
   std::vector<float> morph(double weight, std::vector<float>* normals = nullptr) const {
@@ -2810,8 +2808,8 @@ class Detail {
   // offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades to
   // nothing at the rim. If source and target are the same region, the result is the surface itself. Later edits of
   // the regions do not change the object.
-  // source_vertices: pair_count numbers rim vertices of the source, as given
-  // target_vertices: pair_count numbers rim vertices of the target, as given
+  // source_vertices: `[pair_count]` rim vertices of the source, as given
+  // target_vertices: `[pair_count]` rim vertices of the target, as given
   // scale: of the detail, > 0; 0 = square root of target base area over source base area
   // progress: an object to poll and cancel through
   //
@@ -2832,8 +2830,8 @@ class Detail {
   // source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
   //
   // weight: any finite number
-  // out: vertex_count x 3 numbers in the unit and frame of the mesh as given, or none
-  // normals: vertex_count x 3 numbers unit normals of the morphed surface, shared across seams, or none
+  // out: `[vertex_count x 3]` in the unit and frame of the mesh as given, or none
+  // normals: `[vertex_count x 3]` unit normals of the morphed surface, shared across seams, or none
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
   std::vector<float> morph(double weight, std::vector<float>* normals = nullptr) const {
@@ -2905,7 +2903,7 @@ class Skeleton {
   // Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk. It
   // is 0 for a clip that travels.
   //
-  // poses: frame_count x joint_count x 10 numbers.
+  // poses: `[frame_count x joint_count x 10]`.
   // seconds: between two frames, above 0.
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
@@ -2921,16 +2919,16 @@ class Skeleton {
   // shall stand on the ground. The object keeps a copy of everything.
   //
   // names: one line for each joint in UTF-8, or none: names then say nothing
-  // parents: joint_count numbers number of the parent, HF_NO_INDEX for a root
-  // rest: joint_count x 10 numbers joint transforms
-  // inverse_binds: joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
-  // names: it carries children and rigid meshes alone; or none: the skin is given in the pose `rest`, and all
-  // joints bend it
-  // up: 3 numbers declared axis, any length, or none: find it
-  // forward: 3 numbers declared axis, any length, or none: find it
-  // roles: joint_count numbers declared HF_ROLE_*, -1 for a joint without; or none
-  // sides: joint_count numbers HF_SIDE_* of joints with a declared role; or none: find the sides
-  // travels: travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or none
+  // parents: `[joint_count]` number of the parent, HF_NO_INDEX for a root
+  // rest: `[joint_count x 10]` joint transforms
+  // inverse_binds: `[joint_count x 16]` inverse bind matrices, columns first, all zero for a joint that no skin names:
+  // it carries children and rigid meshes alone; or none: the skin is given in the pose `rest`, and all joints bend
+  // it
+  // up: `[3]` declared axis, any length, or none: find it
+  // forward: `[3]` declared axis, any length, or none: find it
+  // roles: `[joint_count]` declared HF_ROLE_*, -1 for a joint without; or none
+  // sides: `[joint_count]` HF_SIDE_* of joints with a declared role; or none: find the sides
+  // travels: `[travel_count x 3]` where each clip leads from its first to its last frame; it tells forward; or none
   // skin: none: there is none, and joints are judged by names and places alone
   // progress: an object to poll and cancel through
   //
@@ -3036,9 +3034,9 @@ class Retarget {
  public:
   // Pairs the joints of two skeletons.
   //
-  // source_rest: source.joint_count x 10 numbers a pose that counts as rest, or none: the rest of the skeleton. Give
-  // poses in which both characters stand alike
-  // target_rest: target.joint_count x 10 numbers the same for the target, or none
+  // source_rest: `[source.joint_count x 10]` a pose that counts as rest, or none: the rest of the skeleton. Give poses
+  // in which both characters stand alike
+  // target_rest: `[target.joint_count x 10]` the same for the target, or none
   // root_motion: HF_ROOT_MOTION_*
   // leave_out: bits of HF_RETARGET_*
   // scale: travel of the target over travel of the source; 0: the ratio of leg lengths
@@ -3069,7 +3067,7 @@ class Retarget {
   // planted, and how far it is moved to keep its place. The state comes from the frames since the last reset and fades
   // within a step.
   //
-  // source_pose: source.joint_count x 10 numbers.
+  // source_pose: `[source.joint_count x 10]`.
   // seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
@@ -3163,10 +3161,10 @@ class Transfer {
  public:
   // Creates a transfer between two surfaces; both may be the same.
   //
-  // source_rest: source.vertex_count x 3 numbers, or none Poses in which the two bodies correspond, in each surface's
-  // unit, read by the call, or none for the positions of the surface. A character bound in a crouch gets a standing
-  // pose here. Motion counts from these poses; the fields stay those of the surfaces.
-  // target_rest: target.vertex_count x 3 numbers, or none
+  // source_rest: `[source.vertex_count x 3]`, or none Poses in which the two bodies correspond, in each surface's unit,
+  // read by the call, or none for the positions of the surface. A character bound in a crouch gets a standing pose
+  // here. Motion counts from these poses; the fields stay those of the surfaces.
+  // target_rest: `[target.vertex_count x 3]`, or none
   // mode: HF_TRANSFER_*
   // cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
   // ground: HF_GROUND_*
@@ -3195,7 +3193,7 @@ class Transfer {
   // source_vertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries per
   // vertex
   // target_vertices: lists of whole numbers:
-  // flags: pair_count numbers HF_PAIR_*, or none for none
+  // flags: `[pair_count]` HF_PAIR_*, or none for none
   // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -3212,7 +3210,7 @@ class Transfer {
 
   // Removes pairs by number.
   //
-  // pairs: pair_count numbers.
+  // pairs: `[pair_count]`.
   //
   // Fails with HF_ERROR_NOT_FOUND.
   void remove_pairs(const std::vector<uint32_t>& pairs) {
@@ -3288,11 +3286,11 @@ class Transfer {
   // on the parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the
   // ground come in continuously. HF_GROUND_OFF switches them off.
   //
-  // source_positions: source.vertex_count x 3 numbers the posed source, its own vertex order
-  // hold_pairs: hold_count numbers each pair at most once
-  // hold_positions: hold_count x 3 numbers in the target's unit and frame
-  // out: target.vertex_count x 3 numbers, or none
-  // target_normals: target.vertex_count x 3 numbers, or none
+  // source_positions: `[source.vertex_count x 3]` the posed source, its own vertex order
+  // hold_pairs: `[hold_count]` each pair at most once
+  // hold_positions: `[hold_count x 3]` in the target's unit and frame
+  // out: `[target.vertex_count x 3]`, or none
+  // target_normals: `[target.vertex_count x 3]`, or none
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE,
   // HF_ERROR_UNSUPPORTED.
@@ -3353,7 +3351,7 @@ class Transfer {
   // replays Transfer::apply exactly, because that function also uses the four largest weights.
   //
   // influence_count: joints per vertex, 4 or 8; 0 = 4
-  // scales: joint_capacity x 3 numbers along the axes in the last frame; none = joints are rigid
+  // scales: `[joint_capacity x 3]` along the axes in the last frame; none = joints are rigid
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.
   SkinInfo skin(uint32_t influence_count = 0, bool want_scales = false) const {
@@ -3428,15 +3426,15 @@ class Weights {
  public:
   // Computes weights.
   //
-  // heads: joint_count x 3 numbers
-  // tails: joint_count x 3 numbers, or none: heads are joints, and the library finds the tails
-  // axes: joint_count x 3 numbers with tails none: where each joint points, any length, 0 for unknown; or none. A joint
+  // heads: `[joint_count x 3]`
+  // tails: `[joint_count x 3]`, or none: heads are joints, and the library finds the tails
+  // axes: `[joint_count x 3]` with tails none: where each joint points, any length, 0 for unknown; or none. A joint
   // reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a last
   // joint ends
-  // parents: joint_count numbers number of the parent, HF_NO_INDEX for a root; none: all are roots
-  // deforms: joint_count numbers 1: the joint gets weights; none: all do
-  // sources: joint_count numbers for Weights::set_joints: the number that the joint had before, HF_NO_INDEX for a new
-  // one; none: the same number. Weights: none
+  // parents: `[joint_count]` number of the parent, HF_NO_INDEX for a root; none: all are roots
+  // deforms: `[joint_count]` 1: the joint gets weights; none: all do
+  // sources: `[joint_count]` for Weights::set_joints: the number that the joint had before, HF_NO_INDEX for a new one;
+  // none: the same number. Weights: none
   // progress: an object to poll and cancel through
   // influence_count: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has none, it
   // is made now. Sets *weights to none first.
@@ -3464,15 +3462,15 @@ class Weights {
 
   // Replaces all
   //
-  // heads: joint_count x 3 numbers
-  // tails: joint_count x 3 numbers, or none: heads are joints, and the library finds the tails
-  // axes: joint_count x 3 numbers with tails none: where each joint points, any length, 0 for unknown; or none. A joint
+  // heads: `[joint_count x 3]`
+  // tails: `[joint_count x 3]`, or none: heads are joints, and the library finds the tails
+  // axes: `[joint_count x 3]` with tails none: where each joint points, any length, 0 for unknown; or none. A joint
   // reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a last
   // joint ends
-  // parents: joint_count numbers number of the parent, HF_NO_INDEX for a root; none: all are roots
-  // deforms: joint_count numbers 1: the joint gets weights; none: all do
-  // sources: joint_count numbers for Weights::set_joints: the number that the joint had before, HF_NO_INDEX for a new
-  // one; none: the same number. Weights: none
+  // parents: `[joint_count]` number of the parent, HF_NO_INDEX for a root; none: all are roots
+  // deforms: `[joint_count]` 1: the joint gets weights; none: all do
+  // sources: `[joint_count]` for Weights::set_joints: the number that the joint had before, HF_NO_INDEX for a new one;
+  // none: the same number. Weights: none
   // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT,
@@ -3486,12 +3484,12 @@ class Weights {
   // Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a disc.
   // Pins at the same places with other weights cost no path.
   //
-  // vertices: pin_count numbers vertices as given, or none
-  // triangles: pin_count numbers triangles as given, or none
-  // barycentrics: pin_count x 3 numbers with triangles, else none: weights of the corners, >= 0, of sum 1 within 1e-6
-  // radii: pin_count numbers of the geodesic disc around the place, in the unit of the mesh; none or 0: the place alone
-  // joints: pin_count x influence_count numbers joints
-  // weights: pin_count x influence_count numbers >= 0, scaled to the sum 1
+  // vertices: `[pin_count]` vertices as given, or none
+  // triangles: `[pin_count]` triangles as given, or none
+  // barycentrics: `[pin_count x 3]` with triangles, else none: weights of the corners, >= 0, of sum 1 within 1e-6
+  // radii: `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; none or 0: the place alone
+  // joints: `[pin_count x influence_count]` joints
+  // weights: `[pin_count x influence_count]` >= 0, scaled to the sum 1
   // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT,
@@ -3504,9 +3502,9 @@ class Weights {
 
   // Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0 unlocks.
   //
-  // joints: lock_count numbers.
-  // values: vertex_count x lock_count numbers weights to keep, 0 to 1, or none for the present ones. Welded copies take
-  // the values of the first. Pinned vertices keep the weights of their pins.
+  // joints: `[lock_count]`.
+  // values: `[vertex_count x lock_count]` weights to keep, 0 to 1, or none for the present ones. Welded copies take the
+  // values of the first. Pinned vertices keep the weights of their pins.
   //
   // Fails with HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
   void set_locks(const std::vector<uint32_t>& joints, const std::vector<float>& values = {}) {
@@ -3596,8 +3594,8 @@ class Weights {
   // same frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-harmonic
   // field fills in the vertices without such a point. A piece without any takes the weights of the nearest points.
   //
-  // joints: source.vertex_count x source_influence_count numbers
-  // weights: source.vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+  // joints: `[source.vertex_count x source_influence_count]`
+  // weights: `[source.vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
   // distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
   // angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
   // influence_count: joints of each vertex in the result: 4 or 8; 0: 4
@@ -3640,12 +3638,12 @@ class Weights {
   // rest. The plane comes from joints with partners, else from the surface. A found normal has a positive largest
   // component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x.
   //
-  // heads: joint_count x 3 numbers the joints at rest, in the frame of the mesh
+  // heads: `[joint_count x 3]` the joints at rest, in the frame of the mesh
   // names: one line for each joint in UTF-8, or none: joints are paired by their places
-  // partners: joint_count numbers the joint of the other side, HF_NO_INDEX: find it; or none
-  // plane: 6 numbers a point and a normal, or none: find the plane
-  // joints: vertex_count x source_influence_count numbers
-  // weights: vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+  // partners: `[joint_count]` the joint of the other side, HF_NO_INDEX: find it; or none
+  // plane: `[6]` a point and a normal, or none: find the plane
+  // joints: `[vertex_count x source_influence_count]`
+  // weights: `[vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
   // to: HF_MIRROR_*
   // distance: as in WeightsTransferOptions
   // angle: as in WeightsTransferOptions

@@ -1681,17 +1681,17 @@ namespace Hf
     /// each is null or as large as its capacity.</summary>
     public sealed class Isolines
     {
-        /// <summary>pointCapacity x 2 numbers vertices a and b as given, of welded copies the first</summary>
+        /// <summary>[pointCapacity x 2] vertices a and b as given, of welded copies the first</summary>
         public uint[] PointEdges;
-        /// <summary>pointCapacity numbers 0 to 1</summary>
+        /// <summary>[pointCapacity] 0 to 1</summary>
         public double[] Parameters;
-        /// <summary>pointCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
+        /// <summary>[pointCapacity x 3] in the unit and frame of the mesh as given</summary>
         public double[] Positions;
-        /// <summary>lineCapacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1</summary>
+        /// <summary>[lineCapacity + 1] line i holds the points line_starts[i] to line_starts[i + 1] - 1</summary>
         public uint[] LineStarts;
-        /// <summary>lineCapacity numbers position of its level in the list</summary>
+        /// <summary>[lineCapacity] position of its level in the list</summary>
         public uint[] LineLevels;
-        /// <summary>lineCapacity numbers 1: closed, the first point is not repeated; 0: ends at borders</summary>
+        /// <summary>[lineCapacity] 1: closed, the first point is not repeated; 0: ends at borders</summary>
         public int[] LineClosed;
     }
 
@@ -1699,20 +1699,20 @@ namespace Hf
     /// entries are ordered by site number.</summary>
     public sealed class SitesInfo
     {
-        /// <summary>capacity numbers numbers</summary>
+        /// <summary>[capacity] numbers</summary>
         public uint[] Sites;
-        /// <summary>capacity numbers the vertex given, uint.MaxValue for a point in a triangle</summary>
+        /// <summary>[capacity] the vertex given, uint.MaxValue for a point in a triangle</summary>
         public uint[] Vertices;
-        /// <summary>capacity numbers</summary>
+        /// <summary>[capacity]</summary>
         public uint[] Components;
-        /// <summary>capacity x channelCount numbers</summary>
+        /// <summary>[capacity x channelCount]</summary>
         public double[] Values;
-        /// <summary>capacity numbers 0 = hard</summary>
+        /// <summary>[capacity] 0 = hard</summary>
         public double[] Stiffness;
-        /// <summary>capacity x channelCount numbers lambda: what flows into the surface at the site, in value x weight; the
-        /// sum over a disc</summary>
+        /// <summary>[capacity x channelCount] lambda: what flows into the surface at the site, in value x weight; the sum
+        /// over a disc</summary>
         public double[] Flux;
-        /// <summary>capacity numbers 0 = a point</summary>
+        /// <summary>[capacity] 0 = a point</summary>
         public double[] Radii;
     }
 
@@ -1721,11 +1721,11 @@ namespace Hf
     /// triangle has uint.MaxValue for both. The arrays are yours: each is null or as large as the capacity.</summary>
     public sealed class SurfacePath
     {
-        /// <summary>pointCapacity x 2 numbers vertices a and b as given, of welded copies the first</summary>
+        /// <summary>[pointCapacity x 2] vertices a and b as given, of welded copies the first</summary>
         public uint[] PointEdges;
-        /// <summary>pointCapacity numbers 0 to 1</summary>
+        /// <summary>[pointCapacity] 0 to 1</summary>
         public double[] Parameters;
-        /// <summary>pointCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
+        /// <summary>[pointCapacity x 3] in the unit and frame of the mesh as given</summary>
         public double[] Positions;
         /// <summary>in the unit of the mesh; -1: no path</summary>
         public double Length;
@@ -1741,19 +1741,19 @@ namespace Hf
     /// null.</summary>
     public sealed class SkinInfo
     {
-        /// <summary>jointCapacity x 3 numbers rest centroid of what each joint moves</summary>
+        /// <summary>[jointCapacity x 3] rest centroid of what each joint moves</summary>
         public double[] Pivots;
-        /// <summary>jointCapacity x 4 numbers quaternion x, y, z, w of the last frame</summary>
+        /// <summary>[jointCapacity x 4] quaternion x, y, z, w of the last frame</summary>
         public double[] Rotations;
-        /// <summary>jointCapacity x 3 numbers posed place of the pivot</summary>
+        /// <summary>[jointCapacity x 3] posed place of the pivot</summary>
         public double[] Translations;
-        /// <summary>jointCapacity x 4 numbers quaternion of B, fixed while handles stay</summary>
+        /// <summary>[jointCapacity x 4] quaternion of B, fixed while handles stay</summary>
         public double[] Axes;
-        /// <summary>jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid</summary>
+        /// <summary>[jointCapacity x 3] along the axes in the last frame; null = joints are rigid</summary>
         public double[] Scales;
-        /// <summary>vertexCapacity x influenceCount numbers</summary>
+        /// <summary>[vertexCapacity x influenceCount]</summary>
         public uint[] VertexJoints;
-        /// <summary>vertexCapacity x influenceCount numbers of sum 1, descending</summary>
+        /// <summary>[vertexCapacity x influenceCount] of sum 1, descending</summary>
         public float[] VertexWeights;
         /// <summary>joints per vertex, 4 or 8; 0 = 4</summary>
         public uint InfluenceCount;
@@ -1762,40 +1762,40 @@ namespace Hf
     /// <summary>Quads.Mesh writes the quad mesh to these arrays. They are yours: each is null or as large as its capacity.</summary>
     public sealed class QuadsMesh
     {
-        /// <summary>vertexCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
+        /// <summary>[vertexCapacity x 3] in the unit and frame of the mesh as given</summary>
         public double[] Positions;
-        /// <summary>faceCapacity x 4 numbers vertices of each quad, counter-clockwise</summary>
+        /// <summary>[faceCapacity x 4] vertices of each quad, counter-clockwise</summary>
         public uint[] Faces;
-        /// <summary>vertexCapacity numbers triangle or face as given that the vertex lies in</summary>
+        /// <summary>[vertexCapacity] triangle or face as given that the vertex lies in</summary>
         public uint[] Triangles;
-        /// <summary>vertexCapacity x 3 numbers weights of that triangle's corners, in its own order, of sum 1; in a face of
-        /// more corners the weights of `corners`</summary>
+        /// <summary>[vertexCapacity x 3] weights of that triangle's corners, in its own order, of sum 1; in a face of more
+        /// corners the weights of `corners`</summary>
         public double[] Barycentrics;
-        /// <summary>vertexCapacity x 3 numbers vertices as given, of welded copies the first, that barycentrics belong to</summary>
+        /// <summary>[vertexCapacity x 3] vertices as given, of welded copies the first, that barycentrics belong to</summary>
         public uint[] Corners;
     }
 
     /// <summary>Results.</summary>
     public sealed class Streamlines
     {
-        /// <summary>pointCapacity x 3 numbers in the unit and frame of the mesh as given</summary>
+        /// <summary>[pointCapacity x 3] in the unit and frame of the mesh as given</summary>
         public double[] Positions;
-        /// <summary>pointCapacity numbers of the field, rising along every line</summary>
+        /// <summary>[pointCapacity] of the field, rising along every line</summary>
         public double[] Values;
-        /// <summary>lineCapacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1</summary>
+        /// <summary>[lineCapacity + 1] line i holds the points line_starts[i] to line_starts[i + 1] - 1</summary>
         public uint[] LineStarts;
-        /// <summary>lineCapacity x 2 numbers vertices where it starts and ends, of welded copies the first</summary>
+        /// <summary>[lineCapacity x 2] vertices where it starts and ends, of welded copies the first</summary>
         public uint[] LineEnds;
     }
 
     /// <summary>Receives the weights. The arrays are yours; each may be null.</summary>
     public sealed class WeightsOut
     {
-        /// <summary>vertexCapacity x influenceCount numbers</summary>
+        /// <summary>[vertexCapacity x influenceCount]</summary>
         public uint[] Joints;
-        /// <summary>vertexCapacity x influenceCount numbers descending, of sum exactly 1</summary>
+        /// <summary>[vertexCapacity x influenceCount] descending, of sum exactly 1</summary>
         public float[] Weights;
-        /// <summary>vertexCapacity numbers WeightsOrigin</summary>
+        /// <summary>[vertexCapacity] WeightsOrigin</summary>
         public byte[] Origins;
         /// <summary>joints per vertex, 4 or 8</summary>
         public uint InfluenceCount;
@@ -1826,18 +1826,18 @@ namespace Hf
     /// light piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it.</summary>
     public sealed unsafe class LinksDesc
     {
-        /// <summary>vertexCount x influenceCount numbers of a skin: pieces of the same joint link sooner</summary>
+        /// <summary>[vertexCount x influenceCount] of a skin: pieces of the same joint link sooner</summary>
         public ushort[] Joints;
-        /// <summary>vertexCount x influenceCount numbers of sum 1; where all are 0, a vertex shares no joint</summary>
+        /// <summary>[vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint</summary>
         public float[] Weights;
-        /// <summary>vertexCount numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of
-        /// a piece counts</summary>
+        /// <summary>[vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a
+        /// piece counts</summary>
         public uint[] Tags;
-        /// <summary>linkCount numbers</summary>
+        /// <summary>[linkCount]</summary>
         public Link[] Links;
-        /// <summary>lightCount numbers: their pieces are light</summary>
+        /// <summary>[lightCount]: their pieces are light</summary>
         public uint[] LightVertices;
-        /// <summary>heavyCount numbers: their pieces are not, as one that gets a site or handle</summary>
+        /// <summary>[heavyCount]: their pieces are not, as one that gets a site or handle</summary>
         public uint[] HeavyVertices;
         /// <summary>LinkMode</summary>
         public LinkMode Mode;
@@ -1885,22 +1885,22 @@ namespace Hf
     /// fields all its vertices do.</summary>
     public sealed unsafe class SitesDesc
     {
-        /// <summary>siteCount numbers vertices as given, or null</summary>
+        /// <summary>[siteCount] vertices as given, or null</summary>
         public uint[] Vertices;
-        /// <summary>siteCount x channelCount numbers, up to 1e200 in size; null = 0</summary>
+        /// <summary>[siteCount x channelCount], up to 1e200 in size; null = 0</summary>
         public double[] Values;
-        /// <summary>siteCount numbers triangles (or faces of three corners) as given, or null</summary>
+        /// <summary>[siteCount] triangles (or faces of three corners) as given, or null</summary>
         public uint[] Triangles;
-        /// <summary>siteCount x 3 numbers with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1
-        /// within 1e-6</summary>
+        /// <summary>[siteCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1 within
+        /// 1e-6</summary>
         public double[] Barycentrics;
-        /// <summary>siteCount numbers &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
-        /// clamped to 1e-12 to 1e12</summary>
+        /// <summary>[siteCount] &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
+        /// 1e-12 to 1e12</summary>
         public double[] Stiffness;
-        /// <summary>siteCount numbers &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points</summary>
+        /// <summary>[siteCount] &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points</summary>
         public double[] Radii;
-        /// <summary>siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of more
-        /// corners this places a site in a triangle of them</summary>
+        /// <summary>[siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more corners
+        /// this places a site in a triangle of them</summary>
         public uint[] Corners;
 
         public static implicit operator SitesDesc(uint[] vertices)
@@ -1931,14 +1931,14 @@ namespace Hf
     /// vertex at most 8 times.</summary>
     public sealed unsafe class CurveDesc
     {
-        /// <summary>pointCount numbers vertices as given, or null</summary>
+        /// <summary>[pointCount] vertices as given, or null</summary>
         public uint[] Vertices;
-        /// <summary>pointCount numbers triangles (or faces of three corners) as given, or null</summary>
+        /// <summary>[pointCount] triangles (or faces of three corners) as given, or null</summary>
         public uint[] Triangles;
-        /// <summary>pointCount x 3 numbers with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1
-        /// within 1e-6</summary>
+        /// <summary>[pointCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1 within
+        /// 1e-6</summary>
         public double[] Barycentrics;
-        /// <summary>pointCount x 3 numbers three vertices of one face, as Hit has them, or null</summary>
+        /// <summary>[pointCount x 3] three vertices of one face, as Hit has them, or null</summary>
         public uint[] Corners;
         /// <summary>BodySide</summary>
         public Side Side;
@@ -1971,13 +1971,13 @@ namespace Hf
     /// <summary>The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.</summary>
     public sealed unsafe class SkinDesc
     {
-        /// <summary>vertexCount x 3 numbers</summary>
+        /// <summary>[vertexCount x 3]</summary>
         public float[] Positions;
-        /// <summary>triangleCount x 3 numbers, or null with triangle_count 0</summary>
+        /// <summary>[triangleCount x 3], or null with triangle_count 0</summary>
         public uint[] Triangles;
-        /// <summary>vertexCount x influenceCount numbers</summary>
+        /// <summary>[vertexCount x influenceCount]</summary>
         public uint[] Joints;
-        /// <summary>vertexCount x influenceCount numbers &gt;= 0; a vertex whose weights are all 0 has no joint</summary>
+        /// <summary>[vertexCount x influenceCount] &gt;= 0; a vertex whose weights are all 0 has no joint</summary>
         public float[] Weights;
 
         public static implicit operator SkinDesc(float[] positions)
@@ -2059,12 +2059,12 @@ namespace Hf
     /// any. Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both
     /// sides.
     ///
-    /// positions: vertexCount x 3 numbers, any unit, any offset
-    /// triangles: triangleCount x 3 numbers, counter-clockwise seen from outside
-    /// faceStarts: faceCount numbers first corner of each face. null: the faces follow one another. Without
-    ///     face_sizes faceCount + 1 numbers: the corners of face f end where those of f + 1 start
-    /// faceSizes: faceCount numbers corners of each face, 3 to 65,535. null: face_starts is enough
-    /// corners: cornerCount numbers vertices, counter-clockwise seen from outside
+    /// positions: [vertexCount x 3], any unit, any offset
+    /// triangles: [triangleCount x 3], counter-clockwise seen from outside
+    /// faceStarts: [faceCount] first corner of each face. null: the faces follow one another. Without face_sizes
+    ///     [faceCount + 1]: the corners of face f end where those of f + 1 start
+    /// faceSizes: [faceCount] corners of each face, 3 to 65,535. null: face_starts is enough
+    /// corners: [cornerCount] vertices, counter-clockwise seen from outside
     /// weld: Weld
     /// weldTolerance: for Weld.Tolerance, in the unit of the positions, &gt; 0
     /// operatorKind: Operator
@@ -2096,12 +2096,12 @@ namespace Hf
         /// can name any. Vertices of the second side alone get opposite normals from poses, and a ray with
         /// front_only hits both sides.
         ///
-        /// positions: vertexCount x 3 numbers, any unit, any offset
-        /// triangles: triangleCount x 3 numbers, counter-clockwise seen from outside
-        /// faceStarts: faceCount numbers first corner of each face. null: the faces follow one another. Without
-        ///     face_sizes faceCount + 1 numbers: the corners of face f end where those of f + 1 start
-        /// faceSizes: faceCount numbers corners of each face, 3 to 65,535. null: face_starts is enough
-        /// corners: cornerCount numbers vertices, counter-clockwise seen from outside
+        /// positions: [vertexCount x 3], any unit, any offset
+        /// triangles: [triangleCount x 3], counter-clockwise seen from outside
+        /// faceStarts: [faceCount] first corner of each face. null: the faces follow one another. Without
+        ///     face_sizes [faceCount + 1]: the corners of face f end where those of f + 1 start
+        /// faceSizes: [faceCount] corners of each face, 3 to 65,535. null: face_starts is enough
+        /// corners: [cornerCount] vertices, counter-clockwise seen from outside
         /// weld: Weld
         /// weldTolerance: for Weld.Tolerance, in the unit of the positions, &gt; 0
         /// operatorKind: Operator
@@ -2165,11 +2165,11 @@ namespace Hf
         /// 1e30 from the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-
         /// harmonic fields limit weights to 1e3 times the median.
         ///
-        /// edges: edgeCount x 2 numbers vertices, in any order. The weights of parallel edges are added up. Self
-        ///     loops are ignored
-        /// weights: edgeCount numbers any unit, up to 1e100 in size. An edge of weight 0 is left out
-        /// masses: vertexCount numbers M of FieldKind.Biharmonic, any unit, above 0 and up to 1e100; null: all 1. A
-        ///     mass below 1e-4 of the mean of its component counts as that
+        /// edges: [edgeCount x 2] vertices, in any order. The weights of parallel edges are added up. Self loops
+        ///     are ignored
+        /// weights: [edgeCount] any unit, up to 1e100 in size. An edge of weight 0 is left out
+        /// masses: [vertexCount] M of FieldKind.Biharmonic, any unit, above 0 and up to 1e100; null: all 1. A mass
+        ///     below 1e-4 of the mean of its component counts as that
         /// vertexCount: &gt;= 1, also without masses
         /// allowNegative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
         ///     tetrahedra do. A field can then leave the range of its sites. 0: they are refused
@@ -2317,7 +2317,7 @@ namespace Hf
         /// <summary>Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther
         /// its ends are apart than at rest, and 0 if they are nearer.
         ///
-        /// positions: vertexCount x 3 numbers: of a pose, a frame of a transfer, or any other deformation
+        /// positions: [vertexCount x 3]: of a pose, a frame of a transfer, or any other deformation
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -2348,13 +2348,13 @@ namespace Hf
         /// <summary>Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the
         /// old one where its matrix has the same pattern: other stiffness, weights or light pieces.
         ///
-        /// joints: vertexCount x influenceCount numbers of a skin: pieces of the same joint link sooner
-        /// weights: vertexCount x influenceCount numbers of sum 1; where all are 0, a vertex shares no joint
-        /// tags: vertexCount numbers: pieces with different tags do not link, as a rider and a horse. The first
-        ///     vertex of a piece counts
-        /// links: linkCount numbers
-        /// lightVertices: lightCount numbers: their pieces are light
-        /// heavyVertices: heavyCount numbers: their pieces are not, as one that gets a site or handle
+        /// joints: [vertexCount x influenceCount] of a skin: pieces of the same joint link sooner
+        /// weights: [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint
+        /// tags: [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of
+        ///     a piece counts
+        /// links: [linkCount]
+        /// lightVertices: [lightCount]: their pieces are light
+        /// heavyVertices: [heavyCount]: their pieces are not, as one that gets a site or handle
         /// mode: LinkMode
         /// distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
         /// stiffness: of all links, times each one's weight; 0 = 1
@@ -2432,9 +2432,9 @@ namespace Hf
 
         /// <summary>Finds what a mouse click hits: the first triangle on a ray.
         ///
-        /// origin: 3 numbers in the frame of the positions; the direction can have any length above 0.
-        /// direction: 3 numbers in the frame of the positions; the direction can have any length above 0.
-        /// positions: vertexCount x 3 numbers posed positions (Pose.Deform writes them), or null
+        /// origin: [3] in the frame of the positions; the direction can have any length above 0.
+        /// direction: [3] in the frame of the positions; the direction can have any length above 0.
+        /// positions: [vertexCount x 3] posed positions (Pose.Deform writes them), or null
         /// frontOnly: 1: a ray passes triangles seen from behind
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.</summary>
@@ -2457,8 +2457,8 @@ namespace Hf
 
         /// <summary>Finds the vertex nearest to a point.
         ///
-        /// point: 3 numbers in the frame of the positions.
-        /// positions: vertexCount x 3 numbers posed positions (Pose.Deform writes them), or null
+        /// point: [3] in the frame of the positions.
+        /// positions: [vertexCount x 3] posed positions (Pose.Deform writes them), or null
         /// frontOnly: 1: a ray passes triangles seen from behind
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -2514,7 +2514,7 @@ namespace Hf
         /// a triangle without a partner. The function leaves out lines of length zero. Seen from outside a
         /// consistently oriented mesh, the field is higher on the left of a line.
         ///
-        /// levels: levelCount numbers.
+        /// levels: [levelCount].
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public Isolines TraceIsolines(Reals field, double[] levels)
@@ -2607,8 +2607,8 @@ namespace Hf
         /// geodesics: for ExtremityKind.Geodesic: an object of this surface. If its method is DistanceMethod.Heat
         ///     its factor serves; else, and for null, the call makes a factor
         /// progress: an object to poll and cancel through
-        /// field: vertexCount numbers, packed: the field whose peaks are proposed, 0 at isolated vertices. Unit:
-        ///     length^2 (Poisson), length (geodesic), each up to a constant per component
+        /// field: [vertexCount], packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
+        ///     (Poisson), length (geodesic), each up to a constant per component
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT.</summary>
         public Extremity[] FindExtremities(ExtremityKind kind = default(ExtremityKind), double leastLengthShare = 0,
@@ -2652,8 +2652,8 @@ namespace Hf
         /// proposals come first, then the others, each group by length, the longest first. The places do not depend
         /// on the order of the vertices. They follow translation and scale.
         ///
-        /// joints: jointCount x 3 numbers their places at rest, in the unit and frame of the mesh
-        /// parents: jointCount numbers position of each joint's parent in the list; uint.MaxValue for a root
+        /// joints: [jointCount x 3] their places at rest, in the unit and frame of the mesh
+        /// parents: [jointCount] position of each joint's parent in the list; uint.MaxValue for a root
         /// up: direction away from the ground, of any length; 0 0 0 = 0 1 0
         /// leastLengthShare: as in ExtremitiesDesc; 0 = 0.05
         /// limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
@@ -2779,16 +2779,16 @@ namespace Hf
 
         /// <summary>Adds sites.
         ///
-        /// vertices: siteCount numbers vertices as given, or null
-        /// values: siteCount x channelCount numbers, up to 1e200 in size; null = 0
-        /// triangles: siteCount numbers triangles (or faces of three corners) as given, or null
-        /// barycentrics: siteCount x 3 numbers with triangles or corners, else null: weights of the corners, &gt;=
-        ///     0, of sum 1 within 1e-6
-        /// stiffness: siteCount numbers &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all
-        ///     hard; clamped to 1e-12 to 1e12
-        /// radii: siteCount numbers &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-        /// corners: siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of
-        ///     more corners this places a site in a triangle of them
+        /// vertices: [siteCount] vertices as given, or null
+        /// values: [siteCount x channelCount], up to 1e200 in size; null = 0
+        /// triangles: [siteCount] triangles (or faces of three corners) as given, or null
+        /// barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of
+        ///     sum 1 within 1e-6
+        /// stiffness: [siteCount] &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
+        ///     clamped to 1e-12 to 1e12
+        /// radii: [siteCount] &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
+        /// corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
+        ///     corners this places a site in a triangle of them
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -2816,7 +2816,7 @@ namespace Hf
 
         /// <summary>Adds one hard site at a vertex.
         ///
-        /// values: channelCount numbers, or null for 0.
+        /// values: [channelCount], or null for 0.
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -2834,7 +2834,7 @@ namespace Hf
         /// <summary>Removes sites by number. The field is 0 on a component that has no site left. If you add a site there
         /// again, the field is exact.
         ///
-        /// sites: siteCount numbers.
+        /// sites: [siteCount].
         ///
         /// Throws HF_ERROR_NOT_FOUND.</summary>
         public void RemoveSites(uint[] sites)
@@ -2848,17 +2848,17 @@ namespace Hf
 
         /// <summary>Moves sites to new places. Each site keeps its number, value, stiffness and radius.
         ///
-        /// sites: siteCount numbers.
-        /// vertices: siteCount numbers vertices as given, or null
-        /// values: siteCount x channelCount numbers, up to 1e200 in size; null = 0
-        /// triangles: siteCount numbers triangles (or faces of three corners) as given, or null
-        /// barycentrics: siteCount x 3 numbers with triangles or corners, else null: weights of the corners, &gt;=
-        ///     0, of sum 1 within 1e-6
-        /// stiffness: siteCount numbers &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all
-        ///     hard; clamped to 1e-12 to 1e12
-        /// radii: siteCount numbers &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-        /// corners: siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of
-        ///     more corners this places a site in a triangle of them
+        /// sites: [siteCount].
+        /// vertices: [siteCount] vertices as given, or null
+        /// values: [siteCount x channelCount], up to 1e200 in size; null = 0
+        /// triangles: [siteCount] triangles (or faces of three corners) as given, or null
+        /// barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of
+        ///     sum 1 within 1e-6
+        /// stiffness: [siteCount] &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
+        ///     clamped to 1e-12 to 1e12
+        /// radii: [siteCount] &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
+        /// corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
+        ///     corners this places a site in a triangle of them
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -2885,8 +2885,8 @@ namespace Hf
 
         /// <summary>Gives sites new values. The call costs nothing until the next solve.
         ///
-        /// sites: siteCount numbers.
-        /// values: siteCount x channelCount numbers.
+        /// sites: [siteCount].
+        /// values: [siteCount x channelCount].
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE.</summary>
         public void SetValues(uint[] sites, double[] values)
@@ -2902,11 +2902,11 @@ namespace Hf
 
         /// <summary>Applies a batch of edits at once.
         ///
-        /// removeSites: removeCount numbers
-        /// moveSites: moveCount numbers
-        /// setSites: setCount numbers
-        /// setValues: setCount x channelCount numbers
-        /// moveTo: places of moveCount numbers sites
+        /// removeSites: [removeCount]
+        /// moveSites: [moveCount]
+        /// setSites: [setCount]
+        /// setValues: [setCount x channelCount]
+        /// moveTo: places of [moveCount] sites
         /// add: the sites to add</summary>
         public uint[] EditSites(uint[] removeSites = null, uint[] moveSites = null, uint[] setSites = null,
                 double[] setValues = null, SitesDesc moveTo = null, SitesDesc add = null)
@@ -2984,10 +2984,10 @@ namespace Hf
         /// is large, and the influence of a site fades over a distance of about 1 / sqrt(H). A H is at most 1e12
         /// times the mean diagonal of K. Such a field needs no site on a component where some H is above 0.
         ///
-        /// screening: vertexCount numbers H &gt;= 0, in 1 / length^2 with the unit of the mesh; null removes the
+        /// screening: [vertexCount] H &gt;= 0, in 1 / length^2 with the unit of the mesh; null removes the
         ///     screening.
-        /// targets: vertexCount x channelCount numbers p, or null for 0. Both are copied; welded copies of a vertex
-        ///     take the values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo
+        /// targets: [vertexCount x channelCount] p, or null for 0. Both are copied; welded copies of a vertex take
+        ///     the values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo
         ///     restores the screening with the sites.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_POSITIVE_DEFINITE,
@@ -3004,8 +3004,8 @@ namespace Hf
 
         /// <summary>Solves for the field at every vertex of your mesh.
         ///
-        /// @out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
-        /// components without a site.
+        /// @out: [vertexCount x channelCount]. Hard sites hold their values exactly. The field is 0 on components
+        /// without a site.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -3024,8 +3024,8 @@ namespace Hf
 
         /// <summary>Solves for the field at every vertex of your mesh.
         ///
-        /// @out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
-        /// components without a site.
+        /// @out: [vertexCount x channelCount]. Hard sites hold their values exactly. The field is 0 on components
+        /// without a site.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -3045,8 +3045,8 @@ namespace Hf
 
         /// <summary>Solves for the field at every vertex of your mesh.
         ///
-        /// @out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
-        /// components without a site.
+        /// @out: [vertexCount x channelCount]. Hard sites hold their values exactly. The field is 0 on components
+        /// without a site.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -3065,8 +3065,8 @@ namespace Hf
 
         /// <summary>Solves for the field at every vertex of your mesh.
         ///
-        /// @out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on
-        /// components without a site.
+        /// @out: [vertexCount x channelCount]. Hard sites hold their values exactly. The field is 0 on components
+        /// without a site.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -3090,7 +3090,7 @@ namespace Hf
         /// call costs a whole solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see
         /// hf_solver_rebase). A vertex of a component without a site gets 0.
         ///
-        /// vertices: vertexCount numbers.
+        /// vertices: [vertexCount].
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public double[] SolveAt(uint[] vertices)
@@ -3112,8 +3112,8 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// @out: vertexCount x 3 numbers, not normalised.
-        /// normals: vertexCount x 3 numbers, packed: the normals used.
+        /// @out: [vertexCount x 3], not normalised.
+        /// normals: [vertexCount x 3], packed: the normals used.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.</summary>
@@ -3140,8 +3140,8 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// @out: vertexCount x 3 numbers, not normalised.
-        /// normals: vertexCount x 3 numbers, packed: the normals used.
+        /// @out: [vertexCount x 3], not normalised.
+        /// normals: [vertexCount x 3], packed: the normals used.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.</summary>
@@ -3170,8 +3170,8 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// @out: vertexCount x 3 numbers, not normalised.
-        /// normals: vertexCount x 3 numbers, packed: the normals used.
+        /// @out: [vertexCount x 3], not normalised.
+        /// normals: [vertexCount x 3], packed: the normals used.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.</summary>
@@ -3199,8 +3199,8 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// @out: vertexCount x 3 numbers, not normalised.
-        /// normals: vertexCount x 3 numbers, packed: the normals used.
+        /// @out: [vertexCount x 3], not normalised.
+        /// normals: [vertexCount x 3], packed: the normals used.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.</summary>
@@ -3237,7 +3237,7 @@ namespace Hf
         /// factor eliminates sites. info.exact is then 1.
         ///
         /// correctionCount: 0 to 8.
-        /// @out: vertexCount x channelCount numbers, as Solver.Solve.
+        /// @out: [vertexCount x channelCount], as Solver.Solve.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -3267,7 +3267,7 @@ namespace Hf
         /// factor eliminates sites. info.exact is then 1.
         ///
         /// correctionCount: 0 to 8.
-        /// @out: vertexCount x channelCount numbers, as Solver.Solve.
+        /// @out: [vertexCount x channelCount], as Solver.Solve.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -3299,7 +3299,7 @@ namespace Hf
         /// factor eliminates sites. info.exact is then 1.
         ///
         /// correctionCount: 0 to 8.
-        /// @out: vertexCount x channelCount numbers, as Solver.Solve.
+        /// @out: [vertexCount x channelCount], as Solver.Solve.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -3330,7 +3330,7 @@ namespace Hf
         /// factor eliminates sites. info.exact is then 1.
         ///
         /// correctionCount: 0 to 8.
-        /// @out: vertexCount x channelCount numbers, as Solver.Solve.
+        /// @out: [vertexCount x channelCount], as Solver.Solve.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -3362,8 +3362,8 @@ namespace Hf
         /// <summary>Moves vector sites to other vertices of their components. Each vector is carried along the shortest path
         /// of edges, from vertex normal to vertex normal (parallel transport; Xu and others 2009, Section 3.3).
         ///
-        /// sites: siteCount numbers.
-        /// vertices: siteCount numbers.
+        /// sites: [siteCount].
+        /// vertices: [siteCount].
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_OUT_OF_RANGE.</summary>
@@ -3378,11 +3378,11 @@ namespace Hf
             }
         }
 
-        /// <summary>Turns the vector of site i about its vertex normal, counter-clockwise by anglesi numbers radians. Does
-        /// not factorise.
+        /// <summary>Turns the vector of site i about its vertex normal, counter-clockwise by angles[i] radians. Does not
+        /// factorise.
         ///
-        /// sites: siteCount numbers.
-        /// angles: siteCount numbers.
+        /// sites: [siteCount].
+        /// angles: [siteCount].
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.</summary>
         public void RotateVectors(uint[] sites, double[] angles)
@@ -3501,13 +3501,12 @@ namespace Hf
 
         /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
         ///
-        /// sources: sourceCount numbers vertices of your mesh; repeats are allowed. Paths follow the triangles and
-        ///     ignore links. Triangles with the same corners count once: a two-sided sheet measures as a single
-        ///     one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right
-        ///     up to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at
-        ///     corners and where two shortest paths meet.
-        /// @out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can
-        /// reach.
+        /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
+        ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
+        ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
+        ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
+        ///     where two shortest paths meet.
+        /// @out: [vertexCount]. The distance is 0 at the sources, and -1 at vertices that no source can reach.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public float[] Solve(uint[] sources)
@@ -3525,13 +3524,12 @@ namespace Hf
 
         /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
         ///
-        /// sources: sourceCount numbers vertices of your mesh; repeats are allowed. Paths follow the triangles and
-        ///     ignore links. Triangles with the same corners count once: a two-sided sheet measures as a single
-        ///     one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right
-        ///     up to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at
-        ///     corners and where two shortest paths meet.
-        /// @out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can
-        /// reach.
+        /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
+        ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
+        ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
+        ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
+        ///     where two shortest paths meet.
+        /// @out: [vertexCount]. The distance is 0 at the sources, and -1 at vertices that no source can reach.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public void Solve(uint[] sources, Span<float> into)
@@ -3550,13 +3548,12 @@ namespace Hf
 
         /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
         ///
-        /// sources: sourceCount numbers vertices of your mesh; repeats are allowed. Paths follow the triangles and
-        ///     ignore links. Triangles with the same corners count once: a two-sided sheet measures as a single
-        ///     one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right
-        ///     up to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at
-        ///     corners and where two shortest paths meet.
-        /// @out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can
-        /// reach.
+        /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
+        ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
+        ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
+        ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
+        ///     where two shortest paths meet.
+        /// @out: [vertexCount]. The distance is 0 at the sources, and -1 at vertices that no source can reach.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public double[] SolveDouble(uint[] sources)
@@ -3574,13 +3571,12 @@ namespace Hf
 
         /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
         ///
-        /// sources: sourceCount numbers vertices of your mesh; repeats are allowed. Paths follow the triangles and
-        ///     ignore links. Triangles with the same corners count once: a two-sided sheet measures as a single
-        ///     one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right
-        ///     up to rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at
-        ///     corners and where two shortest paths meet.
-        /// @out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can
-        /// reach.
+        /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
+        ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
+        ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
+        ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
+        ///     where two shortest paths meet.
+        /// @out: [vertexCount]. The distance is 0 at the sources, and -1 at vertices that no source can reach.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public void Solve(uint[] sources, Span<double> into)
@@ -3712,8 +3708,8 @@ namespace Hf
         /// For a batch of very many constraints, the function factorises once instead, with their vertices
         /// eliminated. Later edits cost paths and rows again.
         ///
-        /// vertices: siteCount numbers vertices of your mesh.
-        /// vectors: siteCount x 3 numbers; a zero vector makes the field 0 there.
+        /// vertices: [siteCount] vertices of your mesh.
+        /// vectors: [siteCount x 3]; a zero vector makes the field 0 there.
         ///
         /// Throws HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
         /// HF_ERROR_TOO_LARGE.</summary>
@@ -3733,7 +3729,7 @@ namespace Hf
 
         /// <summary>Removes constraints by number.
         ///
-        /// sites: siteCount numbers.
+        /// sites: [siteCount].
         ///
         /// Throws HF_ERROR_NOT_FOUND.</summary>
         public void RemoveSites(uint[] sites)
@@ -3749,8 +3745,8 @@ namespace Hf
         /// <summary>Moves constraints to other vertices of the same component. The connection carries each vector along the
         /// shortest path of edges, from tangent plane to tangent plane.
         ///
-        /// sites: siteCount numbers.
-        /// vertices: siteCount numbers.
+        /// sites: [siteCount].
+        /// vertices: [siteCount].
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_OUT_OF_RANGE.</summary>
@@ -3767,8 +3763,8 @@ namespace Hf
 
         /// <summary>Gives constraints new vectors and projects them on the tangent planes. Does not factorise.
         ///
-        /// sites: siteCount numbers.
-        /// vectors: siteCount x 3 numbers.
+        /// sites: [siteCount].
+        /// vectors: [siteCount x 3].
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.</summary>
         public void SetVectors(uint[] sites, double[] vectors)
@@ -3782,10 +3778,10 @@ namespace Hf
             }
         }
 
-        /// <summary>Turns constraint i by anglesi numbers radians, counter-clockwise seen from outside. Does not factorise.
+        /// <summary>Turns constraint i by angles[i] radians, counter-clockwise seen from outside. Does not factorise.
         ///
-        /// sites: siteCount numbers.
-        /// angles: siteCount numbers.
+        /// sites: [siteCount].
+        /// angles: [siteCount].
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.</summary>
         public void RotateSites(uint[] sites, double[] angles)
@@ -3837,7 +3833,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// @out: vertexCount x 3 numbers.
+        /// @out: [vertexCount x 3].
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3858,7 +3854,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// @out: vertexCount x 3 numbers.
+        /// @out: [vertexCount x 3].
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3880,7 +3876,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// @out: vertexCount x 3 numbers.
+        /// @out: [vertexCount x 3].
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3901,7 +3897,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// @out: vertexCount x 3 numbers.
+        /// @out: [vertexCount x 3].
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -4048,9 +4044,9 @@ namespace Hf
         /// higher layers.
         ///
         /// regionVertices: lists of whole numbers: all regions one after the other; null: points are given
-        /// points: handleCount x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-
+        /// points: [handleCount x 3] at rest. The region is the vertex nearest to the point and what is edge-
         ///     connected to it within the radius. null: regions are given
-        /// radii: handleCount numbers of the regions of points, in the unit of the mesh; null: regions are given. A
+        /// radii: [handleCount] of the regions of points, in the unit of the mesh; null: regions are given. A
         ///     radius below 1 % of the box makes regions of 2 vertices or more
         /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
         /// inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -4083,7 +4079,7 @@ namespace Hf
         /// <summary>Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that
         /// are edge-connected to it within `radius` of the point.
         ///
-        /// point: 3 numbers.
+        /// point: [3].
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -4102,7 +4098,7 @@ namespace Hf
         /// for bit, as if the handle had never been added. On layer 0 this holds when you remove the handles that
         /// were added last, and for frames with `restart`.
         ///
-        /// handles: handleCount numbers.
+        /// handles: [handleCount].
         ///
         /// Throws HF_ERROR_NOT_FOUND.</summary>
         public void RemoveHandles(uint[] handles)
@@ -4120,7 +4116,7 @@ namespace Hf
         /// the lower layers give the handle. Rotations continue from call to call, so a handle that you dragged
         /// past 180 degrees stays turned that far. The transforms take effect at the next Pose.Deform.
         ///
-        /// handles: handleCount numbers.
+        /// handles: [handleCount].
         /// rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
         /// translations: up to 1e15 box diagonals
         ///
@@ -4169,7 +4165,7 @@ namespace Hf
         /// changed handle moves the surface at the next frame. A handle alone in its component keeps the rotation
         /// it has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose.
         ///
-        /// handles: handleCount numbers.
+        /// handles: [handleCount].
         /// freeRotation: 1: the solve finds the rotations; 0: you give them.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
@@ -4185,8 +4181,8 @@ namespace Hf
 
         /// <summary>Places handles by 4 x 4 matrices M.
         ///
-        /// handles: handleCount numbers.
-        /// matrices: handleCount x 16 numbers, column by column, elements 12 to 14 the translation. M takes a rest
+        /// handles: [handleCount].
+        /// matrices: [handleCount x 16], column by column, elements 12 to 14 the translation. M takes a rest
         ///     position p to the posed position M p. Its linear part must be a rotation within 1e-4; the function
         ///     takes the nearest rotation. Its last row must be 0 0 0 1.
         ///
@@ -4230,7 +4226,7 @@ namespace Hf
         /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
         /// handle reaches, the fields of all handles sum to 1.
         ///
-        /// @out: vertexCount numbers.
+        /// @out: [vertexCount].
         ///
         /// Throws HF_ERROR_NOT_FOUND.</summary>
         public float[] Field(uint handle)
@@ -4247,7 +4243,7 @@ namespace Hf
         /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
         /// handle reaches, the fields of all handles sum to 1.
         ///
-        /// @out: vertexCount numbers.
+        /// @out: [vertexCount].
         ///
         /// Throws HF_ERROR_NOT_FOUND.</summary>
         public void Field(uint handle, Span<float> into)
@@ -4277,8 +4273,8 @@ namespace Hf
         ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: vertexCount x 3 numbers posed positions, or null
-        /// normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] posed positions, or null
+        /// normals: [vertexCount x 3] unit normals of the posed surface, shared across seams, or null
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
@@ -4324,8 +4320,8 @@ namespace Hf
         ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: vertexCount x 3 numbers posed positions, or null
-        /// normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] posed positions, or null
+        /// normals: [vertexCount x 3] unit normals of the posed surface, shared across seams, or null
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
@@ -4372,8 +4368,8 @@ namespace Hf
         ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: vertexCount x 3 numbers posed positions, or null
-        /// normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] posed positions, or null
+        /// normals: [vertexCount x 3] unit normals of the posed surface, shared across seams, or null
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
@@ -4419,8 +4415,8 @@ namespace Hf
         ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: vertexCount x 3 numbers posed positions, or null
-        /// normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] posed positions, or null
+        /// normals: [vertexCount x 3] unit normals of the posed surface, shared across seams, or null
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
@@ -4462,7 +4458,7 @@ namespace Hf
         /// bends and twists replay within 1 per cent and stretched surfaces within about 2.5 per cent.
         ///
         /// influenceCount: joints per vertex, 4 or 8; 0 = 4
-        /// scales: jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid
+        /// scales: [jointCapacity x 3] along the axes in the last frame; null = joints are rigid
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.</summary>
         public SkinInfo Skin(uint influenceCount = 0, bool scales = false)
@@ -4547,16 +4543,16 @@ namespace Hf
     /// the crosses sum to four times the Euler characteristic. On a torus or a knot a single one of 5 is often
     /// lost.
     ///
-    /// creaseEdges: creaseCount x 2 numbers the two vertices of each edge, as given
-    /// guideVertices: guideCount numbers as given; guides of one vertex are averaged
-    /// guideVectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector
-    ///     and across it
-    /// guideWeights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with
-    ///     that of the curvature, which has the rest of the weight
-    /// irregularPoints: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
-    /// irregularValences: irregularCount numbers how many quads meet there: 3 or 5
-    /// irregularDirections: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along
-    ///     it; 0 0 0 = any
+    /// creaseEdges: [creaseCount x 2] the two vertices of each edge, as given
+    /// guideVertices: [guideCount] as given; guides of one vertex are averaged
+    /// guideVectors: [guideCount x 3] along the surface, of any length above 0; quads run along the vector and
+    ///     across it
+    /// guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction, less mixes it with that of
+    ///     the curvature, which has the rest of the weight
+    /// irregularPoints: [irregularCount x 3] at the surface, in the unit and frame of the mesh
+    /// irregularValences: [irregularCount] how many quads meet there: 3 or 5
+    /// irregularDirections: null = any, or [irregularCount x 3]: one side of the irregular vertex runs along it; 0
+    ///     0 0 = any
     /// faceCount: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
     /// edgeLength: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
     /// creaseAngle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
@@ -4598,16 +4594,16 @@ namespace Hf
         /// the indices of the crosses sum to four times the Euler characteristic. On a torus or a knot a single one
         /// of 5 is often lost.
         ///
-        /// creaseEdges: creaseCount x 2 numbers the two vertices of each edge, as given
-        /// guideVertices: guideCount numbers as given; guides of one vertex are averaged
-        /// guideVectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the
-        ///     vector and across it
-        /// guideWeights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it
-        ///     with that of the curvature, which has the rest of the weight
-        /// irregularPoints: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
-        /// irregularValences: irregularCount numbers how many quads meet there: 3 or 5
-        /// irregularDirections: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs
-        ///     along it; 0 0 0 = any
+        /// creaseEdges: [creaseCount x 2] the two vertices of each edge, as given
+        /// guideVertices: [guideCount] as given; guides of one vertex are averaged
+        /// guideVectors: [guideCount x 3] along the surface, of any length above 0; quads run along the vector and
+        ///     across it
+        /// guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction, less mixes it with
+        ///     that of the curvature, which has the rest of the weight
+        /// irregularPoints: [irregularCount x 3] at the surface, in the unit and frame of the mesh
+        /// irregularValences: [irregularCount] how many quads meet there: 3 or 5
+        /// irregularDirections: null = any, or [irregularCount x 3]: one side of the irregular vertex runs along
+        ///     it; 0 0 0 = any
         /// faceCount: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
         /// edgeLength: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
         /// creaseAngle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads;
@@ -4661,16 +4657,16 @@ namespace Hf
         /// are allowed; what belongs to them is made again. After an error `quads` is what it was. Kept memory: 2
         /// to 4 kB a vertex, until `quads` is destroyed.
         ///
-        /// creaseEdges: creaseCount x 2 numbers the two vertices of each edge, as given
-        /// guideVertices: guideCount numbers as given; guides of one vertex are averaged
-        /// guideVectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the
-        ///     vector and across it
-        /// guideWeights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it
-        ///     with that of the curvature, which has the rest of the weight
-        /// irregularPoints: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
-        /// irregularValences: irregularCount numbers how many quads meet there: 3 or 5
-        /// irregularDirections: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs
-        ///     along it; 0 0 0 = any
+        /// creaseEdges: [creaseCount x 2] the two vertices of each edge, as given
+        /// guideVertices: [guideCount] as given; guides of one vertex are averaged
+        /// guideVectors: [guideCount x 3] along the surface, of any length above 0; quads run along the vector and
+        ///     across it
+        /// guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction, less mixes it with
+        ///     that of the curvature, which has the rest of the weight
+        /// irregularPoints: [irregularCount x 3] at the surface, in the unit and frame of the mesh
+        /// irregularValences: [irregularCount] how many quads meet there: 3 or 5
+        /// irregularDirections: null = any, or [irregularCount x 3]: one side of the irregular vertex runs along
+        ///     it; 0 0 0 = any
         /// faceCount: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
         /// edgeLength: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
         /// creaseAngle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads;
@@ -4790,7 +4786,7 @@ namespace Hf
         /// Operator.Clamped the lines are denser where the field is steeper. Surface.TraceIsolines gives the lines
         /// that cross the streamlines.
         ///
-        /// seeds: seedCount numbers vertices as given
+        /// seeds: [seedCount] vertices as given
         /// wantedCount: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.</summary>
@@ -4841,8 +4837,8 @@ namespace Hf
     ///
     /// Creates a region without vertices.
     ///
-    /// positions: vertexCount x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or any
-    ///     pose of them. null: the mesh's own to 1e-15 of the box. Copied
+    /// positions: [vertexCount x 3] the surface of weight 0, bit for bit: the positions of the mesh or any pose of
+    ///     them. null: the mesh's own to 1e-15 of the box. Copied
     /// @base: Base. If the surface has no factor for it yet, it is made now
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Region : Recorded
@@ -4851,8 +4847,8 @@ namespace Hf
 
         /// <summary>Creates a region without vertices.
         ///
-        /// positions: vertexCount x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or
-        ///     any pose of them. null: the mesh's own to 1e-15 of the box. Copied
+        /// positions: [vertexCount x 3] the surface of weight 0, bit for bit: the positions of the mesh or any pose
+        ///     of them. null: the mesh's own to 1e-15 of the box. Copied
         /// @base: Base. If the surface has no factor for it yet, it is made now
         /// progress: an object to poll and cancel through
         ///
@@ -4893,8 +4889,8 @@ namespace Hf
         /// covers only the part of the factor that its vertices need. A region may have several pieces, in several
         /// components. Progress covers curve, sites and base; the call can be cancelled between them.
         ///
-        /// removeVertices: removeCount numbers vertices that leave the region; others are passed over
-        /// addVertices: addCount numbers vertices that join it; those in it already are passed over
+        /// removeVertices: [removeCount] vertices that leave the region; others are passed over
+        /// addVertices: [addCount] vertices that join it; those in it already are passed over
         /// ringCount: rings of vertices by which the region grows; below 0 it shrinks
         /// curve: the region becomes what this curve encloses
         /// progress: an object to poll and cancel through
@@ -4989,8 +4985,8 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
-        /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
+        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public float[] Morph(double weight = 0, Span<float> normals = default(Span<float>))
@@ -5019,8 +5015,8 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
-        /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
+        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public void Morph(Span<float> into, Span<float> normals = default(Span<float>), double weight = 0)
@@ -5050,8 +5046,8 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
-        /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
+        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public double[] MorphDouble(double weight = 0, Span<float> normals = default(Span<float>))
@@ -5080,8 +5076,8 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
-        /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
+        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public void Morph(Span<double> into, Span<float> normals = default(Span<float>), double weight = 0)
@@ -5123,8 +5119,8 @@ namespace Hf
     ///     the offsets in the triangles of the source, and applies them in the same frames of the target. The
     ///     detail fades to nothing at the rim. If source and target are the same region, the result is the surface
     ///     itself. Later edits of the regions do not change the object.
-    /// sourceVertices: pairCount numbers rim vertices of the source, as given
-    /// targetVertices: pairCount numbers rim vertices of the target, as given
+    /// sourceVertices: [pairCount] rim vertices of the source, as given
+    /// targetVertices: [pairCount] rim vertices of the target, as given
     /// scale: of the detail, &gt; 0; 0 = square root of target base area over source base area
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Detail : HfObject
@@ -5139,8 +5135,8 @@ namespace Hf
         ///     interpolates the offsets in the triangles of the source, and applies them in the same frames of the
         ///     target. The detail fades to nothing at the rim. If source and target are the same region, the result
         ///     is the surface itself. Later edits of the regions do not change the object.
-        /// sourceVertices: pairCount numbers rim vertices of the source, as given
-        /// targetVertices: pairCount numbers rim vertices of the target, as given
+        /// sourceVertices: [pairCount] rim vertices of the source, as given
+        /// targetVertices: [pairCount] rim vertices of the target, as given
         /// scale: of the detail, &gt; 0; 0 = square root of target base area over source base area
         /// progress: an object to poll and cancel through
         ///
@@ -5172,8 +5168,8 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
-        /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
+        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public float[] Morph(double weight = 0, Span<float> normals = default(Span<float>))
@@ -5202,8 +5198,8 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
-        /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
+        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public void Morph(Span<float> into, Span<float> normals = default(Span<float>), double weight = 0)
@@ -5233,8 +5229,8 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
-        /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
+        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public double[] MorphDouble(double weight = 0, Span<float> normals = default(Span<float>))
@@ -5263,8 +5259,8 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// @out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
-        /// normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
+        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public void Morph(Span<double> into, Span<float> normals = default(Span<float>), double weight = 0)
@@ -5296,9 +5292,9 @@ namespace Hf
     ///
     /// Pairs the joints of two skeletons.
     ///
-    /// sourceRest: source.jointCount x 10 numbers a pose that counts as rest, or null: the rest of the skeleton.
-    ///     Give poses in which both characters stand alike
-    /// targetRest: target.jointCount x 10 numbers the same for the target, or null
+    /// sourceRest: [source.jointCount x 10] a pose that counts as rest, or null: the rest of the skeleton. Give
+    ///     poses in which both characters stand alike
+    /// targetRest: [target.jointCount x 10] the same for the target, or null
     /// rootMotion: RootMotion
     /// leaveOut: bits of RetargetStep
     /// scale: travel of the target over travel of the source; 0: the ratio of leg lengths
@@ -5311,9 +5307,9 @@ namespace Hf
 
         /// <summary>Pairs the joints of two skeletons.
         ///
-        /// sourceRest: source.jointCount x 10 numbers a pose that counts as rest, or null: the rest of the
-        ///     skeleton. Give poses in which both characters stand alike
-        /// targetRest: target.jointCount x 10 numbers the same for the target, or null
+        /// sourceRest: [source.jointCount x 10] a pose that counts as rest, or null: the rest of the skeleton. Give
+        ///     poses in which both characters stand alike
+        /// targetRest: [target.jointCount x 10] the same for the target, or null
         /// rootMotion: RootMotion
         /// leaveOut: bits of RetargetStep
         /// scale: travel of the target over travel of the source; 0: the ratio of leg lengths
@@ -5362,7 +5358,7 @@ namespace Hf
         /// whether each is planted, and how far it is moved to keep its place. The state comes from the frames
         /// since the last reset and fades within a step.
         ///
-        /// sourcePose: source.jointCount x 10 numbers.
+        /// sourcePose: [source.jointCount x 10].
         /// seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.</summary>
@@ -5460,17 +5456,16 @@ namespace Hf
     /// if feet shall stand on the ground. The object keeps a copy of everything.
     ///
     /// names: one line for each joint in UTF-8, or null: names then say nothing
-    /// parents: jointCount numbers number of the parent, uint.MaxValue for a root
-    /// rest: jointCount x 10 numbers joint transforms
-    /// inverseBinds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no
-    ///     skin names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`,
-    ///     and all joints bend it
-    /// up: 3 numbers declared axis, any length, or null: find it
-    /// forward: 3 numbers declared axis, any length, or null: find it
-    /// roles: jointCount numbers declared Role, -1 for a joint without; or null
-    /// sides: jointCount numbers BodySide of joints with a declared role; or null: find the sides
-    /// travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells forward;
-    ///     or null
+    /// parents: [jointCount] number of the parent, uint.MaxValue for a root
+    /// rest: [jointCount x 10] joint transforms
+    /// inverseBinds: [jointCount x 16] inverse bind matrices, columns first, all zero for a joint that no skin
+    ///     names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`, and
+    ///     all joints bend it
+    /// up: [3] declared axis, any length, or null: find it
+    /// forward: [3] declared axis, any length, or null: find it
+    /// roles: [jointCount] declared Role, -1 for a joint without; or null
+    /// sides: [jointCount] BodySide of joints with a declared role; or null: find the sides
+    /// travels: [travelCount x 3] where each clip leads from its first to its last frame; it tells forward; or null
     /// skin: null: there is none, and joints are judged by names and places alone
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Skeleton : HfObject
@@ -5478,7 +5473,7 @@ namespace Hf
         /// <summary>Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a
         /// walk. It is 0 for a clip that travels.
         ///
-        /// poses: frameCount x jointCount x 10 numbers.
+        /// poses: [frameCount x jointCount x 10].
         /// seconds: between two frames, above 0.
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.</summary>
@@ -5499,17 +5494,17 @@ namespace Hf
         /// it if feet shall stand on the ground. The object keeps a copy of everything.
         ///
         /// names: one line for each joint in UTF-8, or null: names then say nothing
-        /// parents: jointCount numbers number of the parent, uint.MaxValue for a root
-        /// rest: jointCount x 10 numbers joint transforms
-        /// inverseBinds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no
-        ///     skin names: it carries children and rigid meshes alone; or null: the skin is given in the pose
-        ///     `rest`, and all joints bend it
-        /// up: 3 numbers declared axis, any length, or null: find it
-        /// forward: 3 numbers declared axis, any length, or null: find it
-        /// roles: jointCount numbers declared Role, -1 for a joint without; or null
-        /// sides: jointCount numbers BodySide of joints with a declared role; or null: find the sides
-        /// travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells
-        ///     forward; or null
+        /// parents: [jointCount] number of the parent, uint.MaxValue for a root
+        /// rest: [jointCount x 10] joint transforms
+        /// inverseBinds: [jointCount x 16] inverse bind matrices, columns first, all zero for a joint that no skin
+        ///     names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`,
+        ///     and all joints bend it
+        /// up: [3] declared axis, any length, or null: find it
+        /// forward: [3] declared axis, any length, or null: find it
+        /// roles: [jointCount] declared Role, -1 for a joint without; or null
+        /// sides: [jointCount] BodySide of joints with a declared role; or null: find the sides
+        /// travels: [travelCount x 3] where each clip leads from its first to its last frame; it tells forward; or
+        ///     null
         /// skin: null: there is none, and joints are judged by names and places alone
         /// progress: an object to poll and cancel through
         ///
@@ -5655,10 +5650,10 @@ namespace Hf
     ///
     /// Creates a transfer between two surfaces; both may be the same.
     ///
-    /// sourceRest: source.vertexCount x 3 numbers, or null Poses in which the two bodies correspond, in each
-    ///     surface's unit, read by the call, or null for the positions of the surface. A character bound in a
-    ///     crouch gets a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
-    /// targetRest: target.vertexCount x 3 numbers, or null
+    /// sourceRest: [source.vertexCount x 3], or null Poses in which the two bodies correspond, in each surface's
+    ///     unit, read by the call, or null for the positions of the surface. A character bound in a crouch gets a
+    ///     standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+    /// targetRest: [target.vertexCount x 3], or null
     /// mode: TransferMode
     /// clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
     /// ground: Ground
@@ -5676,11 +5671,11 @@ namespace Hf
     {
         /// <summary>Creates a transfer between two surfaces; both may be the same.
         ///
-        /// sourceRest: source.vertexCount x 3 numbers, or null Poses in which the two bodies correspond, in each
+        /// sourceRest: [source.vertexCount x 3], or null Poses in which the two bodies correspond, in each
         ///     surface's unit, read by the call, or null for the positions of the surface. A character bound in a
         ///     crouch gets a standing pose here. Motion counts from these poses; the fields stay those of the
         ///     surfaces.
-        /// targetRest: target.vertexCount x 3 numbers, or null
+        /// targetRest: [target.vertexCount x 3], or null
         /// mode: TransferMode
         /// clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
         /// ground: Ground
@@ -5725,7 +5720,7 @@ namespace Hf
         /// sourceVertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4
         ///     entries per vertex
         /// targetVertices: lists of whole numbers:
-        /// flags: pairCount numbers PairFlag, or null for none
+        /// flags: [pairCount] PairFlag, or null for none
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -5753,7 +5748,7 @@ namespace Hf
 
         /// <summary>Removes pairs by number.
         ///
-        /// pairs: pairCount numbers.
+        /// pairs: [pairCount].
         ///
         /// Throws HF_ERROR_NOT_FOUND.</summary>
         public void RemovePairs(uint[] pairs)
@@ -5862,11 +5857,11 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// sourcePositions: source.vertexCount x 3 numbers the posed source, its own vertex order
-        /// holdPairs: holdCount numbers each pair at most once
-        /// holdPositions: holdCount x 3 numbers in the target's unit and frame
-        /// @out: target.vertexCount x 3 numbers, or null
-        /// targetNormals: target.vertexCount x 3 numbers, or null
+        /// sourcePositions: [source.vertexCount x 3] the posed source, its own vertex order
+        /// holdPairs: [holdCount] each pair at most once
+        /// holdPositions: [holdCount x 3] in the target's unit and frame
+        /// @out: [target.vertexCount x 3], or null
+        /// targetNormals: [target.vertexCount x 3], or null
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -5913,11 +5908,11 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// sourcePositions: source.vertexCount x 3 numbers the posed source, its own vertex order
-        /// holdPairs: holdCount numbers each pair at most once
-        /// holdPositions: holdCount x 3 numbers in the target's unit and frame
-        /// @out: target.vertexCount x 3 numbers, or null
-        /// targetNormals: target.vertexCount x 3 numbers, or null
+        /// sourcePositions: [source.vertexCount x 3] the posed source, its own vertex order
+        /// holdPairs: [holdCount] each pair at most once
+        /// holdPositions: [holdCount x 3] in the target's unit and frame
+        /// @out: [target.vertexCount x 3], or null
+        /// targetNormals: [target.vertexCount x 3], or null
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -5965,11 +5960,11 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// sourcePositions: source.vertexCount x 3 numbers the posed source, its own vertex order
-        /// holdPairs: holdCount numbers each pair at most once
-        /// holdPositions: holdCount x 3 numbers in the target's unit and frame
-        /// @out: target.vertexCount x 3 numbers, or null
-        /// targetNormals: target.vertexCount x 3 numbers, or null
+        /// sourcePositions: [source.vertexCount x 3] the posed source, its own vertex order
+        /// holdPairs: [holdCount] each pair at most once
+        /// holdPositions: [holdCount x 3] in the target's unit and frame
+        /// @out: [target.vertexCount x 3], or null
+        /// targetNormals: [target.vertexCount x 3], or null
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -6016,11 +6011,11 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// sourcePositions: source.vertexCount x 3 numbers the posed source, its own vertex order
-        /// holdPairs: holdCount numbers each pair at most once
-        /// holdPositions: holdCount x 3 numbers in the target's unit and frame
-        /// @out: target.vertexCount x 3 numbers, or null
-        /// targetNormals: target.vertexCount x 3 numbers, or null
+        /// sourcePositions: [source.vertexCount x 3] the posed source, its own vertex order
+        /// holdPairs: [holdCount] each pair at most once
+        /// holdPositions: [holdCount x 3] in the target's unit and frame
+        /// @out: [target.vertexCount x 3], or null
+        /// targetNormals: [target.vertexCount x 3], or null
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -6069,7 +6064,7 @@ namespace Hf
         /// skin replays Transfer.Apply exactly, because that function also uses the four largest weights.
         ///
         /// influenceCount: joints per vertex, 4 or 8; 0 = 4
-        /// scales: jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid
+        /// scales: [jointCapacity x 3] along the axes in the last frame; null = joints are rigid
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.</summary>
         public SkinInfo Skin(uint influenceCount = 0, bool scales = false)
@@ -6125,15 +6120,15 @@ namespace Hf
     ///
     /// Computes weights.
     ///
-    /// heads: jointCount x 3 numbers
-    /// tails: jointCount x 3 numbers, or null: heads are joints, and the library finds the tails
-    /// axes: jointCount x 3 numbers with tails null: where each joint points, any length, 0 for unknown; or null. A
-    ///     joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says
-    ///     where a last joint ends
-    /// parents: jointCount numbers number of the parent, uint.MaxValue for a root; null: all are roots
-    /// deforms: jointCount numbers 1: the joint gets weights; null: all do
-    /// sources: jointCount numbers for Weights.SetJoints: the number that the joint had before, uint.MaxValue for a
-    ///     new one; null: the same number. Weights: null
+    /// heads: [jointCount x 3]
+    /// tails: [jointCount x 3], or null: heads are joints, and the library finds the tails
+    /// axes: [jointCount x 3] with tails null: where each joint points, any length, 0 for unknown; or null. A joint
+    ///     reaches to the child that lies there, or to the end of the skin. A child that does not deform says where
+    ///     a last joint ends
+    /// parents: [jointCount] number of the parent, uint.MaxValue for a root; null: all are roots
+    /// deforms: [jointCount] 1: the joint gets weights; null: all do
+    /// sources: [jointCount] for Weights.SetJoints: the number that the joint had before, uint.MaxValue for a new
+    ///     one; null: the same number. Weights: null
     /// progress: an object to poll and cancel through
     /// influenceCount: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has
     ///     none, it is made now. Sets *weights to null first.</summary>
@@ -6143,15 +6138,15 @@ namespace Hf
 
         /// <summary>Computes weights.
         ///
-        /// heads: jointCount x 3 numbers
-        /// tails: jointCount x 3 numbers, or null: heads are joints, and the library finds the tails
-        /// axes: jointCount x 3 numbers with tails null: where each joint points, any length, 0 for unknown; or
-        ///     null. A joint reaches to the child that lies there, or to the end of the skin. A child that does not
-        ///     deform says where a last joint ends
-        /// parents: jointCount numbers number of the parent, uint.MaxValue for a root; null: all are roots
-        /// deforms: jointCount numbers 1: the joint gets weights; null: all do
-        /// sources: jointCount numbers for Weights.SetJoints: the number that the joint had before, uint.MaxValue
-        ///     for a new one; null: the same number. Weights: null
+        /// heads: [jointCount x 3]
+        /// tails: [jointCount x 3], or null: heads are joints, and the library finds the tails
+        /// axes: [jointCount x 3] with tails null: where each joint points, any length, 0 for unknown; or null. A
+        ///     joint reaches to the child that lies there, or to the end of the skin. A child that does not deform
+        ///     says where a last joint ends
+        /// parents: [jointCount] number of the parent, uint.MaxValue for a root; null: all are roots
+        /// deforms: [jointCount] 1: the joint gets weights; null: all do
+        /// sources: [jointCount] for Weights.SetJoints: the number that the joint had before, uint.MaxValue for a
+        ///     new one; null: the same number. Weights: null
         /// progress: an object to poll and cancel through
         /// influenceCount: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it
         ///     has none, it is made now. Sets *weights to null first.
@@ -6199,15 +6194,15 @@ namespace Hf
 
         /// <summary>Replaces all
         ///
-        /// heads: jointCount x 3 numbers
-        /// tails: jointCount x 3 numbers, or null: heads are joints, and the library finds the tails
-        /// axes: jointCount x 3 numbers with tails null: where each joint points, any length, 0 for unknown; or
-        ///     null. A joint reaches to the child that lies there, or to the end of the skin. A child that does not
-        ///     deform says where a last joint ends
-        /// parents: jointCount numbers number of the parent, uint.MaxValue for a root; null: all are roots
-        /// deforms: jointCount numbers 1: the joint gets weights; null: all do
-        /// sources: jointCount numbers for Weights.SetJoints: the number that the joint had before, uint.MaxValue
-        ///     for a new one; null: the same number. Weights: null
+        /// heads: [jointCount x 3]
+        /// tails: [jointCount x 3], or null: heads are joints, and the library finds the tails
+        /// axes: [jointCount x 3] with tails null: where each joint points, any length, 0 for unknown; or null. A
+        ///     joint reaches to the child that lies there, or to the end of the skin. A child that does not deform
+        ///     says where a last joint ends
+        /// parents: [jointCount] number of the parent, uint.MaxValue for a root; null: all are roots
+        /// deforms: [jointCount] 1: the joint gets weights; null: all do
+        /// sources: [jointCount] for Weights.SetJoints: the number that the joint had before, uint.MaxValue for a
+        ///     new one; null: the same number. Weights: null
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_EMPTY,
@@ -6234,14 +6229,14 @@ namespace Hf
         /// <summary>Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices
         /// of a disc. Pins at the same places with other weights cost no path.
         ///
-        /// vertices: pinCount numbers vertices as given, or null
-        /// triangles: pinCount numbers triangles as given, or null
-        /// barycentrics: pinCount x 3 numbers with triangles, else null: weights of the corners, &gt;= 0, of sum 1
-        ///     within 1e-6
-        /// radii: pinCount numbers of the geodesic disc around the place, in the unit of the mesh; null or 0: the
-        ///     place alone
-        /// joints: pinCount x influenceCount numbers joints
-        /// weights: pinCount x influenceCount numbers &gt;= 0, scaled to the sum 1
+        /// vertices: [pinCount] vertices as given, or null
+        /// triangles: [pinCount] triangles as given, or null
+        /// barycentrics: [pinCount x 3] with triangles, else null: weights of the corners, &gt;= 0, of sum 1 within
+        ///     1e-6
+        /// radii: [pinCount] of the geodesic disc around the place, in the unit of the mesh; null or 0: the place
+        ///     alone
+        /// joints: [pinCount x influenceCount] joints
+        /// weights: [pinCount x influenceCount] &gt;= 0, scaled to the sum 1
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT,
@@ -6269,9 +6264,9 @@ namespace Hf
         /// <summary>Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0
         /// unlocks.
         ///
-        /// joints: lockCount numbers.
-        /// values: vertexCount x lockCount numbers weights to keep, 0 to 1, or null for the present ones. Welded
-        ///     copies take the values of the first. Pinned vertices keep the weights of their pins.
+        /// joints: [lockCount].
+        /// values: [vertexCount x lockCount] weights to keep, 0 to 1, or null for the present ones. Welded copies
+        ///     take the values of the first. Pinned vertices keep the weights of their pins.
         ///
         /// Throws HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.</summary>
         public void SetLocks(uint[] joints, float[] values = null)
@@ -6387,9 +6382,9 @@ namespace Hf
         /// One bi-harmonic field fills in the vertices without such a point. A piece without any takes the weights
         /// of the nearest points.
         ///
-        /// joints: source.vertexCount x sourceInfluenceCount numbers
-        /// weights: source.vertexCount x sourceInfluenceCount numbers &gt;= 0; a vertex whose weights are all 0
-        ///     gives none
+        /// joints: [source.vertexCount x sourceInfluenceCount]
+        /// weights: [source.vertexCount x sourceInfluenceCount] &gt;= 0; a vertex whose weights are all 0 gives
+        ///     none
         /// distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
         /// angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
         /// influenceCount: joints of each vertex in the result: 4 or 8; 0: 4
@@ -6447,12 +6442,12 @@ namespace Hf
         /// harmonic field fills in the rest. The plane comes from joints with partners, else from the surface. A
         /// found normal has a positive largest component, so along x, MirrorTo.ToNegative copies from +x to -x.
         ///
-        /// heads: jointCount x 3 numbers the joints at rest, in the frame of the mesh
+        /// heads: [jointCount x 3] the joints at rest, in the frame of the mesh
         /// names: one line for each joint in UTF-8, or null: joints are paired by their places
-        /// partners: jointCount numbers the joint of the other side, uint.MaxValue: find it; or null
-        /// plane: 6 numbers a point and a normal, or null: find the plane
-        /// joints: vertexCount x sourceInfluenceCount numbers
-        /// weights: vertexCount x sourceInfluenceCount numbers &gt;= 0; a vertex whose weights are all 0 gives none
+        /// partners: [jointCount] the joint of the other side, uint.MaxValue: find it; or null
+        /// plane: [6] a point and a normal, or null: find the plane
+        /// joints: [vertexCount x sourceInfluenceCount]
+        /// weights: [vertexCount x sourceInfluenceCount] &gt;= 0; a vertex whose weights are all 0 gives none
         /// to: MirrorTo
         /// distance: as in WeightsTransferDesc
         /// angle: as in WeightsTransferDesc

@@ -242,22 +242,22 @@ export interface SolverInfo {
 export interface SitesInfo {
   /** number of sites */
   count: number;
-  /** capacity numbers numbers */
+  /** [capacity] numbers */
   sites: Uint32Array;
-  /** capacity numbers the vertex given, constants.HF_NO_INDEX for a point in a triangle */
+  /** [capacity] the vertex given, constants.HF_NO_INDEX for a point in a triangle */
   vertices: Uint32Array;
-  /** capacity numbers */
+  /** [capacity] */
   components: Uint32Array;
-  /** capacity x channelCount numbers */
+  /** [capacity x channelCount] */
   values: Float64Array;
-  /** capacity numbers 0 = hard */
+  /** [capacity] 0 = hard */
   stiffness: Float64Array;
   /**
-   * capacity x channelCount numbers lambda: what flows into the surface at the site, in value x weight; the sum
-   * over a disc
+   * [capacity x channelCount] lambda: what flows into the surface at the site, in value x weight; the sum over a
+   * disc
    */
   flux: Float64Array;
-  /** capacity numbers 0 = a point */
+  /** [capacity] 0 = a point */
   radii: Float64Array;
 }
 
@@ -367,17 +367,17 @@ export interface Isolines {
   pointCount: number;
   /**  */
   lineCount: number;
-  /** pointCapacity x 2 numbers vertices a and b as given, of welded copies the first */
+  /** [pointCapacity x 2] vertices a and b as given, of welded copies the first */
   pointEdges: Uint32Array;
-  /** pointCapacity numbers 0 to 1 */
+  /** [pointCapacity] 0 to 1 */
   parameters: Float64Array;
-  /** pointCapacity x 3 numbers in the unit and frame of the mesh as given */
+  /** [pointCapacity x 3] in the unit and frame of the mesh as given */
   positions: Float64Array;
-  /** lineCapacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1 */
+  /** [lineCapacity + 1] line i holds the points line_starts[i] to line_starts[i + 1] - 1 */
   lineStarts: Uint32Array;
-  /** lineCapacity numbers position of its level in the list */
+  /** [lineCapacity] position of its level in the list */
   lineLevels: Uint32Array;
-  /** lineCapacity numbers 1: closed, the first point is not repeated; 0: ends at borders */
+  /** [lineCapacity] 1: closed, the first point is not repeated; 0: ends at borders */
   lineClosed: Int32Array;
 }
 
@@ -424,11 +424,11 @@ export interface Path {
   pointCount: number;
   /** in the unit of the mesh; -1: no path */
   length: number;
-  /** pointCapacity x 2 numbers vertices a and b as given, of welded copies the first */
+  /** [pointCapacity x 2] vertices a and b as given, of welded copies the first */
   pointEdges: Uint32Array;
-  /** pointCapacity numbers 0 to 1 */
+  /** [pointCapacity] 0 to 1 */
   parameters: Float64Array;
-  /** pointCapacity x 3 numbers in the unit and frame of the mesh as given */
+  /** [pointCapacity x 3] in the unit and frame of the mesh as given */
   positions: Float64Array;
 }
 
@@ -559,19 +559,19 @@ export interface SkinInfo {
   jointCount: number;
   /**  */
   vertexCount: number;
-  /** jointCapacity x 3 numbers rest centroid of what each joint moves */
+  /** [jointCapacity x 3] rest centroid of what each joint moves */
   pivots: Float64Array;
-  /** jointCapacity x 4 numbers quaternion x, y, z, w of the last frame */
+  /** [jointCapacity x 4] quaternion x, y, z, w of the last frame */
   rotations: Float64Array;
-  /** jointCapacity x 3 numbers posed place of the pivot */
+  /** [jointCapacity x 3] posed place of the pivot */
   translations: Float64Array;
-  /** jointCapacity x 4 numbers quaternion of B, fixed while handles stay */
+  /** [jointCapacity x 4] quaternion of B, fixed while handles stay */
   axes: Float64Array;
-  /** jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid */
+  /** [jointCapacity x 3] along the axes in the last frame; null = joints are rigid */
   scales?: Float64Array;
-  /** vertexCapacity x influenceCount numbers */
+  /** [vertexCapacity x influenceCount] */
   vertexJoints: Uint32Array;
-  /** vertexCapacity x influenceCount numbers of sum 1, descending */
+  /** [vertexCapacity x influenceCount] of sum 1, descending */
   vertexWeights: Float32Array;
 }
 
@@ -614,18 +614,18 @@ export interface QuadsMesh {
   vertexCount: number;
   /**  */
   faceCount: number;
-  /** vertexCapacity x 3 numbers in the unit and frame of the mesh as given */
+  /** [vertexCapacity x 3] in the unit and frame of the mesh as given */
   positions: Float64Array;
-  /** faceCapacity x 4 numbers vertices of each quad, counter-clockwise */
+  /** [faceCapacity x 4] vertices of each quad, counter-clockwise */
   faces: Uint32Array;
-  /** vertexCapacity numbers triangle or face as given that the vertex lies in */
+  /** [vertexCapacity] triangle or face as given that the vertex lies in */
   triangles: Uint32Array;
   /**
-   * vertexCapacity x 3 numbers weights of that triangle's corners, in its own order, of sum 1; in a face of more
-   * corners the weights of `corners`
+   * [vertexCapacity x 3] weights of that triangle's corners, in its own order, of sum 1; in a face of more corners
+   * the weights of `corners`
    */
   barycentrics: Float64Array;
-  /** vertexCapacity x 3 numbers vertices as given, of welded copies the first, that barycentrics belong to */
+  /** [vertexCapacity x 3] vertices as given, of welded copies the first, that barycentrics belong to */
   corners: Uint32Array;
 }
 
@@ -634,13 +634,13 @@ export interface Streamlines {
   pointCount: number;
   /**  */
   lineCount: number;
-  /** pointCapacity x 3 numbers in the unit and frame of the mesh as given */
+  /** [pointCapacity x 3] in the unit and frame of the mesh as given */
   positions: Float64Array;
-  /** pointCapacity numbers of the field, rising along every line */
+  /** [pointCapacity] of the field, rising along every line */
   values: Float64Array;
-  /** lineCapacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1 */
+  /** [lineCapacity + 1] line i holds the points line_starts[i] to line_starts[i + 1] - 1 */
   lineStarts: Uint32Array;
-  /** lineCapacity x 2 numbers vertices where it starts and ends, of welded copies the first */
+  /** [lineCapacity x 2] vertices where it starts and ends, of welded copies the first */
   lineEnds: Uint32Array;
 }
 
@@ -852,11 +852,11 @@ export interface WeightsOut {
   vertexCount: number;
   /** joints per vertex, 4 or 8 */
   influenceCount: number;
-  /** vertexCapacity x influenceCount numbers */
+  /** [vertexCapacity x influenceCount] */
   joints: Uint32Array;
-  /** vertexCapacity x influenceCount numbers descending, of sum exactly 1 */
+  /** [vertexCapacity x influenceCount] descending, of sum exactly 1 */
   weights: Float32Array;
-  /** vertexCapacity numbers HF_WEIGHTS_* */
+  /** [vertexCapacity] HF_WEIGHTS_* */
   origins: Uint8Array;
 }
 
@@ -945,16 +945,13 @@ export interface WeightsMirrorInfo {
  * times.
  */
 export interface CurveDescGiven {
-  /** pointCount numbers vertices as given, or null */
+  /** [pointCount] vertices as given, or null */
   vertices?: Rows | null;
-  /** pointCount numbers triangles (or faces of three corners) as given, or null */
+  /** [pointCount] triangles (or faces of three corners) as given, or null */
   triangles?: Rows | null;
-  /**
-   * pointCount x 3 numbers with triangles or corners, else null: weights of the corners, >= 0, of sum 1 within
-   * 1e-6
-   */
+  /** [pointCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1 within 1e-6 */
   barycentrics?: Rows | null;
-  /** pointCount x 3 numbers three vertices of one face, as Hit has them, or null */
+  /** [pointCount x 3] three vertices of one face, as Hit has them, or null */
   corners?: Rows | null;
   /** HF_SIDE_* */
   side?: number;
@@ -975,20 +972,20 @@ export interface FactorDescGiven {
  * piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it.
  */
 export interface LinksDescGiven {
-  /** vertexCount x influenceCount numbers of a skin: pieces of the same joint link sooner */
+  /** [vertexCount x influenceCount] of a skin: pieces of the same joint link sooner */
   joints?: Rows | null;
-  /** vertexCount x influenceCount numbers of sum 1; where all are 0, a vertex shares no joint */
+  /** [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint */
   weights?: Rows | null;
   /**
-   * vertexCount numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of a
-   * piece counts
+   * [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
+   * counts
    */
   tags?: Rows | null;
-  /** linkCount numbers */
+  /** [linkCount] */
   links?: Rows | null;
-  /** lightCount numbers: their pieces are light */
+  /** [lightCount]: their pieces are light */
   lightVertices?: Rows | null;
-  /** heavyCount numbers: their pieces are not, as one that gets a site or handle */
+  /** [heavyCount]: their pieces are not, as one that gets a site or handle */
   heavyVertices?: Rows | null;
   /** HF_LINK_* */
   mode?: number;
@@ -1011,37 +1008,37 @@ export interface LinksDescGiven {
  * vertices do.
  */
 export interface SitesDescGiven {
-  /** siteCount numbers vertices as given, or null */
+  /** [siteCount] vertices as given, or null */
   vertices?: Rows | null;
-  /** siteCount x channelCount numbers, up to 1e200 in size; null = 0 */
+  /** [siteCount x channelCount], up to 1e200 in size; null = 0 */
   values?: Rows | null;
-  /** siteCount numbers triangles (or faces of three corners) as given, or null */
+  /** [siteCount] triangles (or faces of three corners) as given, or null */
   triangles?: Rows | null;
-  /** siteCount x 3 numbers with triangles or corners, else null: weights of the corners, >= 0, of sum 1 within 1e-6 */
+  /** [siteCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1 within 1e-6 */
   barycentrics?: Rows | null;
   /**
-   * siteCount numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
-   * 1e-12 to 1e12
+   * [siteCount] >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to 1e-12 to
+   * 1e12
    */
   stiffness?: Rows | null;
-  /** siteCount numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points */
+  /** [siteCount] >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points */
   radii?: Rows | null;
   /**
-   * siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of more corners
-   * this places a site in a triangle of them
+   * [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more corners this
+   * places a site in a triangle of them
    */
   corners?: Rows | null;
 }
 
 /** The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex. */
 export interface SkinDescGiven {
-  /** vertexCount x 3 numbers */
+  /** [vertexCount x 3] */
   positions?: Rows | null;
-  /** triangleCount x 3 numbers, or null with triangle_count 0 */
+  /** [triangleCount x 3], or null with triangle_count 0 */
   triangles?: Rows | null;
-  /** vertexCount x influenceCount numbers */
+  /** [vertexCount x influenceCount] */
   joints?: Rows | null;
-  /** vertexCount x influenceCount numbers >= 0; a vertex whose weights are all 0 has no joint */
+  /** [vertexCount x influenceCount] >= 0; a vertex whose weights are all 0 has no joint */
   weights?: Rows | null;
 }
 
@@ -1079,12 +1076,12 @@ export interface ProgressClass {
  * hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any.
  * Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
  *
- * positions: vertexCount x 3 numbers, any unit, any offset
- * triangles: triangleCount x 3 numbers, counter-clockwise seen from outside
- * faceStarts: faceCount numbers first corner of each face. null: the faces follow one another. Without face_sizes
- *     faceCount + 1 numbers: the corners of face f end where those of f + 1 start
- * faceSizes: faceCount numbers corners of each face, 3 to 65,535. null: face_starts is enough
- * corners: cornerCount numbers vertices, counter-clockwise seen from outside
+ * positions: [vertexCount x 3], any unit, any offset
+ * triangles: [triangleCount x 3], counter-clockwise seen from outside
+ * faceStarts: [faceCount] first corner of each face. null: the faces follow one another. Without face_sizes
+ *     [faceCount + 1]: the corners of face f end where those of f + 1 start
+ * faceSizes: [faceCount] corners of each face, 3 to 65,535. null: face_starts is enough
+ * corners: [cornerCount] vertices, counter-clockwise seen from outside
  * weld: HF_WELD_*
  * weldTolerance: for HF_WELD_TOLERANCE, in the unit of the positions, > 0
  * operatorKind: HF_OPERATOR_*
@@ -1128,7 +1125,7 @@ export interface Surface extends Handle {
    * Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
    * ends are apart than at rest, and 0 if they are nearer.
    *
-   * positions: vertexCount x 3 numbers: of a pose, a frame of a transfer, or any other deformation
+   * positions: [vertexCount x 3]: of a pose, a frame of a transfer, or any other deformation
    * info: filled in when given
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -1138,13 +1135,13 @@ export interface Surface extends Handle {
    * Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old
    * one where its matrix has the same pattern: other stiffness, weights or light pieces.
    *
-   * joints: vertexCount x influenceCount numbers of a skin: pieces of the same joint link sooner
-   * weights: vertexCount x influenceCount numbers of sum 1; where all are 0, a vertex shares no joint
-   * tags: vertexCount numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of
-   *     a piece counts
-   * links: linkCount numbers
-   * lightVertices: lightCount numbers: their pieces are light
-   * heavyVertices: heavyCount numbers: their pieces are not, as one that gets a site or handle
+   * joints: [vertexCount x influenceCount] of a skin: pieces of the same joint link sooner
+   * weights: [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint
+   * tags: [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a
+   *     piece counts
+   * links: [linkCount]
+   * lightVertices: [lightCount]: their pieces are light
+   * heavyVertices: [heavyCount]: their pieces are not, as one that gets a site or handle
    * mode: HF_LINK_*
    * distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
    * stiffness: of all links, times each one's weight; 0 = 1
@@ -1172,9 +1169,9 @@ export interface Surface extends Handle {
   /**
    * Finds what a mouse click hits: the first triangle on a ray.
    *
-   * origin: 3 numbers in the frame of the positions; the direction can have any length above 0.
-   * direction: 3 numbers in the frame of the positions; the direction can have any length above 0.
-   * positions: vertexCount x 3 numbers posed positions (Pose.deform writes them), or null
+   * origin: [3] in the frame of the positions; the direction can have any length above 0.
+   * direction: [3] in the frame of the positions; the direction can have any length above 0.
+   * positions: [vertexCount x 3] posed positions (Pose.deform writes them), or null
    * frontOnly: 1: a ray passes triangles seen from behind
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
@@ -1184,8 +1181,8 @@ export interface Surface extends Handle {
   /**
    * Finds the vertex nearest to a point.
    *
-   * point: 3 numbers in the frame of the positions.
-   * positions: vertexCount x 3 numbers posed positions (Pose.deform writes them), or null
+   * point: [3] in the frame of the positions.
+   * positions: [vertexCount x 3] posed positions (Pose.deform writes them), or null
    * frontOnly: 1: a ray passes triangles seen from behind
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -1216,7 +1213,7 @@ export interface Surface extends Handle {
    * without a partner. The function leaves out lines of length zero. Seen from outside a consistently oriented
    * mesh, the field is higher on the left of a line.
    *
-   * levels: levelCount numbers.
+   * levels: [levelCount].
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
    */
@@ -1244,7 +1241,7 @@ export interface Surface extends Handle {
    * geodesics: for HF_EXTREMITIES_GEODESIC: an object of this surface. If its method is HF_GEODESICS_HEAT its
    *     factor serves; else, and for null, the call makes a factor
    * progress: an object to poll and cancel through
-   * field: vertexCount numbers, packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
+   * field: [vertexCount], packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
    *     (Poisson), length (geodesic), each up to a constant per component
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT.
@@ -1255,8 +1252,8 @@ export interface Surface extends Handle {
    * come first, then the others, each group by length, the longest first. The places do not depend on the order of
    * the vertices. They follow translation and scale.
    *
-   * joints: jointCount x 3 numbers their places at rest, in the unit and frame of the mesh
-   * parents: jointCount numbers position of each joint's parent in the list; constants.HF_NO_INDEX for a root
+   * joints: [jointCount x 3] their places at rest, in the unit and frame of the mesh
+   * parents: [jointCount] position of each joint's parent in the list; constants.HF_NO_INDEX for a root
    * up: direction away from the ground, of any length; 0 0 0 = 0 1 0
    * leastLengthShare: as in hf_extremities_desc; 0 = 0.05
    * limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
@@ -1284,11 +1281,11 @@ export interface SurfaceClass {
    * the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-harmonic fields
    * limit weights to 1e3 times the median.
    *
-   * edges: edgeCount x 2 numbers vertices, in any order. The weights of parallel edges are added up. Self loops
-   *     are ignored
-   * weights: edgeCount numbers any unit, up to 1e100 in size. An edge of weight 0 is left out
-   * masses: vertexCount numbers M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; null: all 1. A mass
-   *     below 1e-4 of the mean of its component counts as that
+   * edges: [edgeCount x 2] vertices, in any order. The weights of parallel edges are added up. Self loops are
+   *     ignored
+   * weights: [edgeCount] any unit, up to 1e100 in size. An edge of weight 0 is left out
+   * masses: [vertexCount] M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; null: all 1. A mass below
+   *     1e-4 of the mean of its component counts as that
    * vertexCount: >= 1, also without masses
    * allowNegative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
    *     tetrahedra do. A field can then leave the range of its sites. 0: they are refused
@@ -1335,15 +1332,15 @@ export interface Solver extends Recorded {
   /**
    * Adds sites.
    *
-   * vertices: siteCount numbers vertices as given, or null
-   * values: siteCount x channelCount numbers, up to 1e200 in size; null = 0
-   * triangles: siteCount numbers triangles (or faces of three corners) as given, or null
-   * barycentrics: siteCount x 3 numbers with triangles or corners, else null: weights of the corners, >= 0, of sum
-   *     1 within 1e-6
-   * stiffness: siteCount numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
-   *     clamped to 1e-12 to 1e12
-   * radii: siteCount numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-   * corners: siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of more
+   * vertices: [siteCount] vertices as given, or null
+   * values: [siteCount x channelCount], up to 1e200 in size; null = 0
+   * triangles: [siteCount] triangles (or faces of three corners) as given, or null
+   * barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1
+   *     within 1e-6
+   * stiffness: [siteCount] >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
+   *     1e-12 to 1e12
+   * radii: [siteCount] >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
+   * corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
    *     corners this places a site in a triangle of them
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -1354,7 +1351,7 @@ export interface Solver extends Recorded {
   /**
    * Adds one hard site at a vertex.
    *
-   * values: channelCount numbers, or null for 0.
+   * values: [channelCount], or null for 0.
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
    * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -1364,7 +1361,7 @@ export interface Solver extends Recorded {
    * Removes sites by number. The field is 0 on a component that has no site left. If you add a site there again,
    * the field is exact.
    *
-   * sites: siteCount numbers.
+   * sites: [siteCount].
    *
    * Throws HF_ERROR_NOT_FOUND.
    */
@@ -1372,16 +1369,16 @@ export interface Solver extends Recorded {
   /**
    * Moves sites to new places. Each site keeps its number, value, stiffness and radius.
    *
-   * sites: siteCount numbers.
-   * vertices: siteCount numbers vertices as given, or null
-   * values: siteCount x channelCount numbers, up to 1e200 in size; null = 0
-   * triangles: siteCount numbers triangles (or faces of three corners) as given, or null
-   * barycentrics: siteCount x 3 numbers with triangles or corners, else null: weights of the corners, >= 0, of sum
-   *     1 within 1e-6
-   * stiffness: siteCount numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
-   *     clamped to 1e-12 to 1e12
-   * radii: siteCount numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-   * corners: siteCount x 3 numbers three vertices as given, of one face, or null: Hit has them. In a face of more
+   * sites: [siteCount].
+   * vertices: [siteCount] vertices as given, or null
+   * values: [siteCount x channelCount], up to 1e200 in size; null = 0
+   * triangles: [siteCount] triangles (or faces of three corners) as given, or null
+   * barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1
+   *     within 1e-6
+   * stiffness: [siteCount] >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
+   *     1e-12 to 1e12
+   * radii: [siteCount] >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
+   * corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
    *     corners this places a site in a triangle of them
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -1392,8 +1389,8 @@ export interface Solver extends Recorded {
   /**
    * Gives sites new values. The call costs nothing until the next solve.
    *
-   * sites: siteCount numbers.
-   * values: siteCount x channelCount numbers.
+   * sites: [siteCount].
+   * values: [siteCount x channelCount].
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE.
    */
@@ -1401,11 +1398,11 @@ export interface Solver extends Recorded {
   /**
    * Applies a batch of edits at once.
    *
-   * removeSites: removeCount numbers
-   * moveSites: moveCount numbers
-   * setSites: setCount numbers
-   * setValues: setCount x channelCount numbers
-   * moveTo: places of moveCount numbers sites
+   * removeSites: [removeCount]
+   * moveSites: [moveCount]
+   * setSites: [setCount]
+   * setValues: [setCount x channelCount]
+   * moveTo: places of [moveCount] sites
    * add: the sites to add
    */
   editSites(options?: { removeSites?: Rows | null; moveSites?: Rows | null; setSites?: Rows | null; setValues?: Rows | null; moveTo?: SitesDescGiven | Rows | null; add?: SitesDescGiven | Rows | null }): Uint32Array;
@@ -1418,10 +1415,10 @@ export interface Solver extends Recorded {
    * large, and the influence of a site fades over a distance of about 1 / sqrt(H). A H is at most 1e12 times the
    * mean diagonal of K. Such a field needs no site on a component where some H is above 0.
    *
-   * screening: vertexCount numbers H >= 0, in 1 / length^2 with the unit of the mesh; null removes the screening.
-   * targets: vertexCount x channelCount numbers p, or null for 0. Both are copied; welded copies of a vertex take
-   *     the values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores
-   *     the screening with the sites.
+   * screening: [vertexCount] H >= 0, in 1 / length^2 with the unit of the mesh; null removes the screening.
+   * targets: [vertexCount x channelCount] p, or null for 0. Both are copied; welded copies of a vertex take the
+   *     values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores the
+   *     screening with the sites.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_TOO_LARGE,
    * HF_ERROR_UNSUPPORTED.
@@ -1430,8 +1427,8 @@ export interface Solver extends Recorded {
   /**
    * Solves for the field at every vertex of your mesh.
    *
-   * out: vertexCount x channelCount numbers. Hard sites hold their values exactly. The field is 0 on components
-   *     without a site.
+   * out: [vertexCount x channelCount]. Hard sites hold their values exactly. The field is 0 on components without
+   *     a site.
    * info: filled in when given
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.
@@ -1444,7 +1441,7 @@ export interface Solver extends Recorded {
    * whole solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A
    * vertex of a component without a site gets 0.
    *
-   * vertices: vertexCount numbers.
+   * vertices: [vertexCount].
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
@@ -1454,8 +1451,8 @@ export interface Solver extends Recorded {
    * 3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then
    * projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
    *
-   * out: vertexCount x 3 numbers, not normalised.
-   * normals: vertexCount x 3 numbers, packed: the normals used.
+   * out: [vertexCount x 3], not normalised.
+   * normals: [vertexCount x 3], packed: the normals used.
    * info: filled in when given
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.
@@ -1476,7 +1473,7 @@ export interface Solver extends Recorded {
    * info.exact is then 1.
    *
    * correctionCount: 0 to 8.
-   * out: vertexCount x channelCount numbers, as Solver.solve.
+   * out: [vertexCount x channelCount], as Solver.solve.
    * info: filled in when given
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.
@@ -1492,19 +1489,19 @@ export interface Solver extends Recorded {
    * Moves vector sites to other vertices of their components. Each vector is carried along the shortest path of
    * edges, from vertex normal to vertex normal (parallel transport; Xu and others 2009, Section 3.3).
    *
-   * sites: siteCount numbers.
-   * vertices: siteCount numbers.
+   * sites: [siteCount].
+   * vertices: [siteCount].
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND,
    * HF_ERROR_OUT_OF_RANGE.
    */
   moveVectors(sites: Rows, vertices: Rows): void;
   /**
-   * Turns the vector of site i about its vertex normal, counter-clockwise by anglesi numbers radians. Does not
+   * Turns the vector of site i about its vertex normal, counter-clockwise by angles[i] radians. Does not
    * factorise.
    *
-   * sites: siteCount numbers.
-   * angles: siteCount numbers.
+   * sites: [siteCount].
+   * angles: [siteCount].
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
    */
@@ -1557,12 +1554,12 @@ export interface Geodesics extends Handle {
   /**
    * Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
    *
-   * sources: sourceCount numbers vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
+   * sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
    *     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance
    *     of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The
    *     error of FRONT falls with the edge length. HEAT rounds the distance off at corners and where two shortest
    *     paths meet.
-   * out: vertexCount numbers. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+   * out: [vertexCount]. The distance is 0 at the sources, and -1 at vertices that no source can reach.
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
@@ -1615,8 +1612,8 @@ export interface Direction extends Recorded {
    * batch of very many constraints, the function factorises once instead, with their vertices eliminated. Later
    * edits cost paths and rows again.
    *
-   * vertices: siteCount numbers vertices of your mesh.
-   * vectors: siteCount x 3 numbers; a zero vector makes the field 0 there.
+   * vertices: [siteCount] vertices of your mesh.
+   * vectors: [siteCount x 3]; a zero vector makes the field 0 there.
    *
    * Throws HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
    * HF_ERROR_TOO_LARGE.
@@ -1625,7 +1622,7 @@ export interface Direction extends Recorded {
   /**
    * Removes constraints by number.
    *
-   * sites: siteCount numbers.
+   * sites: [siteCount].
    *
    * Throws HF_ERROR_NOT_FOUND.
    */
@@ -1634,8 +1631,8 @@ export interface Direction extends Recorded {
    * Moves constraints to other vertices of the same component. The connection carries each vector along the
    * shortest path of edges, from tangent plane to tangent plane.
    *
-   * sites: siteCount numbers.
-   * vertices: siteCount numbers.
+   * sites: [siteCount].
+   * vertices: [siteCount].
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND,
    * HF_ERROR_OUT_OF_RANGE.
@@ -1644,17 +1641,17 @@ export interface Direction extends Recorded {
   /**
    * Gives constraints new vectors and projects them on the tangent planes. Does not factorise.
    *
-   * sites: siteCount numbers.
-   * vectors: siteCount x 3 numbers.
+   * sites: [siteCount].
+   * vectors: [siteCount x 3].
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
    */
   setVectors(sites: Rows, vectors: Rows): void;
   /**
-   * Turns constraint i by anglesi numbers radians, counter-clockwise seen from outside. Does not factorise.
+   * Turns constraint i by angles[i] radians, counter-clockwise seen from outside. Does not factorise.
    *
-   * sites: siteCount numbers.
-   * angles: siteCount numbers.
+   * sites: [siteCount].
+   * angles: [siteCount].
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
    */
@@ -1668,7 +1665,7 @@ export interface Direction extends Recorded {
    * degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors;
    * vertices that no constraint reaches get 0.
    *
-   * out: vertexCount x 3 numbers.
+   * out: [vertexCount x 3].
    * info: filled in when given
    *
    * Throws HF_ERROR_EMPTY.
@@ -1717,10 +1714,10 @@ export interface Pose extends Recorded {
    * you move the handle. Handles of lower layers hold the surface in place for the higher layers.
    *
    * regionVertices: lists of whole numbers: all regions one after the other; null: points are given
-   * points: handleCount x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-
-   *     connected to it within the radius. null: regions are given
-   * radii: handleCount numbers of the regions of points, in the unit of the mesh; null: regions are given. A
-   *     radius below 1 % of the box makes regions of 2 vertices or more
+   * points: [handleCount x 3] at rest. The region is the vertex nearest to the point and what is edge-connected to
+   *     it within the radius. null: regions are given
+   * radii: [handleCount] of the regions of points, in the unit of the mesh; null: regions are given. A radius
+   *     below 1 % of the box makes regions of 2 vertices or more
    * layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
    * inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
    * freeRotation: 1: you give the places of the handles only; see Pose.setFreeRotations
@@ -1735,7 +1732,7 @@ export interface Pose extends Recorded {
    * Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
    * edge-connected to it within `radius` of the point.
    *
-   * point: 3 numbers.
+   * point: [3].
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
    * HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -1746,7 +1743,7 @@ export interface Pose extends Recorded {
    * bit, as if the handle had never been added. On layer 0 this holds when you remove the handles that were added
    * last, and for frames with `restart`.
    *
-   * handles: handleCount numbers.
+   * handles: [handleCount].
    *
    * Throws HF_ERROR_NOT_FOUND.
    */
@@ -1757,7 +1754,7 @@ export interface Pose extends Recorded {
    * layers give the handle. Rotations continue from call to call, so a handle that you dragged past 180 degrees
    * stays turned that far. The transforms take effect at the next Pose.deform.
    *
-   * handles: handleCount numbers.
+   * handles: [handleCount].
    * rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
    * translations: up to 1e15 box diagonals
    *
@@ -1786,7 +1783,7 @@ export interface Pose extends Recorded {
    * handle alone in its component keeps the rotation it has. restart also starts free rotations anew. refine keeps
    * the rotation of the smooth pose.
    *
-   * handles: handleCount numbers.
+   * handles: [handleCount].
    * freeRotation: 1: the solve finds the rotations; 0: you give them.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
@@ -1795,10 +1792,10 @@ export interface Pose extends Recorded {
   /**
    * Places handles by 4 x 4 matrices M.
    *
-   * handles: handleCount numbers.
-   * matrices: handleCount x 16 numbers, column by column, elements 12 to 14 the translation. M takes a rest
-   *     position p to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes
-   *     the nearest rotation. Its last row must be 0 0 0 1.
+   * handles: [handleCount].
+   * matrices: [handleCount x 16], column by column, elements 12 to 14 the translation. M takes a rest position p
+   *     to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
+   *     rotation. Its last row must be 0 0 0 1.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND.
    */
@@ -1815,7 +1812,7 @@ export interface Pose extends Recorded {
    * Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
    * reaches, the fields of all handles sum to 1.
    *
-   * out: vertexCount numbers.
+   * out: [vertexCount].
    *
    * Throws HF_ERROR_NOT_FOUND.
    */
@@ -1835,8 +1832,8 @@ export interface Pose extends Recorded {
    *     more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
    * firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
    * vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-   * out: vertexCount x 3 numbers posed positions, or null
-   * normals: vertexCount x 3 numbers unit normals of the posed surface, shared across seams, or null
+   * out: [vertexCount x 3] posed positions, or null
+   * normals: [vertexCount x 3] unit normals of the posed surface, shared across seams, or null
    * info: filled in when given
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
@@ -1854,7 +1851,7 @@ export interface Pose extends Recorded {
    * twists replay within 1 per cent and stretched surfaces within about 2.5 per cent.
    *
    * influenceCount: joints per vertex, 4 or 8; 0 = 4
-   * scales: jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid
+   * scales: [jointCapacity x 3] along the axes in the last frame; null = joints are rigid
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.
    */
@@ -1893,16 +1890,16 @@ export interface PoseClass {
  * place and stays there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to
  * four times the Euler characteristic. On a torus or a knot a single one of 5 is often lost.
  *
- * creaseEdges: creaseCount x 2 numbers the two vertices of each edge, as given
- * guideVertices: guideCount numbers as given; guides of one vertex are averaged
- * guideVectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector and
- *     across it
- * guideWeights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with that
- *     of the curvature, which has the rest of the weight
- * irregularPoints: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
- * irregularValences: irregularCount numbers how many quads meet there: 3 or 5
- * irregularDirections: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along it;
- *     0 0 0 = any
+ * creaseEdges: [creaseCount x 2] the two vertices of each edge, as given
+ * guideVertices: [guideCount] as given; guides of one vertex are averaged
+ * guideVectors: [guideCount x 3] along the surface, of any length above 0; quads run along the vector and across
+ *     it
+ * guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction, less mixes it with that of the
+ *     curvature, which has the rest of the weight
+ * irregularPoints: [irregularCount x 3] at the surface, in the unit and frame of the mesh
+ * irregularValences: [irregularCount] how many quads meet there: 3 or 5
+ * irregularDirections: null = any, or [irregularCount x 3]: one side of the irregular vertex runs along it; 0 0 0
+ *     = any
  * faceCount: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
  * edgeLength: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
  * creaseAngle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
@@ -1925,16 +1922,16 @@ export interface Quads extends Handle {
    * belongs to them is made again. After an error `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until
    * `quads` is destroyed.
    *
-   * creaseEdges: creaseCount x 2 numbers the two vertices of each edge, as given
-   * guideVertices: guideCount numbers as given; guides of one vertex are averaged
-   * guideVectors: guideCount x 3 numbers along the surface, of any length above 0; quads run along the vector and
-   *     across it
-   * guideWeights: null = all 1, or guideCount numbers, above 0 to 1: 1 holds the direction, less mixes it with
-   *     that of the curvature, which has the rest of the weight
-   * irregularPoints: irregularCount x 3 numbers at the surface, in the unit and frame of the mesh
-   * irregularValences: irregularCount numbers how many quads meet there: 3 or 5
-   * irregularDirections: null = any, or irregularCount x 3 numbers: one side of the irregular vertex runs along
-   *     it; 0 0 0 = any
+   * creaseEdges: [creaseCount x 2] the two vertices of each edge, as given
+   * guideVertices: [guideCount] as given; guides of one vertex are averaged
+   * guideVectors: [guideCount x 3] along the surface, of any length above 0; quads run along the vector and across
+   *     it
+   * guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction, less mixes it with that of
+   *     the curvature, which has the rest of the weight
+   * irregularPoints: [irregularCount x 3] at the surface, in the unit and frame of the mesh
+   * irregularValences: [irregularCount] how many quads meet there: 3 or 5
+   * irregularDirections: null = any, or [irregularCount x 3]: one side of the irregular vertex runs along it; 0 0
+   *     0 = any
    * faceCount: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
    * edgeLength: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
    * creaseAngle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
@@ -1977,7 +1974,7 @@ export interface Flow extends Handle {
    * HF_OPERATOR_CLAMPED the lines are denser where the field is steeper. Surface.traceIsolines gives the lines
    * that cross the streamlines.
    *
-   * seeds: seedCount numbers vertices as given
+   * seeds: [seedCount] vertices as given
    * wantedCount: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
@@ -1993,8 +1990,8 @@ export interface FlowClass {
  *
  * Creates a region without vertices.
  *
- * positions: vertexCount x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or any pose
- *     of them. null: the mesh's own to 1e-15 of the box. Copied
+ * positions: [vertexCount x 3] the surface of weight 0, bit for bit: the positions of the mesh or any pose of
+ *     them. null: the mesh's own to 1e-15 of the box. Copied
  * base: HF_BASE_*. If the surface has no factor for it yet, it is made now
  * progress: an object to poll and cancel through
  */
@@ -2012,8 +2009,8 @@ export interface Region extends Recorded {
    * factor that its vertices need. A region may have several pieces, in several components. Progress covers curve,
    * sites and base; the call can be cancelled between them.
    *
-   * removeVertices: removeCount numbers vertices that leave the region; others are passed over
-   * addVertices: addCount numbers vertices that join it; those in it already are passed over
+   * removeVertices: [removeCount] vertices that leave the region; others are passed over
+   * addVertices: [addCount] vertices that join it; those in it already are passed over
    * ringCount: rings of vertices by which the region grows; below 0 it shrinks
    * curve: the region becomes what this curve encloses
    * progress: an object to poll and cancel through
@@ -2044,8 +2041,8 @@ export interface Region extends Recorded {
    * solves nothing.
    *
    * weight: any finite number
-   * out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
-   * normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+   * out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
+   * normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
    */
@@ -2069,8 +2066,8 @@ export interface RegionClass {
  *     offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades
  *     to nothing at the rim. If source and target are the same region, the result is the surface itself. Later
  *     edits of the regions do not change the object.
- * sourceVertices: pairCount numbers rim vertices of the source, as given
- * targetVertices: pairCount numbers rim vertices of the target, as given
+ * sourceVertices: [pairCount] rim vertices of the source, as given
+ * targetVertices: [pairCount] rim vertices of the target, as given
  * scale: of the detail, > 0; 0 = square root of target base area over source base area
  * progress: an object to poll and cancel through
  */
@@ -2082,8 +2079,8 @@ export interface Detail extends Handle {
    * as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
    *
    * weight: any finite number
-   * out: vertexCount x 3 numbers in the unit and frame of the mesh as given, or null
-   * normals: vertexCount x 3 numbers unit normals of the morphed surface, shared across seams, or null
+   * out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
+   * normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
    */
@@ -2100,9 +2097,9 @@ export interface DetailClass {
  *
  * Pairs the joints of two skeletons.
  *
- * sourceRest: source.jointCount x 10 numbers a pose that counts as rest, or null: the rest of the skeleton. Give
- *     poses in which both characters stand alike
- * targetRest: target.jointCount x 10 numbers the same for the target, or null
+ * sourceRest: [source.jointCount x 10] a pose that counts as rest, or null: the rest of the skeleton. Give poses
+ *     in which both characters stand alike
+ * targetRest: [target.jointCount x 10] the same for the target, or null
  * rootMotion: HF_ROOT_MOTION_*
  * leaveOut: bits of HF_RETARGET_*
  * scale: travel of the target over travel of the source; 0: the ratio of leg lengths
@@ -2119,7 +2116,7 @@ export interface Retarget extends Recorded {
    * each is planted, and how far it is moved to keep its place. The state comes from the frames since the last
    * reset and fades within a step.
    *
-   * sourcePose: source.jointCount x 10 numbers.
+   * sourcePose: [source.jointCount x 10].
    * seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
@@ -2149,17 +2146,16 @@ export interface RetargetClass {
  * feet shall stand on the ground. The object keeps a copy of everything.
  *
  * names: one line for each joint in UTF-8, or null: names then say nothing
- * parents: jointCount numbers number of the parent, constants.HF_NO_INDEX for a root
- * rest: jointCount x 10 numbers joint transforms
- * inverseBinds: jointCount x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
- *     names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`, and all
- *     joints bend it
- * up: 3 numbers declared axis, any length, or null: find it
- * forward: 3 numbers declared axis, any length, or null: find it
- * roles: jointCount numbers declared HF_ROLE_*, -1 for a joint without; or null
- * sides: jointCount numbers HF_SIDE_* of joints with a declared role; or null: find the sides
- * travels: travelCount x 3 numbers where each clip leads from its first to its last frame; it tells forward; or
- *     null
+ * parents: [jointCount] number of the parent, constants.HF_NO_INDEX for a root
+ * rest: [jointCount x 10] joint transforms
+ * inverseBinds: [jointCount x 16] inverse bind matrices, columns first, all zero for a joint that no skin names:
+ *     it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`, and all joints
+ *     bend it
+ * up: [3] declared axis, any length, or null: find it
+ * forward: [3] declared axis, any length, or null: find it
+ * roles: [jointCount] declared HF_ROLE_*, -1 for a joint without; or null
+ * sides: [jointCount] HF_SIDE_* of joints with a declared role; or null: find the sides
+ * travels: [travelCount x 3] where each clip leads from its first to its last frame; it tells forward; or null
  * skin: null: there is none, and joints are judged by names and places alone
  * progress: an object to poll and cancel through
  */
@@ -2169,7 +2165,7 @@ export interface Skeleton extends Handle {
    * Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
    * It is 0 for a clip that travels.
    *
-   * poses: frameCount x jointCount x 10 numbers.
+   * poses: [frameCount x jointCount x 10].
    * seconds: between two frames, above 0.
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
@@ -2203,10 +2199,10 @@ export interface SkeletonClass {
  *
  * Creates a transfer between two surfaces; both may be the same.
  *
- * sourceRest: source.vertexCount x 3 numbers, or null Poses in which the two bodies correspond, in each surface's
- *     unit, read by the call, or null for the positions of the surface. A character bound in a crouch gets a
- *     standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
- * targetRest: target.vertexCount x 3 numbers, or null
+ * sourceRest: [source.vertexCount x 3], or null Poses in which the two bodies correspond, in each surface's unit,
+ *     read by the call, or null for the positions of the surface. A character bound in a crouch gets a standing
+ *     pose here. Motion counts from these poses; the fields stay those of the surfaces.
+ * targetRest: [target.vertexCount x 3], or null
  * mode: HF_TRANSFER_*
  * clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
  * ground: HF_GROUND_*
@@ -2227,7 +2223,7 @@ export interface Transfer extends Handle {
    * sourceVertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries
    *     per vertex
    * targetVertices: lists of whole numbers:
-   * flags: pairCount numbers HF_PAIR_*, or null for none
+   * flags: [pairCount] HF_PAIR_*, or null for none
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -2238,7 +2234,7 @@ export interface Transfer extends Handle {
   /**
    * Removes pairs by number.
    *
-   * pairs: pairCount numbers.
+   * pairs: [pairCount].
    *
    * Throws HF_ERROR_NOT_FOUND.
    */
@@ -2295,11 +2291,11 @@ export interface Transfer extends Handle {
    * lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
    * unchanged. All rules of the ground come in continuously. HF_GROUND_OFF switches them off.
    *
-   * sourcePositions: source.vertexCount x 3 numbers the posed source, its own vertex order
-   * holdPairs: holdCount numbers each pair at most once
-   * holdPositions: holdCount x 3 numbers in the target's unit and frame
-   * out: target.vertexCount x 3 numbers, or null
-   * targetNormals: target.vertexCount x 3 numbers, or null
+   * sourcePositions: [source.vertexCount x 3] the posed source, its own vertex order
+   * holdPairs: [holdCount] each pair at most once
+   * holdPositions: [holdCount x 3] in the target's unit and frame
+   * out: [target.vertexCount x 3], or null
+   * targetNormals: [target.vertexCount x 3], or null
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE,
    * HF_ERROR_UNSUPPORTED.
@@ -2317,7 +2313,7 @@ export interface Transfer extends Handle {
    * replays Transfer.apply exactly, because that function also uses the four largest weights.
    *
    * influenceCount: joints per vertex, 4 or 8; 0 = 4
-   * scales: jointCapacity x 3 numbers along the axes in the last frame; null = joints are rigid
+   * scales: [jointCapacity x 3] along the axes in the last frame; null = joints are rigid
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.
    */
@@ -2333,15 +2329,15 @@ export interface TransferClass {
  *
  * Computes weights.
  *
- * heads: jointCount x 3 numbers
- * tails: jointCount x 3 numbers, or null: heads are joints, and the library finds the tails
- * axes: jointCount x 3 numbers with tails null: where each joint points, any length, 0 for unknown; or null. A
- *     joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says
- *     where a last joint ends
- * parents: jointCount numbers number of the parent, constants.HF_NO_INDEX for a root; null: all are roots
- * deforms: jointCount numbers 1: the joint gets weights; null: all do
- * sources: jointCount numbers for Weights.setJoints: the number that the joint had before, constants.HF_NO_INDEX
- *     for a new one; null: the same number. Weights: null
+ * heads: [jointCount x 3]
+ * tails: [jointCount x 3], or null: heads are joints, and the library finds the tails
+ * axes: [jointCount x 3] with tails null: where each joint points, any length, 0 for unknown; or null. A joint
+ *     reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a
+ *     last joint ends
+ * parents: [jointCount] number of the parent, constants.HF_NO_INDEX for a root; null: all are roots
+ * deforms: [jointCount] 1: the joint gets weights; null: all do
+ * sources: [jointCount] for Weights.setJoints: the number that the joint had before, constants.HF_NO_INDEX for a
+ *     new one; null: the same number. Weights: null
  * progress: an object to poll and cancel through
  * influenceCount: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has none,
  *     it is made now. Sets *weights to null first.
@@ -2356,15 +2352,15 @@ export interface Weights extends Recorded {
   /**
    * Replaces all
    *
-   * heads: jointCount x 3 numbers
-   * tails: jointCount x 3 numbers, or null: heads are joints, and the library finds the tails
-   * axes: jointCount x 3 numbers with tails null: where each joint points, any length, 0 for unknown; or null. A
-   *     joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says
-   *     where a last joint ends
-   * parents: jointCount numbers number of the parent, constants.HF_NO_INDEX for a root; null: all are roots
-   * deforms: jointCount numbers 1: the joint gets weights; null: all do
-   * sources: jointCount numbers for Weights.setJoints: the number that the joint had before, constants.HF_NO_INDEX
-   *     for a new one; null: the same number. Weights: null
+   * heads: [jointCount x 3]
+   * tails: [jointCount x 3], or null: heads are joints, and the library finds the tails
+   * axes: [jointCount x 3] with tails null: where each joint points, any length, 0 for unknown; or null. A joint
+   *     reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a
+   *     last joint ends
+   * parents: [jointCount] number of the parent, constants.HF_NO_INDEX for a root; null: all are roots
+   * deforms: [jointCount] 1: the joint gets weights; null: all do
+   * sources: [jointCount] for Weights.setJoints: the number that the joint had before, constants.HF_NO_INDEX for a
+   *     new one; null: the same number. Weights: null
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT,
@@ -2375,14 +2371,12 @@ export interface Weights extends Recorded {
    * Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
    * disc. Pins at the same places with other weights cost no path.
    *
-   * vertices: pinCount numbers vertices as given, or null
-   * triangles: pinCount numbers triangles as given, or null
-   * barycentrics: pinCount x 3 numbers with triangles, else null: weights of the corners, >= 0, of sum 1 within
-   *     1e-6
-   * radii: pinCount numbers of the geodesic disc around the place, in the unit of the mesh; null or 0: the place
-   *     alone
-   * joints: pinCount x influenceCount numbers joints
-   * weights: pinCount x influenceCount numbers >= 0, scaled to the sum 1
+   * vertices: [pinCount] vertices as given, or null
+   * triangles: [pinCount] triangles as given, or null
+   * barycentrics: [pinCount x 3] with triangles, else null: weights of the corners, >= 0, of sum 1 within 1e-6
+   * radii: [pinCount] of the geodesic disc around the place, in the unit of the mesh; null or 0: the place alone
+   * joints: [pinCount x influenceCount] joints
+   * weights: [pinCount x influenceCount] >= 0, scaled to the sum 1
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT,
@@ -2394,9 +2388,9 @@ export interface Weights extends Recorded {
    * Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0
    * unlocks.
    *
-   * joints: lockCount numbers.
-   * values: vertexCount x lockCount numbers weights to keep, 0 to 1, or null for the present ones. Welded copies
-   *     take the values of the first. Pinned vertices keep the weights of their pins.
+   * joints: [lockCount].
+   * values: [vertexCount x lockCount] weights to keep, 0 to 1, or null for the present ones. Welded copies take
+   *     the values of the first. Pinned vertices keep the weights of their pins.
    *
    * Throws HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
    */
@@ -2434,8 +2428,8 @@ export interface WeightsClass {
    * harmonic field fills in the vertices without such a point. A piece without any takes the weights of the
    * nearest points.
    *
-   * joints: source.vertexCount x sourceInfluenceCount numbers
-   * weights: source.vertexCount x sourceInfluenceCount numbers >= 0; a vertex whose weights are all 0 gives none
+   * joints: [source.vertexCount x sourceInfluenceCount]
+   * weights: [source.vertexCount x sourceInfluenceCount] >= 0; a vertex whose weights are all 0 gives none
    * distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
    * angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
    * influenceCount: joints of each vertex in the result: 4 or 8; 0: 4
@@ -2453,12 +2447,12 @@ export interface WeightsClass {
    * fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a
    * positive largest component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x.
    *
-   * heads: jointCount x 3 numbers the joints at rest, in the frame of the mesh
+   * heads: [jointCount x 3] the joints at rest, in the frame of the mesh
    * names: one line for each joint in UTF-8, or null: joints are paired by their places
-   * partners: jointCount numbers the joint of the other side, constants.HF_NO_INDEX: find it; or null
-   * plane: 6 numbers a point and a normal, or null: find the plane
-   * joints: vertexCount x sourceInfluenceCount numbers
-   * weights: vertexCount x sourceInfluenceCount numbers >= 0; a vertex whose weights are all 0 gives none
+   * partners: [jointCount] the joint of the other side, constants.HF_NO_INDEX: find it; or null
+   * plane: [6] a point and a normal, or null: find the plane
+   * joints: [vertexCount x sourceInfluenceCount]
+   * weights: [vertexCount x sourceInfluenceCount] >= 0; a vertex whose weights are all 0 gives none
    * to: HF_MIRROR_*
    * distance: as in hf_weights_transfer_desc
    * angle: as in hf_weights_transfer_desc

@@ -24,18 +24,18 @@ impl<'a> Factor<'a> {
 /// piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Links<'a> {
-    /// vertex_count x influence_count numbers of a skin: pieces of the same joint link sooner
+    /// `[vertex_count x influence_count]` of a skin: pieces of the same joint link sooner
     pub joints: Option<&'a [u16]>,
-    /// vertex_count x influence_count numbers of sum 1; where all are 0, a vertex shares no joint
+    /// `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
     pub weights: Option<&'a [f32]>,
-    /// vertex_count numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
+    /// `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
     /// counts
     pub tags: Option<&'a [u32]>,
-    /// link_count numbers
+    /// `[link_count]`
     pub links: Option<&'a [raw::hf_link]>,
-    /// light_count numbers: their pieces are light
+    /// `[light_count]`: their pieces are light
     pub light_vertices: Option<&'a [u32]>,
-    /// heavy_count numbers: their pieces are not, as one that gets a site or handle
+    /// `[heavy_count]`: their pieces are not, as one that gets a site or handle
     pub heavy_vertices: Option<&'a [u32]>,
     /// `HF_LINK_*`
     pub mode: i32,
@@ -91,12 +91,12 @@ impl<'a> Links<'a> {
 /// triangle, it names the face then. Normals of poses are sums of the area vectors of faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceOptions<'a> {
-    /// face_count numbers first corner of each face. `None`: the faces follow one another. Without face_sizes face_count
-    /// + 1 numbers: the corners of face f end where those of f + 1 start
+    /// `[face_count]` first corner of each face. `None`: the faces follow one another. Without face_sizes `[face_count +
+    /// 1]`: the corners of face f end where those of f + 1 start
     pub face_starts: Option<&'a [u32]>,
-    /// face_count numbers corners of each face, 3 to 65,535. `None`: face_starts is enough
+    /// `[face_count]` corners of each face, 3 to 65,535. `None`: face_starts is enough
     pub face_sizes: Option<&'a [u32]>,
-    /// corner_count numbers vertices, counter-clockwise seen from outside
+    /// `[corner_count]` vertices, counter-clockwise seen from outside
     pub corners: Option<&'a [u32]>,
     /// `HF_WELD_*`
     pub weld: i32,
@@ -183,8 +183,8 @@ impl<'a> SurfaceOptions<'a> {
 /// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of [`SurfaceOptions`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GraphOptions<'a> {
-    /// vertex_count numbers M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100; `None`: all 1. A mass
-    /// below 1e-4 of the mean of its component counts as that
+    /// `[vertex_count]` M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100; `None`: all 1. A mass below
+    /// 1e-4 of the mean of its component counts as that
     pub masses: Option<&'a [f64]>,
     /// >= 1, also without masses
     pub vertex_count: u32,
@@ -265,7 +265,7 @@ impl Gaps {
 /// Options of picking: posed positions, if the surface is not at rest, and which triangles count.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PickOptions<'a> {
-    /// vertex_count x 3 numbers posed positions (Pose.deform writes them), or `None`
+    /// `[vertex_count x 3]` posed positions (Pose.deform writes them), or `None`
     pub positions: Option<Reals<'a>>,
     /// 1: a ray passes triangles seen from behind
     pub front_only: bool,
@@ -335,21 +335,21 @@ impl<'a> SolverOptions<'a> {
 /// the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sites<'a> {
-    /// site_count numbers vertices as given, or `None`
+    /// `[site_count]` vertices as given, or `None`
     pub vertices: Option<&'a [u32]>,
-    /// site_count x channel_count numbers, up to 1e200 in size; `None` = 0
+    /// `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
     pub values: Option<&'a [f64]>,
-    /// site_count numbers triangles (or faces of three corners) as given, or `None`
+    /// `[site_count]` triangles (or faces of three corners) as given, or `None`
     pub triangles: Option<&'a [u32]>,
-    /// site_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
+    /// `[site_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
     pub barycentrics: Option<&'a [f64]>,
-    /// site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped to 1e-12
-    /// to 1e12
+    /// `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped to 1e-12 to
+    /// 1e12
     pub stiffness: Option<&'a [f64]>,
-    /// site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
+    /// `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
     pub radii: Option<&'a [f64]>,
-    /// site_count x 3 numbers three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face of
-    /// more corners this places a site in a triangle of them
+    /// `[site_count x 3]` three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face of more
+    /// corners this places a site in a triangle of them
     pub corners: Option<&'a [u32]>,
 }
 impl<'a> Sites<'a> {
@@ -371,15 +371,15 @@ impl<'a> Sites<'a> {
 /// One batch of edits, applied in the order remove, move, set, add. A count of 0 skips its part.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Edit<'a> {
-    /// remove_count numbers
+    /// `[remove_count]`
     pub remove_sites: Option<&'a [u32]>,
-    /// move_count numbers
+    /// `[move_count]`
     pub move_sites: Option<&'a [u32]>,
-    /// set_count numbers
+    /// `[set_count]`
     pub set_sites: Option<&'a [u32]>,
-    /// set_count x channel_count numbers
+    /// `[set_count x channel_count]`
     pub set_values: Option<&'a [f64]>,
-    /// `None`, or places of move_count numbers sites
+    /// `None`, or places of `[move_count]` sites
     pub move_to: Option<Sites<'a>>,
     /// `None`, or the sites to add
     pub add: Option<Sites<'a>>,
@@ -544,11 +544,11 @@ impl PoseOptions {
 /// The handles to add. Give their regions as vertex lists one after the other, or as points with radii.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HandlesOptions<'a> {
-    /// handle_count x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-connected to it
+    /// `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to it
     /// within the radius. `None`: regions are given
     pub points: Option<&'a [f64]>,
-    /// handle_count numbers of the regions of points, in the unit of the mesh; `None`: regions are given. A radius below
-    /// 1 % of the box makes regions of 2 vertices or more
+    /// `[handle_count]` of the regions of points, in the unit of the mesh; `None`: regions are given. A radius below 1 %
+    /// of the box makes regions of 2 vertices or more
     pub radii: Option<&'a [f64]>,
     /// 0 to HF_LAYER_COUNT - 1, for the whole batch
     pub layer: u32,
@@ -636,9 +636,9 @@ impl DeformOptions {
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HandleProposalsOptions<'a> {
-    /// joint_count x 3 numbers their places at rest, in the unit and frame of the mesh
+    /// `[joint_count x 3]` their places at rest, in the unit and frame of the mesh
     pub joints: Option<&'a [f64]>,
-    /// joint_count numbers position of each joint's parent in the list; [`raw::HF_NO_INDEX`] for a root
+    /// `[joint_count]` position of each joint's parent in the list; [`raw::HF_NO_INDEX`] for a root
     pub parents: Option<&'a [u32]>,
     /// direction away from the ground, of any length; 0 0 0 = 0 1 0
     pub up: Option<[f64; 3]>,
@@ -676,20 +676,20 @@ impl<'a> HandleProposalsOptions<'a> {
 /// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QuadsOptions<'a> {
-    /// crease_count x 2 numbers the two vertices of each edge, as given
+    /// `[crease_count x 2]` the two vertices of each edge, as given
     pub crease_edges: Option<&'a [u32]>,
-    /// guide_count numbers as given; guides of one vertex are averaged
+    /// `[guide_count]` as given; guides of one vertex are averaged
     pub guide_vertices: Option<&'a [u32]>,
-    /// guide_count x 3 numbers along the surface, of any length above 0; quads run along the vector and across it
+    /// `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across it
     pub guide_vectors: Option<&'a [f64]>,
-    /// `None` = all 1, or guide_count numbers, above 0 to 1: 1 holds the direction, less mixes it with that of the
-    /// curvature, which has the rest of the weight
+    /// `None` = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of the curvature,
+    /// which has the rest of the weight
     pub guide_weights: Option<&'a [f32]>,
-    /// irregular_count x 3 numbers at the surface, in the unit and frame of the mesh
+    /// `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
     pub irregular_points: Option<&'a [f64]>,
-    /// irregular_count numbers how many quads meet there: 3 or 5
+    /// `[irregular_count]` how many quads meet there: 3 or 5
     pub irregular_valences: Option<&'a [u32]>,
-    /// `None` = any, or irregular_count x 3 numbers: one side of the irregular vertex runs along it; 0 0 0 = any
+    /// `None` = any, or `[irregular_count x 3]`: one side of the irregular vertex runs along it; 0 0 0 = any
     pub irregular_directions: Option<&'a [f64]>,
     /// wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
     pub face_count: u32,
@@ -747,8 +747,8 @@ impl<'a> QuadsOptions<'a> {
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RegionOptions<'a> {
-    /// vertex_count x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or any pose of them.
-    /// `None`: the mesh's own to 1e-15 of the box. Copied
+    /// `[vertex_count x 3]` the surface of weight 0, bit for bit: the positions of the mesh or any pose of them. `None`:
+    /// the mesh's own to 1e-15 of the box. Copied
     pub positions: Option<Reals<'a>>,
     /// `HF_BASE_*`. If the surface has no factor for it yet, it is made now
     pub base: i32,
@@ -780,13 +780,13 @@ impl<'a> RegionOptions<'a> {
 /// border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Curve<'a> {
-    /// point_count numbers vertices as given, or `None`
+    /// `[point_count]` vertices as given, or `None`
     pub vertices: Option<&'a [u32]>,
-    /// point_count numbers triangles (or faces of three corners) as given, or `None`
+    /// `[point_count]` triangles (or faces of three corners) as given, or `None`
     pub triangles: Option<&'a [u32]>,
-    /// point_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
+    /// `[point_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
     pub barycentrics: Option<&'a [f64]>,
-    /// point_count x 3 numbers three vertices of one face, as [`raw::hf_hit`] has them, or `None`
+    /// `[point_count x 3]` three vertices of one face, as [`raw::hf_hit`] has them, or `None`
     pub corners: Option<&'a [u32]>,
     /// `HF_SIDE_*`
     pub side: i32,
@@ -824,9 +824,9 @@ impl<'a> Curve<'a> {
 /// skipped.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RegionEditOptions<'a> {
-    /// remove_count numbers vertices that leave the region; others are passed over
+    /// `[remove_count]` vertices that leave the region; others are passed over
     pub remove_vertices: Option<&'a [u32]>,
-    /// add_count numbers vertices that join it; those in it already are passed over
+    /// `[add_count]` vertices that join it; those in it already are passed over
     pub add_vertices: Option<&'a [u32]>,
     /// rings of vertices by which the region grows; below 0 it shrinks
     pub ring_count: i32,
@@ -876,9 +876,9 @@ impl MorphOptions {
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DetailOptions<'a> {
-    /// pair_count numbers rim vertices of the source, as given
+    /// `[pair_count]` rim vertices of the source, as given
     pub source_vertices: Option<&'a [u32]>,
-    /// pair_count numbers rim vertices of the target, as given
+    /// `[pair_count]` rim vertices of the target, as given
     pub target_vertices: Option<&'a [u32]>,
     /// of the detail, > 0; 0 = square root of target base area over source base area
     pub scale: f64,
@@ -909,10 +909,10 @@ impl<'a> DetailOptions<'a> {
 /// Options of a retarget. `None` in `Retarget::new` gives the defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RetargetOptions<'a> {
-    /// source.joint_count x 10 numbers a pose that counts as rest, or `None`: the rest of the skeleton. Give poses in
-    /// which both characters stand alike
+    /// `[source.joint_count x 10]` a pose that counts as rest, or `None`: the rest of the skeleton. Give poses in which
+    /// both characters stand alike
     pub source_rest: Option<&'a [f32]>,
-    /// target.joint_count x 10 numbers the same for the target, or `None`
+    /// `[target.joint_count x 10]` the same for the target, or `None`
     pub target_rest: Option<&'a [f32]>,
     /// `HF_ROOT_MOTION_*`
     pub root_motion: i32,
@@ -953,13 +953,13 @@ impl<'a> RetargetOptions<'a> {
 /// The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Skin<'a> {
-    /// vertex_count x 3 numbers
+    /// `[vertex_count x 3]`
     pub positions: Option<&'a [f32]>,
-    /// triangle_count x 3 numbers, or `None` with triangle_count 0
+    /// `[triangle_count x 3]`, or `None` with triangle_count 0
     pub triangles: Option<&'a [u32]>,
-    /// vertex_count x influence_count numbers
+    /// `[vertex_count x influence_count]`
     pub joints: Option<&'a [u32]>,
-    /// vertex_count x influence_count numbers >= 0; a vertex whose weights are all 0 has no joint
+    /// `[vertex_count x influence_count]` >= 0; a vertex whose weights are all 0 has no joint
     pub weights: Option<&'a [f32]>,
 }
 impl<'a> Skin<'a> {
@@ -983,18 +983,18 @@ impl<'a> Skin<'a> {
 /// x y z w, scale x y z.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SkeletonOptions<'a> {
-    /// joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
+    /// `[joint_count x 16]` inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
     /// children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all joints bend it
     pub inverse_binds: Option<&'a [f32]>,
-    /// 3 numbers declared axis, any length, or `None`: find it
+    /// `[3]` declared axis, any length, or `None`: find it
     pub up: Option<&'a [f32]>,
-    /// 3 numbers declared axis, any length, or `None`: find it
+    /// `[3]` declared axis, any length, or `None`: find it
     pub forward: Option<&'a [f32]>,
-    /// joint_count numbers declared `HF_ROLE_*`, -1 for a joint without; or `None`
+    /// `[joint_count]` declared `HF_ROLE_*`, -1 for a joint without; or `None`
     pub roles: Option<&'a [i32]>,
-    /// joint_count numbers `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
+    /// `[joint_count]` `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
     pub sides: Option<&'a [i32]>,
-    /// travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or `None`
+    /// `[travel_count x 3]` where each clip leads from its first to its last frame; it tells forward; or `None`
     pub travels: Option<&'a [f32]>,
     /// `None`: there is none, and joints are judged by names and places alone
     pub skin: Option<Skin<'a>>,
@@ -1029,11 +1029,11 @@ impl<'a> SkeletonOptions<'a> {
 /// most pairs of a transfer
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TransferOptions<'a> {
-    /// source.vertex_count x 3 numbers, or `None` Poses in which the two bodies correspond, in each surface's unit, read
-    /// by the call, or `None` for the positions of the surface. A character bound in a crouch gets a standing pose here.
+    /// `[source.vertex_count x 3]`, or `None` Poses in which the two bodies correspond, in each surface's unit, read by
+    /// the call, or `None` for the positions of the surface. A character bound in a crouch gets a standing pose here.
     /// Motion counts from these poses; the fields stay those of the surfaces.
     pub source_rest: Option<&'a [f32]>,
-    /// target.vertex_count x 3 numbers, or `None`
+    /// `[target.vertex_count x 3]`, or `None`
     pub target_rest: Option<&'a [f32]>,
     /// `HF_TRANSFER_*`
     pub mode: i32,
@@ -1156,9 +1156,9 @@ impl TransferDials {
 /// source_positions_f64, and at least one output. Strides are in bytes; 0 = packed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TransferFrame<'a> {
-    /// hold_count numbers each pair at most once
+    /// `[hold_count]` each pair at most once
     pub hold_pairs: Option<&'a [u32]>,
-    /// hold_count x 3 numbers in the target's unit and frame
+    /// `[hold_count x 3]` in the target's unit and frame
     pub hold_positions: Option<&'a [f64]>,
 }
 impl<'a> TransferFrame<'a> {
@@ -1178,20 +1178,20 @@ impl<'a> TransferFrame<'a> {
 /// The joints of a skeleton, in the unit and frame of the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Joints<'a> {
-    /// joint_count x 3 numbers
+    /// `[joint_count x 3]`
     pub heads: Option<&'a [f64]>,
-    /// joint_count x 3 numbers, or `None`: heads are joints, and the library finds the tails
+    /// `[joint_count x 3]`, or `None`: heads are joints, and the library finds the tails
     pub tails: Option<&'a [f64]>,
-    /// joint_count x 3 numbers with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A joint
+    /// `[joint_count x 3]` with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A joint
     /// reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a last
     /// joint ends
     pub axes: Option<&'a [f64]>,
-    /// joint_count numbers number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
+    /// `[joint_count]` number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
     pub parents: Option<&'a [u32]>,
-    /// joint_count numbers 1: the joint gets weights; `None`: all do
+    /// `[joint_count]` 1: the joint gets weights; `None`: all do
     pub deforms: Option<&'a [i32]>,
-    /// joint_count numbers for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`] for a
-    /// new one; `None`: the same number. `Weights::new`: `None`
+    /// `[joint_count]` for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`] for a new
+    /// one; `None`: the same number. `Weights::new`: `None`
     pub sources: Option<&'a [u32]>,
     /// `None`, or an object to poll and cancel through
     pub progress: Option<&'a Progress>,
@@ -1216,15 +1216,15 @@ impl<'a> Joints<'a> {
 /// its weights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pins<'a> {
-    /// pin_count numbers triangles as given, or `None`
+    /// `[pin_count]` triangles as given, or `None`
     pub triangles: Option<&'a [u32]>,
-    /// pin_count x 3 numbers with triangles, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
+    /// `[pin_count x 3]` with triangles, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
     pub barycentrics: Option<&'a [f64]>,
-    /// pin_count numbers of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place alone
+    /// `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place alone
     pub radii: Option<&'a [f64]>,
-    /// pin_count x influence_count numbers joints
+    /// `[pin_count x influence_count]` joints
     pub joints: Option<&'a [u32]>,
-    /// pin_count x influence_count numbers >= 0, scaled to the sum 1
+    /// `[pin_count x influence_count]` >= 0, scaled to the sum 1
     pub weights: Option<&'a [f32]>,
     /// `None`, or an object to poll and cancel through
     pub progress: Option<&'a Progress>,
@@ -1251,9 +1251,9 @@ impl<'a> Pins<'a> {
 /// Weights to transfer from one surface to another.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WeightsTransferOptions<'a> {
-    /// source.vertex_count x source_influence_count numbers
+    /// `[source.vertex_count x source_influence_count]`
     pub joints: Option<&'a [u32]>,
-    /// source.vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+    /// `[source.vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
     pub weights: Option<&'a [f32]>,
     /// a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
     pub distance: f64,
@@ -1294,17 +1294,17 @@ impl<'a> WeightsTransferOptions<'a> {
 /// Weights to mirror.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WeightsMirrorOptions<'a> {
-    /// joint_count x 3 numbers the joints at rest, in the frame of the mesh
+    /// `[joint_count x 3]` the joints at rest, in the frame of the mesh
     pub heads: Option<&'a [f64]>,
     /// one line for each joint in UTF-8, or `None`: joints are paired by their places
     pub names: Option<&'a [&'a str]>,
-    /// joint_count numbers the joint of the other side, [`raw::HF_NO_INDEX`]: find it; or `None`
+    /// `[joint_count]` the joint of the other side, [`raw::HF_NO_INDEX`]: find it; or `None`
     pub partners: Option<&'a [u32]>,
-    /// 6 numbers a point and a normal, or `None`: find the plane
+    /// `[6]` a point and a normal, or `None`: find the plane
     pub plane: Option<&'a [f64]>,
-    /// vertex_count x source_influence_count numbers
+    /// `[vertex_count x source_influence_count]`
     pub joints: Option<&'a [u32]>,
-    /// vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+    /// `[vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
     pub weights: Option<&'a [f32]>,
     /// `HF_MIRROR_*`
     pub to: i32,
@@ -1353,17 +1353,17 @@ impl<'a> WeightsMirrorOptions<'a> {
 /// large as its capacity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Isolines {
-    /// point_capacity x 2 numbers vertices a and b as given, of welded copies the first
+    /// `[point_capacity x 2]` vertices a and b as given, of welded copies the first
     pub point_edges: Vec<u32>,
-    /// point_capacity numbers 0 to 1
+    /// `[point_capacity]` 0 to 1
     pub parameters: Vec<f64>,
-    /// point_capacity x 3 numbers in the unit and frame of the mesh as given
+    /// `[point_capacity x 3]` in the unit and frame of the mesh as given
     pub positions: Vec<f64>,
-    /// line_capacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1
+    /// `[line_capacity + 1]` line i holds the points line_starts`[i]` to line_starts`[i + 1]` - 1
     pub line_starts: Vec<u32>,
-    /// line_capacity numbers position of its level in the list
+    /// `[line_capacity]` position of its level in the list
     pub line_levels: Vec<u32>,
-    /// line_capacity numbers 1: closed, the first point is not repeated; 0: ends at borders
+    /// `[line_capacity]` 1: closed, the first point is not repeated; 0: ends at borders
     pub line_closed: Vec<i32>,
 }
 
@@ -1371,20 +1371,20 @@ pub struct Isolines {
 /// are ordered by site number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SitesInfo {
-    /// capacity numbers numbers
+    /// `[capacity]` numbers
     pub sites: Vec<u32>,
-    /// capacity numbers the vertex given, [`raw::HF_NO_INDEX`] for a point in a triangle
+    /// `[capacity]` the vertex given, [`raw::HF_NO_INDEX`] for a point in a triangle
     pub vertices: Vec<u32>,
-    /// capacity numbers
+    /// `[capacity]`
     pub components: Vec<u32>,
-    /// capacity x channel_count numbers
+    /// `[capacity x channel_count]`
     pub values: Vec<f64>,
-    /// capacity numbers 0 = hard
+    /// `[capacity]` 0 = hard
     pub stiffness: Vec<f64>,
-    /// capacity x channel_count numbers lambda: what flows into the surface at the site, in value x weight; the sum over
-    /// a disc
+    /// `[capacity x channel_count]` lambda: what flows into the surface at the site, in value x weight; the sum over a
+    /// disc
     pub flux: Vec<f64>,
-    /// capacity numbers 0 = a point
+    /// `[capacity]` 0 = a point
     pub radii: Vec<f64>,
 }
 
@@ -1393,11 +1393,11 @@ pub struct SitesInfo {
 /// [`raw::HF_NO_INDEX`] for both. The arrays are yours: each is `None` or as large as the capacity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
-    /// point_capacity x 2 numbers vertices a and b as given, of welded copies the first
+    /// `[point_capacity x 2]` vertices a and b as given, of welded copies the first
     pub point_edges: Vec<u32>,
-    /// point_capacity numbers 0 to 1
+    /// `[point_capacity]` 0 to 1
     pub parameters: Vec<f64>,
-    /// point_capacity x 3 numbers in the unit and frame of the mesh as given
+    /// `[point_capacity x 3]` in the unit and frame of the mesh as given
     pub positions: Vec<f64>,
     /// in the unit of the mesh; -1: no path
     pub length: f64,
@@ -1412,19 +1412,19 @@ pub struct Path {
 /// and the inverse bind matrix takes p to B^-1 (p - pivot). The arrays are yours; each may be `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SkinInfo {
-    /// joint_capacity x 3 numbers rest centroid of what each joint moves
+    /// `[joint_capacity x 3]` rest centroid of what each joint moves
     pub pivots: Vec<f64>,
-    /// joint_capacity x 4 numbers quaternion x, y, z, w of the last frame
+    /// `[joint_capacity x 4]` quaternion x, y, z, w of the last frame
     pub rotations: Vec<f64>,
-    /// joint_capacity x 3 numbers posed place of the pivot
+    /// `[joint_capacity x 3]` posed place of the pivot
     pub translations: Vec<f64>,
-    /// joint_capacity x 4 numbers quaternion of B, fixed while handles stay
+    /// `[joint_capacity x 4]` quaternion of B, fixed while handles stay
     pub axes: Vec<f64>,
-    /// joint_capacity x 3 numbers along the axes in the last frame; `None` = joints are rigid
+    /// `[joint_capacity x 3]` along the axes in the last frame; `None` = joints are rigid
     pub scales: Vec<f64>,
-    /// vertex_capacity x influence_count numbers
+    /// `[vertex_capacity x influence_count]`
     pub vertex_joints: Vec<u32>,
-    /// vertex_capacity x influence_count numbers of sum 1, descending
+    /// `[vertex_capacity x influence_count]` of sum 1, descending
     pub vertex_weights: Vec<f32>,
     /// joints per vertex, 4 or 8; 0 = 4
     pub influence_count: u32,
@@ -1433,40 +1433,40 @@ pub struct SkinInfo {
 /// `Quads::mesh` writes the quad mesh to these arrays. They are yours: each is `None` or as large as its capacity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuadsMesh {
-    /// vertex_capacity x 3 numbers in the unit and frame of the mesh as given
+    /// `[vertex_capacity x 3]` in the unit and frame of the mesh as given
     pub positions: Vec<f64>,
-    /// face_capacity x 4 numbers vertices of each quad, counter-clockwise
+    /// `[face_capacity x 4]` vertices of each quad, counter-clockwise
     pub faces: Vec<u32>,
-    /// vertex_capacity numbers triangle or face as given that the vertex lies in
+    /// `[vertex_capacity]` triangle or face as given that the vertex lies in
     pub triangles: Vec<u32>,
-    /// vertex_capacity x 3 numbers weights of that triangle's corners, in its own order, of sum 1; in a face of more
-    /// corners the weights of `corners`
+    /// `[vertex_capacity x 3]` weights of that triangle's corners, in its own order, of sum 1; in a face of more corners
+    /// the weights of `corners`
     pub barycentrics: Vec<f64>,
-    /// vertex_capacity x 3 numbers vertices as given, of welded copies the first, that barycentrics belong to
+    /// `[vertex_capacity x 3]` vertices as given, of welded copies the first, that barycentrics belong to
     pub corners: Vec<u32>,
 }
 
 /// As the header says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Streamlines {
-    /// point_capacity x 3 numbers in the unit and frame of the mesh as given
+    /// `[point_capacity x 3]` in the unit and frame of the mesh as given
     pub positions: Vec<f64>,
-    /// point_capacity numbers of the field, rising along every line
+    /// `[point_capacity]` of the field, rising along every line
     pub values: Vec<f64>,
-    /// line_capacity + 1 numbers line i holds the points line_startsi numbers to line_startsi + 1 numbers - 1
+    /// `[line_capacity + 1]` line i holds the points line_starts`[i]` to line_starts`[i + 1]` - 1
     pub line_starts: Vec<u32>,
-    /// line_capacity x 2 numbers vertices where it starts and ends, of welded copies the first
+    /// `[line_capacity x 2]` vertices where it starts and ends, of welded copies the first
     pub line_ends: Vec<u32>,
 }
 
 /// Receives the weights. The arrays are yours; each may be `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WeightsOut {
-    /// vertex_capacity x influence_count numbers
+    /// `[vertex_capacity x influence_count]`
     pub joints: Vec<u32>,
-    /// vertex_capacity x influence_count numbers descending, of sum exactly 1
+    /// `[vertex_capacity x influence_count]` descending, of sum exactly 1
     pub weights: Vec<f32>,
-    /// vertex_capacity numbers `HF_WEIGHTS_*`
+    /// `[vertex_capacity]` `HF_WEIGHTS_*`
     pub origins: Vec<u8>,
     /// joints per vertex, 4 or 8
     pub influence_count: u32,
@@ -1527,12 +1527,12 @@ impl Surface {
     /// cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
     /// second side alone get opposite normals from poses, and a ray with front_only hits both sides.
     ///
-    /// positions: vertex_count x 3 numbers, any unit, any offset
-    /// triangles: triangle_count x 3 numbers, counter-clockwise seen from outside
-    /// face_starts: face_count numbers first corner of each face. `None`: the faces follow one another. Without
-    /// face_sizes face_count + 1 numbers: the corners of face f end where those of f + 1 start
-    /// face_sizes: face_count numbers corners of each face, 3 to 65,535. `None`: face_starts is enough
-    /// corners: corner_count numbers vertices, counter-clockwise seen from outside
+    /// positions: `[vertex_count x 3]`, any unit, any offset
+    /// triangles: `[triangle_count x 3]`, counter-clockwise seen from outside
+    /// face_starts: `[face_count]` first corner of each face. `None`: the faces follow one another. Without face_sizes
+    /// `[face_count + 1]`: the corners of face f end where those of f + 1 start
+    /// face_sizes: `[face_count]` corners of each face, 3 to 65,535. `None`: face_starts is enough
+    /// corners: `[corner_count]` vertices, counter-clockwise seen from outside
     /// weld: `HF_WELD_*`
     /// weld_tolerance: for [`raw::HF_WELD_TOLERANCE`], in the unit of the positions, > 0
     /// operator_kind: `HF_OPERATOR_*`
@@ -1574,11 +1574,11 @@ impl Surface {
     /// median of their component are limited; [`raw::hf_surface_report`] counts their vertices as changed. Bi-harmonic
     /// fields limit weights to 1e3 times the median.
     ///
-    /// edges: edge_count x 2 numbers vertices, in any order. The weights of parallel edges are added up. Self loops are
+    /// edges: `[edge_count x 2]` vertices, in any order. The weights of parallel edges are added up. Self loops are
     /// ignored
-    /// weights: edge_count numbers any unit, up to 1e100 in size. An edge of weight 0 is left out
-    /// masses: vertex_count numbers M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100; `None`: all 1.
-    /// A mass below 1e-4 of the mean of its component counts as that
+    /// weights: `[edge_count]` any unit, up to 1e100 in size. An edge of weight 0 is left out
+    /// masses: `[vertex_count]` M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100; `None`: all 1. A
+    /// mass below 1e-4 of the mean of its component counts as that
     /// vertex_count: >= 1, also without masses
     /// allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of tetrahedra
     /// do. A field can then leave the range of its sites. 0: they are refused
@@ -1698,7 +1698,7 @@ impl Surface {
     /// Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends
     /// are apart than at rest, and 0 if they are nearer.
     ///
-    /// positions: vertex_count x 3 numbers: of a pose, a frame of a transfer, or any other deformation
+    /// positions: `[vertex_count x 3]`: of a pose, a frame of a transfer, or any other deformation
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
@@ -1726,13 +1726,13 @@ impl Surface {
     /// Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old one
     /// where its matrix has the same pattern: other stiffness, weights or light pieces.
     ///
-    /// joints: vertex_count x influence_count numbers of a skin: pieces of the same joint link sooner
-    /// weights: vertex_count x influence_count numbers of sum 1; where all are 0, a vertex shares no joint
-    /// tags: vertex_count numbers: pieces with different tags do not link, as a rider and a horse. The first vertex of a
+    /// joints: `[vertex_count x influence_count]` of a skin: pieces of the same joint link sooner
+    /// weights: `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
+    /// tags: `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a
     /// piece counts
-    /// links: link_count numbers
-    /// light_vertices: light_count numbers: their pieces are light
-    /// heavy_vertices: heavy_count numbers: their pieces are not, as one that gets a site or handle
+    /// links: `[link_count]`
+    /// light_vertices: `[light_count]`: their pieces are light
+    /// heavy_vertices: `[heavy_count]`: their pieces are not, as one that gets a site or handle
     /// mode: `HF_LINK_*`
     /// distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
     /// stiffness: of all links, times each one's weight; 0 = 1
@@ -1786,9 +1786,9 @@ impl Surface {
 
     /// Finds what a mouse click hits: the first triangle on a ray.
     ///
-    /// origin: 3 numbers in the frame of the positions; the direction can have any length above 0.
-    /// direction: 3 numbers in the frame of the positions; the direction can have any length above 0.
-    /// positions: vertex_count x 3 numbers posed positions (Pose.deform writes them), or `None`
+    /// origin: `[3]` in the frame of the positions; the direction can have any length above 0.
+    /// direction: `[3]` in the frame of the positions; the direction can have any length above 0.
+    /// positions: `[vertex_count x 3]` posed positions (Pose.deform writes them), or `None`
     /// front_only: 1: a ray passes triangles seen from behind
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
@@ -1806,8 +1806,8 @@ impl Surface {
 
     /// Finds the vertex nearest to a point.
     ///
-    /// point: 3 numbers in the frame of the positions.
-    /// positions: vertex_count x 3 numbers posed positions (Pose.deform writes them), or `None`
+    /// point: `[3]` in the frame of the positions.
+    /// positions: `[vertex_count x 3]` posed positions (Pose.deform writes them), or `None`
     /// front_only: 1: a ray passes triangles seen from behind
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
@@ -1857,7 +1857,7 @@ impl Surface {
     /// function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is higher on
     /// the left of a line.
     ///
-    /// levels: level_count numbers.
+    /// levels: `[level_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -1951,7 +1951,7 @@ impl Surface {
     /// geodesics: for [`raw::HF_EXTREMITIES_GEODESIC`]: an object of this surface. If its method is
     /// [`raw::HF_GEODESICS_HEAT`] its factor serves; else, and for `None`, the call makes a factor
     /// progress: an object to poll and cancel through
-    /// field: vertex_count numbers, packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
+    /// field: `[vertex_count]`, packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
     /// (Poisson), length (geodesic), each up to a constant per component
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
@@ -1983,8 +1983,8 @@ impl Surface {
     /// first, then the others, each group by length, the longest first. The places do not depend on the order of the
     /// vertices. They follow translation and scale.
     ///
-    /// joints: joint_count x 3 numbers their places at rest, in the unit and frame of the mesh
-    /// parents: joint_count numbers position of each joint's parent in the list; [`raw::HF_NO_INDEX`] for a root
+    /// joints: `[joint_count x 3]` their places at rest, in the unit and frame of the mesh
+    /// parents: `[joint_count]` position of each joint's parent in the list; [`raw::HF_NO_INDEX`] for a root
     /// up: direction away from the ground, of any length; 0 0 0 = 0 1 0
     /// least_length_share: as in [`ExtremitiesOptions`]; 0 = 0.05
     /// limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
@@ -2070,16 +2070,16 @@ impl Solver {
 
     /// Adds sites.
     ///
-    /// vertices: site_count numbers vertices as given, or `None`
-    /// values: site_count x channel_count numbers, up to 1e200 in size; `None` = 0
-    /// triangles: site_count numbers triangles (or faces of three corners) as given, or `None`
-    /// barycentrics: site_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum
-    /// 1 within 1e-6
-    /// stiffness: site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard;
-    /// clamped to 1e-12 to 1e12
-    /// radii: site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
-    /// corners: site_count x 3 numbers three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a
-    /// face of more corners this places a site in a triangle of them
+    /// vertices: `[site_count]` vertices as given, or `None`
+    /// values: `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
+    /// triangles: `[site_count]` triangles (or faces of three corners) as given, or `None`
+    /// barycentrics: `[site_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1
+    /// within 1e-6
+    /// stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped
+    /// to 1e-12 to 1e12
+    /// radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
+    /// corners: `[site_count x 3]` three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face
+    /// of more corners this places a site in a triangle of them
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
@@ -2096,7 +2096,7 @@ impl Solver {
 
     /// Adds one hard site at a vertex.
     ///
-    /// values: channel_count numbers, or `None` for 0.
+    /// values: `[channel_count]`, or `None` for 0.
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
@@ -2114,7 +2114,7 @@ impl Solver {
     /// Removes sites by number. The field is 0 on a component that has no site left. If you add a site there again, the
     /// field is exact.
     ///
-    /// sites: site_count numbers.
+    /// sites: `[site_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2128,17 +2128,17 @@ impl Solver {
 
     /// Moves sites to new places. Each site keeps its number, value, stiffness and radius.
     ///
-    /// sites: site_count numbers.
-    /// vertices: site_count numbers vertices as given, or `None`
-    /// values: site_count x channel_count numbers, up to 1e200 in size; `None` = 0
-    /// triangles: site_count numbers triangles (or faces of three corners) as given, or `None`
-    /// barycentrics: site_count x 3 numbers with triangles or corners, else `None`: weights of the corners, >= 0, of sum
-    /// 1 within 1e-6
-    /// stiffness: site_count numbers >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard;
-    /// clamped to 1e-12 to 1e12
-    /// radii: site_count numbers >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
-    /// corners: site_count x 3 numbers three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a
-    /// face of more corners this places a site in a triangle of them
+    /// sites: `[site_count]`.
+    /// vertices: `[site_count]` vertices as given, or `None`
+    /// values: `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
+    /// triangles: `[site_count]` triangles (or faces of three corners) as given, or `None`
+    /// barycentrics: `[site_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1
+    /// within 1e-6
+    /// stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped
+    /// to 1e-12 to 1e12
+    /// radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
+    /// corners: `[site_count x 3]` three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face
+    /// of more corners this places a site in a triangle of them
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`],
@@ -2155,8 +2155,8 @@ impl Solver {
 
     /// Gives sites new values. The call costs nothing until the next solve.
     ///
-    /// sites: site_count numbers.
-    /// values: site_count x channel_count numbers.
+    /// sites: `[site_count]`.
+    /// values: `[site_count x channel_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2171,11 +2171,11 @@ impl Solver {
 
     /// Applies a batch of edits at once.
     ///
-    /// remove_sites: remove_count numbers
-    /// move_sites: move_count numbers
-    /// set_sites: set_count numbers
-    /// set_values: set_count x channel_count numbers
-    /// move_to: places of move_count numbers sites
+    /// remove_sites: `[remove_count]`
+    /// move_sites: `[move_count]`
+    /// set_sites: `[set_count]`
+    /// set_values: `[set_count x channel_count]`
+    /// move_to: places of `[move_count]` sites
     /// add: the sites to add
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn edit_sites(&mut self, edit: &Edit) -> Result<Vec<u32>> {
@@ -2246,9 +2246,9 @@ impl Solver {
     /// and the influence of a site fades over a distance of about 1 / sqrt(H). A H is at most 1e12 times the mean
     /// diagonal of K. Such a field needs no site on a component where some H is above 0.
     ///
-    /// screening: vertex_count numbers H >= 0, in 1 / length^2 with the unit of the mesh; `None` removes the screening.
-    /// targets: vertex_count x channel_count numbers p, or `None` for 0. Both are copied; welded copies of a vertex take
-    /// the values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores the
+    /// screening: `[vertex_count]` H >= 0, in 1 / length^2 with the unit of the mesh; `None` removes the screening.
+    /// targets: `[vertex_count x channel_count]` p, or `None` for 0. Both are copied; welded copies of a vertex take the
+    /// values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores the
     /// screening with the sites.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
@@ -2265,8 +2265,8 @@ impl Solver {
 
     /// Solves for the field at every vertex of your mesh.
     ///
-    /// out: vertex_count x channel_count numbers. Hard sites hold their values exactly. The field is 0 on components
-    /// without a site.
+    /// out: `[vertex_count x channel_count]`. Hard sites hold their values exactly. The field is 0 on components without
+    /// a site.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`].
@@ -2298,7 +2298,7 @@ impl Solver {
     /// for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of a
     /// component without a site gets 0.
     ///
-    /// vertices: vertex_count numbers.
+    /// vertices: `[vertex_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2317,8 +2317,8 @@ impl Solver {
     /// The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects
     /// the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
     ///
-    /// out: vertex_count x 3 numbers, not normalised.
-    /// normals: vertex_count x 3 numbers, packed: the normals used.
+    /// out: `[vertex_count x 3]`, not normalised.
+    /// normals: `[vertex_count x 3]`, packed: the normals used.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_TOO_LARGE`].
@@ -2362,7 +2362,7 @@ impl Solver {
     /// info.exact is then 1.
     ///
     /// correction_count: 0 to 8.
-    /// out: vertex_count x channel_count numbers, as `Solver::solve`.
+    /// out: `[vertex_count x channel_count]`, as `Solver::solve`.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
@@ -2403,8 +2403,8 @@ impl Solver {
     /// Moves vector sites to other vertices of their components. Each vector is carried along the shortest path of edges,
     /// from vertex normal to vertex normal (parallel transport; Xu and others 2009, Section 3.3).
     ///
-    /// sites: site_count numbers.
-    /// vertices: site_count numbers.
+    /// sites: `[site_count]`.
+    /// vertices: `[site_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`].
@@ -2418,11 +2418,10 @@ impl Solver {
         Ok(())
     }
 
-    /// Turns the vector of site i about its vertex normal, counter-clockwise by anglesi numbers radians. Does not
-    /// factorise.
+    /// Turns the vector of site i about its vertex normal, counter-clockwise by angles`[i]` radians. Does not factorise.
     ///
-    /// sites: site_count numbers.
-    /// angles: site_count numbers.
+    /// sites: `[site_count]`.
+    /// angles: `[site_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2520,11 +2519,11 @@ impl Geodesics {
 
     /// Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
     ///
-    /// sources: source_count numbers vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
-    /// links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance of
-    /// EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The error of
-    /// FRONT falls with the edge length. HEAT rounds the distance off at corners and where two shortest paths meet.
-    /// out: vertex_count numbers. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+    /// sources: `[source_count]` vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore links.
+    /// Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance of EXACT
+    /// and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The error of FRONT
+    /// falls with the edge length. HEAT rounds the distance off at corners and where two shortest paths meet.
+    /// out: `[vertex_count]`. The distance is 0 at the sources, and -1 at vertices that no source can reach.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
@@ -2652,8 +2651,8 @@ impl Direction {
     /// many constraints, the function factorises once instead, with their vertices eliminated. Later edits cost paths and
     /// rows again.
     ///
-    /// vertices: site_count numbers vertices of your mesh.
-    /// vectors: site_count x 3 numbers; a zero vector makes the field 0 there.
+    /// vertices: `[site_count]` vertices of your mesh.
+    /// vectors: `[site_count x 3]`; a zero vector makes the field 0 there.
     ///
     /// Fails with [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
@@ -2671,7 +2670,7 @@ impl Direction {
 
     /// Removes constraints by number.
     ///
-    /// sites: site_count numbers.
+    /// sites: `[site_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2686,8 +2685,8 @@ impl Direction {
     /// Moves constraints to other vertices of the same component. The connection carries each vector along the shortest
     /// path of edges, from tangent plane to tangent plane.
     ///
-    /// sites: site_count numbers.
-    /// vertices: site_count numbers.
+    /// sites: `[site_count]`.
+    /// vertices: `[site_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`].
@@ -2703,8 +2702,8 @@ impl Direction {
 
     /// Gives constraints new vectors and projects them on the tangent planes. Does not factorise.
     ///
-    /// sites: site_count numbers.
-    /// vectors: site_count x 3 numbers.
+    /// sites: `[site_count]`.
+    /// vectors: `[site_count x 3]`.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2717,10 +2716,10 @@ impl Direction {
         Ok(())
     }
 
-    /// Turns constraint i by anglesi numbers radians, counter-clockwise seen from outside. Does not factorise.
+    /// Turns constraint i by angles`[i]` radians, counter-clockwise seen from outside. Does not factorise.
     ///
-    /// sites: site_count numbers.
-    /// angles: site_count numbers.
+    /// sites: `[site_count]`.
+    /// angles: `[site_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2771,7 +2770,7 @@ impl Direction {
     /// degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors; vertices
     /// that no constraint reaches get 0.
     ///
-    /// out: vertex_count x 3 numbers.
+    /// out: `[vertex_count x 3]`.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`].
@@ -2896,9 +2895,9 @@ impl Pose {
     /// Handles of lower layers hold the surface in place for the higher layers.
     ///
     /// region_vertices: lists of whole numbers: all regions one after the other; `None`: points are given
-    /// points: handle_count x 3 numbers at rest. The region is the vertex nearest to the point and what is edge-connected
-    /// to it within the radius. `None`: regions are given
-    /// radii: handle_count numbers of the regions of points, in the unit of the mesh; `None`: regions are given. A radius
+    /// points: `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to
+    /// it within the radius. `None`: regions are given
+    /// radii: `[handle_count]` of the regions of points, in the unit of the mesh; `None`: regions are given. A radius
     /// below 1 % of the box makes regions of 2 vertices or more
     /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
     /// in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -2920,7 +2919,7 @@ impl Pose {
     /// Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are edge-
     /// connected to it within `radius` of the point.
     ///
-    /// point: 3 numbers.
+    /// point: `[3]`.
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
@@ -2938,7 +2937,7 @@ impl Pose {
     /// if the handle had never been added. On layer 0 this holds when you remove the handles that were added last, and
     /// for frames with `restart`.
     ///
-    /// handles: handle_count numbers.
+    /// handles: `[handle_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2955,7 +2954,7 @@ impl Pose {
     /// give the handle. Rotations continue from call to call, so a handle that you dragged past 180 degrees stays turned
     /// that far. The transforms take effect at the next Pose.deform.
     ///
-    /// handles: handle_count numbers.
+    /// handles: `[handle_count]`.
     /// rotations: unit quaternion x, y, z, w; normalised inside; all zero = identity; ignored where it is free
     /// translations: up to 1e15 box diagonals
     ///
@@ -3013,7 +3012,7 @@ impl Pose {
     /// that call. On a higher layer a changed handle moves the surface at the next frame. A handle alone in its component
     /// keeps the rotation it has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose.
     ///
-    /// handles: handle_count numbers.
+    /// handles: `[handle_count]`.
     /// free_rotation: 1: the solve finds the rotations; 0: you give them.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_UNSUPPORTED`].
@@ -3029,9 +3028,9 @@ impl Pose {
 
     /// Places handles by 4 x 4 matrices M.
     ///
-    /// handles: handle_count numbers.
-    /// matrices: handle_count x 16 numbers, column by column, elements 12 to 14 the translation. M takes a rest position
-    /// p to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
+    /// handles: `[handle_count]`.
+    /// matrices: `[handle_count x 16]`, column by column, elements 12 to 14 the translation. M takes a rest position p to
+    /// the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
     /// rotation. Its last row must be 0 0 0 1.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
@@ -3067,7 +3066,7 @@ impl Pose {
     /// Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
     /// reaches, the fields of all handles sum to 1.
     ///
-    /// out: vertex_count numbers.
+    /// out: `[vertex_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -3103,8 +3102,8 @@ impl Pose {
     /// Higher layers start at the smooth pose. Memory: 72 bytes a vertex
     /// first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
     /// vertex_count: positions of a range cost only the range, without higher layers, refine and normals
-    /// out: vertex_count x 3 numbers posed positions, or `None`
-    /// normals: vertex_count x 3 numbers unit normals of the posed surface, shared across seams, or `None`
+    /// out: `[vertex_count x 3]` posed positions, or `None`
+    /// normals: `[vertex_count x 3]` unit normals of the posed surface, shared across seams, or `None`
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
@@ -3149,7 +3148,7 @@ impl Pose {
     /// replay within 1 per cent and stretched surfaces within about 2.5 per cent.
     ///
     /// influence_count: joints per vertex, 4 or 8; 0 = 4
-    /// scales: joint_capacity x 3 numbers along the axes in the last frame; `None` = joints are rigid
+    /// scales: `[joint_capacity x 3]` along the axes in the last frame; `None` = joints are rigid
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -3246,16 +3245,16 @@ impl Quads {
     /// stays there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to four times
     /// the Euler characteristic. On a torus or a knot a single one of 5 is often lost.
     ///
-    /// crease_edges: crease_count x 2 numbers the two vertices of each edge, as given
-    /// guide_vertices: guide_count numbers as given; guides of one vertex are averaged
-    /// guide_vectors: guide_count x 3 numbers along the surface, of any length above 0; quads run along the vector and
-    /// across it
-    /// guide_weights: `None` = all 1, or guide_count numbers, above 0 to 1: 1 holds the direction, less mixes it with
-    /// that of the curvature, which has the rest of the weight
-    /// irregular_points: irregular_count x 3 numbers at the surface, in the unit and frame of the mesh
-    /// irregular_valences: irregular_count numbers how many quads meet there: 3 or 5
-    /// irregular_directions: `None` = any, or irregular_count x 3 numbers: one side of the irregular vertex runs along
-    /// it; 0 0 0 = any
+    /// crease_edges: `[crease_count x 2]` the two vertices of each edge, as given
+    /// guide_vertices: `[guide_count]` as given; guides of one vertex are averaged
+    /// guide_vectors: `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across
+    /// it
+    /// guide_weights: `None` = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of
+    /// the curvature, which has the rest of the weight
+    /// irregular_points: `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
+    /// irregular_valences: `[irregular_count]` how many quads meet there: 3 or 5
+    /// irregular_directions: `None` = any, or `[irregular_count x 3]`: one side of the irregular vertex runs along it; 0
+    /// 0 0 = any
     /// face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
     /// edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
     /// crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
@@ -3290,16 +3289,16 @@ impl Quads {
     /// them is made again. After an error `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until `quads` is
     /// destroyed.
     ///
-    /// crease_edges: crease_count x 2 numbers the two vertices of each edge, as given
-    /// guide_vertices: guide_count numbers as given; guides of one vertex are averaged
-    /// guide_vectors: guide_count x 3 numbers along the surface, of any length above 0; quads run along the vector and
-    /// across it
-    /// guide_weights: `None` = all 1, or guide_count numbers, above 0 to 1: 1 holds the direction, less mixes it with
-    /// that of the curvature, which has the rest of the weight
-    /// irregular_points: irregular_count x 3 numbers at the surface, in the unit and frame of the mesh
-    /// irregular_valences: irregular_count numbers how many quads meet there: 3 or 5
-    /// irregular_directions: `None` = any, or irregular_count x 3 numbers: one side of the irregular vertex runs along
-    /// it; 0 0 0 = any
+    /// crease_edges: `[crease_count x 2]` the two vertices of each edge, as given
+    /// guide_vertices: `[guide_count]` as given; guides of one vertex are averaged
+    /// guide_vectors: `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across
+    /// it
+    /// guide_weights: `None` = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of
+    /// the curvature, which has the rest of the weight
+    /// irregular_points: `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
+    /// irregular_valences: `[irregular_count]` how many quads meet there: 3 or 5
+    /// irregular_directions: `None` = any, or `[irregular_count x 3]`: one side of the irregular vertex runs along it; 0
+    /// 0 0 = any
     /// face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
     /// edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
     /// crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
@@ -3401,7 +3400,7 @@ impl Flow {
     /// [`raw::HF_OPERATOR_CLAMPED`] the lines are denser where the field is steeper. `Surface::trace_isolines` gives the
     /// lines that cross the streamlines.
     ///
-    /// seeds: seed_count numbers vertices as given
+    /// seeds: `[seed_count]` vertices as given
     /// wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`].
@@ -3460,7 +3459,7 @@ object!(
 impl Region {
     /// Creates a region without vertices.
     ///
-    /// positions: vertex_count x 3 numbers the surface of weight 0, bit for bit: the positions of the mesh or any pose of
+    /// positions: `[vertex_count x 3]` the surface of weight 0, bit for bit: the positions of the mesh or any pose of
     /// them. `None`: the mesh's own to 1e-15 of the box. Copied
     /// base: `HF_BASE_*`. If the surface has no factor for it yet, it is made now
     /// progress: an object to poll and cancel through
@@ -3495,8 +3494,8 @@ impl Region {
     /// factor that its vertices need. A region may have several pieces, in several components. Progress covers curve,
     /// sites and base; the call can be cancelled between them.
     ///
-    /// remove_vertices: remove_count numbers vertices that leave the region; others are passed over
-    /// add_vertices: add_count numbers vertices that join it; those in it already are passed over
+    /// remove_vertices: `[remove_count]` vertices that leave the region; others are passed over
+    /// add_vertices: `[add_count]` vertices that join it; those in it already are passed over
     /// ring_count: rings of vertices by which the region grows; below 0 it shrinks
     /// curve: the region becomes what this curve encloses
     /// progress: an object to poll and cancel through
@@ -3575,8 +3574,8 @@ impl Region {
     /// solves nothing.
     ///
     /// weight: any finite number
-    /// out: vertex_count x 3 numbers in the unit and frame of the mesh as given, or `None`
-    /// normals: vertex_count x 3 numbers unit normals of the morphed surface, shared across seams, or `None`
+    /// out: `[vertex_count x 3]` in the unit and frame of the mesh as given, or `None`
+    /// normals: `[vertex_count x 3]` unit normals of the morphed surface, shared across seams, or `None`
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -3632,8 +3631,8 @@ impl Detail {
     /// offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades to
     /// nothing at the rim. If source and target are the same region, the result is the surface itself. Later edits of
     /// the regions do not change the object.
-    /// source_vertices: pair_count numbers rim vertices of the source, as given
-    /// target_vertices: pair_count numbers rim vertices of the target, as given
+    /// source_vertices: `[pair_count]` rim vertices of the source, as given
+    /// target_vertices: `[pair_count]` rim vertices of the target, as given
     /// scale: of the detail, > 0; 0 = square root of target base area over source base area
     /// progress: an object to poll and cancel through
     ///
@@ -3657,8 +3656,8 @@ impl Detail {
     /// it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
     ///
     /// weight: any finite number
-    /// out: vertex_count x 3 numbers in the unit and frame of the mesh as given, or `None`
-    /// normals: vertex_count x 3 numbers unit normals of the morphed surface, shared across seams, or `None`
+    /// out: `[vertex_count x 3]` in the unit and frame of the mesh as given, or `None`
+    /// normals: `[vertex_count x 3]` unit normals of the morphed surface, shared across seams, or `None`
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -3701,9 +3700,9 @@ object!(
 impl Retarget {
     /// Pairs the joints of two skeletons.
     ///
-    /// source_rest: source.joint_count x 10 numbers a pose that counts as rest, or `None`: the rest of the skeleton. Give
+    /// source_rest: `[source.joint_count x 10]` a pose that counts as rest, or `None`: the rest of the skeleton. Give
     /// poses in which both characters stand alike
-    /// target_rest: target.joint_count x 10 numbers the same for the target, or `None`
+    /// target_rest: `[target.joint_count x 10]` the same for the target, or `None`
     /// root_motion: `HF_ROOT_MOTION_*`
     /// leave_out: bits of `HF_RETARGET_*`
     /// scale: travel of the target over travel of the source; 0: the ratio of leg lengths
@@ -3738,7 +3737,7 @@ impl Retarget {
     /// is planted, and how far it is moved to keep its place. The state comes from the frames since the last reset and
     /// fades within a step.
     ///
-    /// source_pose: source.joint_count x 10 numbers.
+    /// source_pose: `[source.joint_count x 10]`.
     /// seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
@@ -3833,7 +3832,7 @@ impl Skeleton {
     /// Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk. It
     /// is 0 for a clip that travels.
     ///
-    /// poses: frame_count x joint_count x 10 numbers.
+    /// poses: `[frame_count x joint_count x 10]`.
     /// seconds: between two frames, above 0.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
@@ -3852,17 +3851,16 @@ impl Skeleton {
     /// feet shall stand on the ground. The object keeps a copy of everything.
     ///
     /// names: one line for each joint in UTF-8, or `None`: names then say nothing
-    /// parents: joint_count numbers number of the parent, [`raw::HF_NO_INDEX`] for a root
-    /// rest: joint_count x 10 numbers joint transforms
-    /// inverse_binds: joint_count x 16 numbers inverse bind matrices, columns first, all zero for a joint that no skin
-    /// names: it carries children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all
-    /// joints bend it
-    /// up: 3 numbers declared axis, any length, or `None`: find it
-    /// forward: 3 numbers declared axis, any length, or `None`: find it
-    /// roles: joint_count numbers declared `HF_ROLE_*`, -1 for a joint without; or `None`
-    /// sides: joint_count numbers `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
-    /// travels: travel_count x 3 numbers where each clip leads from its first to its last frame; it tells forward; or
-    /// `None`
+    /// parents: `[joint_count]` number of the parent, [`raw::HF_NO_INDEX`] for a root
+    /// rest: `[joint_count x 10]` joint transforms
+    /// inverse_binds: `[joint_count x 16]` inverse bind matrices, columns first, all zero for a joint that no skin names:
+    /// it carries children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all joints
+    /// bend it
+    /// up: `[3]` declared axis, any length, or `None`: find it
+    /// forward: `[3]` declared axis, any length, or `None`: find it
+    /// roles: `[joint_count]` declared `HF_ROLE_*`, -1 for a joint without; or `None`
+    /// sides: `[joint_count]` `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
+    /// travels: `[travel_count x 3]` where each clip leads from its first to its last frame; it tells forward; or `None`
     /// skin: `None`: there is none, and joints are judged by names and places alone
     /// progress: an object to poll and cancel through
     ///
@@ -3983,10 +3981,10 @@ object!(
 impl Transfer {
     /// Creates a transfer between two surfaces; both may be the same.
     ///
-    /// source_rest: source.vertex_count x 3 numbers, or `None` Poses in which the two bodies correspond, in each
-    /// surface's unit, read by the call, or `None` for the positions of the surface. A character bound in a crouch
-    /// gets a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
-    /// target_rest: target.vertex_count x 3 numbers, or `None`
+    /// source_rest: `[source.vertex_count x 3]`, or `None` Poses in which the two bodies correspond, in each surface's
+    /// unit, read by the call, or `None` for the positions of the surface. A character bound in a crouch gets a
+    /// standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+    /// target_rest: `[target.vertex_count x 3]`, or `None`
     /// mode: `HF_TRANSFER_*`
     /// cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
     /// ground: `HF_GROUND_*`
@@ -4018,7 +4016,7 @@ impl Transfer {
     /// source_vertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries per
     /// vertex
     /// target_vertices: lists of whole numbers:
-    /// flags: pair_count numbers `HF_PAIR_*`, or `None` for none
+    /// flags: `[pair_count]` `HF_PAIR_*`, or `None` for none
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
@@ -4037,7 +4035,7 @@ impl Transfer {
 
     /// Removes pairs by number.
     ///
-    /// pairs: pair_count numbers.
+    /// pairs: `[pair_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -4126,11 +4124,11 @@ impl Transfer {
     /// lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged.
     /// All rules of the ground come in continuously. [`raw::HF_GROUND_OFF`] switches them off.
     ///
-    /// source_positions: source.vertex_count x 3 numbers the posed source, its own vertex order
-    /// hold_pairs: hold_count numbers each pair at most once
-    /// hold_positions: hold_count x 3 numbers in the target's unit and frame
-    /// out: target.vertex_count x 3 numbers, or `None`
-    /// target_normals: target.vertex_count x 3 numbers, or `None`
+    /// source_positions: `[source.vertex_count x 3]` the posed source, its own vertex order
+    /// hold_pairs: `[hold_count]` each pair at most once
+    /// hold_positions: `[hold_count x 3]` in the target's unit and frame
+    /// out: `[target.vertex_count x 3]`, or `None`
+    /// target_normals: `[target.vertex_count x 3]`, or `None`
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
@@ -4178,7 +4176,7 @@ impl Transfer {
     /// replays `Transfer::apply` exactly, because that function also uses the four largest weights.
     ///
     /// influence_count: joints per vertex, 4 or 8; 0 = 4
-    /// scales: joint_capacity x 3 numbers along the axes in the last frame; `None` = joints are rigid
+    /// scales: `[joint_capacity x 3]` along the axes in the last frame; `None` = joints are rigid
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -4247,15 +4245,15 @@ object!(
 impl Weights {
     /// Computes weights.
     ///
-    /// heads: joint_count x 3 numbers
-    /// tails: joint_count x 3 numbers, or `None`: heads are joints, and the library finds the tails
-    /// axes: joint_count x 3 numbers with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A
+    /// heads: `[joint_count x 3]`
+    /// tails: `[joint_count x 3]`, or `None`: heads are joints, and the library finds the tails
+    /// axes: `[joint_count x 3]` with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A
     /// joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says where
     /// a last joint ends
-    /// parents: joint_count numbers number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
-    /// deforms: joint_count numbers 1: the joint gets weights; `None`: all do
-    /// sources: joint_count numbers for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`]
-    /// for a new one; `None`: the same number. `Weights::new`: `None`
+    /// parents: `[joint_count]` number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
+    /// deforms: `[joint_count]` 1: the joint gets weights; `None`: all do
+    /// sources: `[joint_count]` for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`] for
+    /// a new one; `None`: the same number. `Weights::new`: `None`
     /// progress: an object to poll and cancel through
     /// influence_count: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has none,
     /// it is made now. Sets *weights to `None` first.
@@ -4287,15 +4285,15 @@ impl Weights {
 
     /// Replaces all
     ///
-    /// heads: joint_count x 3 numbers
-    /// tails: joint_count x 3 numbers, or `None`: heads are joints, and the library finds the tails
-    /// axes: joint_count x 3 numbers with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A
+    /// heads: `[joint_count x 3]`
+    /// tails: `[joint_count x 3]`, or `None`: heads are joints, and the library finds the tails
+    /// axes: `[joint_count x 3]` with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A
     /// joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says where
     /// a last joint ends
-    /// parents: joint_count numbers number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
-    /// deforms: joint_count numbers 1: the joint gets weights; `None`: all do
-    /// sources: joint_count numbers for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`]
-    /// for a new one; `None`: the same number. `Weights::new`: `None`
+    /// parents: `[joint_count]` number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
+    /// deforms: `[joint_count]` 1: the joint gets weights; `None`: all do
+    /// sources: `[joint_count]` for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`] for
+    /// a new one; `None`: the same number. `Weights::new`: `None`
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`],
@@ -4313,14 +4311,12 @@ impl Weights {
     /// Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
     /// disc. Pins at the same places with other weights cost no path.
     ///
-    /// vertices: pin_count numbers vertices as given, or `None`
-    /// triangles: pin_count numbers triangles as given, or `None`
-    /// barycentrics: pin_count x 3 numbers with triangles, else `None`: weights of the corners, >= 0, of sum 1 within
-    /// 1e-6
-    /// radii: pin_count numbers of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place
-    /// alone
-    /// joints: pin_count x influence_count numbers joints
-    /// weights: pin_count x influence_count numbers >= 0, scaled to the sum 1
+    /// vertices: `[pin_count]` vertices as given, or `None`
+    /// triangles: `[pin_count]` triangles as given, or `None`
+    /// barycentrics: `[pin_count x 3]` with triangles, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
+    /// radii: `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place alone
+    /// joints: `[pin_count x influence_count]` joints
+    /// weights: `[pin_count x influence_count]` >= 0, scaled to the sum 1
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`],
@@ -4337,9 +4333,9 @@ impl Weights {
 
     /// Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0 unlocks.
     ///
-    /// joints: lock_count numbers.
-    /// values: vertex_count x lock_count numbers weights to keep, 0 to 1, or `None` for the present ones. Welded copies
-    /// take the values of the first. Pinned vertices keep the weights of their pins.
+    /// joints: `[lock_count]`.
+    /// values: `[vertex_count x lock_count]` weights to keep, 0 to 1, or `None` for the present ones. Welded copies take
+    /// the values of the first. Pinned vertices keep the weights of their pins.
     ///
     /// Fails with [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`].
@@ -4454,8 +4450,8 @@ impl Weights {
     /// same frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-harmonic
     /// field fills in the vertices without such a point. A piece without any takes the weights of the nearest points.
     ///
-    /// joints: source.vertex_count x source_influence_count numbers
-    /// weights: source.vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+    /// joints: `[source.vertex_count x source_influence_count]`
+    /// weights: `[source.vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
     /// distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
     /// angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
     /// influence_count: joints of each vertex in the result: 4 or 8; 0: 4
@@ -4508,12 +4504,12 @@ impl Weights {
     /// rest. The plane comes from joints with partners, else from the surface. A found normal has a positive largest
     /// component, so along x, [`raw::HF_MIRROR_TO_NEGATIVE`] copies from +x to -x.
     ///
-    /// heads: joint_count x 3 numbers the joints at rest, in the frame of the mesh
+    /// heads: `[joint_count x 3]` the joints at rest, in the frame of the mesh
     /// names: one line for each joint in UTF-8, or `None`: joints are paired by their places
-    /// partners: joint_count numbers the joint of the other side, [`raw::HF_NO_INDEX`]: find it; or `None`
-    /// plane: 6 numbers a point and a normal, or `None`: find the plane
-    /// joints: vertex_count x source_influence_count numbers
-    /// weights: vertex_count x source_influence_count numbers >= 0; a vertex whose weights are all 0 gives none
+    /// partners: `[joint_count]` the joint of the other side, [`raw::HF_NO_INDEX`]: find it; or `None`
+    /// plane: `[6]` a point and a normal, or `None`: find the plane
+    /// joints: `[vertex_count x source_influence_count]`
+    /// weights: `[vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
     /// to: `HF_MIRROR_*`
     /// distance: as in [`WeightsTransferOptions`]
     /// angle: as in [`WeightsTransferOptions`]
