@@ -215,6 +215,7 @@ bool is_twist(const Body& body, Index joint, Index parent) {
   for (const Index brother : body.children_of(parent)) {
     if (brother == joint || body.children_of(brother).empty()) continue;
     const Vec3 b = body.pivots[at(brother)];
+    if (norm(p - b) < one_place) continue;  // where the bone ends others begin: a head between shoulders
     double along = 0;
     const double off = distance_to_line(p, a, b, along), length = norm(b - a);
     if (length > central && off < on_line * length && along > -on_line && along < 1 + on_line) return true;

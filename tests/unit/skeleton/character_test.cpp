@@ -213,6 +213,35 @@ TEST(Limbs, HipsAtOnePlaceDoNotSwapTheSides) {
   EXPECT_EQ(placed.faults(found), "") << why(found);
 }
 
+// A head in the place where both shoulders begin is no part of their bones: without it the arms have no trunk to hang
+// on.
+TEST(Limbs, AHeadWhereTheShouldersBeginIsAHead) {
+  Rig rig;
+  const int hips = rig.add("Root", -1, {0, 1, 0}, Role::spine),
+            chest = rig.add("Spine", hips, {0, 1.4, 0}, Role::spine);
+  const int head = rig.add("Head", chest, {0, 1.7, 0}, Role::head);
+  rig.add_box(hips, {0, 0.95, 0}, {0, 1.3, 0}, 0.2);
+  rig.add_box(chest, {0, 1.3, 0}, {0, 1.7, 0}, 0.2);
+  rig.add_box(head, {0, 1.7, 0}, {0, 2.1, 0}, 0.2);
+  for (const double s : {1.0, -1.0}) {
+    const Side side = s > 0 ? Side::left : Side::right;
+    const std::string end = s > 0 ? ".L" : ".R";
+    const int shoulder = rig.add("Shoulder" + end, chest, {0, 1.7, 0}, Role::shoulder, side);
+    const int arm = rig.add("UpperArm" + end, shoulder, {s * 0.3, 1.65, 0}, Role::arm, side);
+    const int elbow = rig.add("LowerArm" + end, arm, {s * 0.6, 1.65, 0}, Role::arm, side);
+    const int leg = rig.add("UpperLeg" + end, hips, {s * 0.15, 0.95, 0}, Role::leg, side);
+    const int knee = rig.add("LowerLeg" + end, leg, {s * 0.15, 0.5, 0.01}, Role::leg, side);
+    rig.add_box(arm, {s * 0.3, 1.65, 0}, {s * 0.6, 1.65, 0}, 0.06);
+    rig.add_box(elbow, {s * 0.6, 1.65, 0}, {s * 0.9, 1.65, 0}, 0.06);
+    rig.add_box(leg, {s * 0.15, 0.95, 0}, {s * 0.15, 0.5, 0}, 0.08);
+    rig.add_box(knee, {s * 0.15, 0.5, 0}, {s * 0.15, 0, 0}, 0.08);
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
 TEST(Mirror, NoJointMirrorsItsAncestor) {
   Rig rig;
   for (int k = 0; k < 8; ++k) {
