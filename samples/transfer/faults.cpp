@@ -182,7 +182,7 @@ std::vector<std::string> fault_sentences(const ClipFaults& faults, const std::st
     out.push_back(name + text);
   }
   if (faults.unmatched > 0) {
-    std::snprintf(text, sizeof text, "%.0f %% of the target's arms and legs have no partner", 100 * faults.unmatched);
+    std::snprintf(text, sizeof text, "%.0f %% of the arms and legs of one body have no partner in the other", 100 * faults.unmatched);
     out.push_back(name + text);
   }
   for (const std::string& limb : faults.lost) out.push_back(name + "\"" + limb + "\" does not move as its source does");

@@ -171,7 +171,7 @@ void add_quality(const RunReport& report, std::string& out) {
           "  limbs         follow the source to %.0f degrees in \"%s\" (%s %.0f; trunk %.0f; %zu of %zu arms and legs "
           "have a partner)\n",
           std::abs(fit.degrees), report.clip_names[c].c_str(), worst->name.c_str(), worst->mean, fit.trunk_degrees,
-          fit.limbs.size(), fit.target_limbs);
+          fit.limbs.size(), std::max(fit.source_limbs, fit.target_limbs));
   }
   for (size_t c = 0; c < report.depths.size(); ++c) {
     print(out, "  ground        deepest vertex %.2f %% of the box under it", 100 * report.depths[c]);
@@ -262,7 +262,7 @@ nlohmann::json to_json(const RunReport& report) {
                                {"trunk_degrees", fit.trunk_degrees},
                                {"trunk_worst", fit.trunk_worst},
                                {"partners", fit.limbs.size()},
-                               {"of", fit.target_limbs},
+                               {"of", std::max(fit.source_limbs, fit.target_limbs)},
                                {"each", limbs}};
     }
     if (c < report.faults.size()) {

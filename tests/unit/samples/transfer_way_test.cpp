@@ -59,6 +59,20 @@ TEST(TransferWay, TheSkeletonLeadsWhereLimbsMatch) {
 }
 
 // A run whose hands hang low, on a body with a sword in its hand.
+// Legs alone follow. An artist sees arms in the T pose, so the run may not be sure.
+TEST(TransferWay, ArmsThatNothingFollowsLowerTheConfidence) {
+  hf_gltf::Model bare = rigged("biped_tall");
+  for (hf_gltf::Node& node : bare.nodes) {
+    if (has(node.name, "Arm") || has(node.name, "Hand") || has(node.name, "Shoulder")) node.name += "_ribbon";
+  }
+  const json figures = walked(written(bare, "bare.glb"), "bare_walk", "");
+  EXPECT_EQ(figures["way"], "skeleton");
+  EXPECT_EQ(figures["clips"][0]["limbs"]["partners"], 2);
+  EXPECT_EQ(figures["clips"][0]["limbs"]["of"], 4);
+  EXPECT_LT(figures["clips"][0]["confidence"], 0.7);
+  EXPECT_TRUE(has(figures["said"], "of the arms and legs of one body have no partner")) << figures["said"];
+}
+
 TEST(TransferWay, ASwordInTheGroundIsSaidAndTheBodyIsNot) {
   const fs::path source = data() / "q_KnightCharacter.glb", target = data() / "kk_Knight.glb";
   if (!fs::exists(source) || !fs::exists(target))
