@@ -472,8 +472,8 @@ struct Skin {
 // The joints of a character at rest. A joint transform is 10 numbers relative to the parent: translation x y z,
 // rotation x y z w, scale x y z.
 struct SkeletonOptions {
-  // `[joint_count x 16]` inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
-  // children and rigid meshes alone; or none: the skin is given in the pose `rest`, and all joints bend it
+  // `[joint_count x 16]` inverse bind matrices, columns first. All zero: no skin names the joint; it moves its children
+  // and rigid meshes only. none: the skin is given in the pose `rest`, and every joint can bend it
   std::vector<float> inverse_binds{};
   // `[3]` declared axis, any length, or none: find it
   std::vector<float> up{};
@@ -2921,8 +2921,8 @@ class Skeleton {
   // names: one line for each joint in UTF-8, or none: names then say nothing
   // parents: `[joint_count]` number of the parent, HF_NO_INDEX for a root
   // rest: `[joint_count x 10]` joint transforms
-  // inverse_binds: `[joint_count x 16]` inverse bind matrices, columns first, all zero for a joint that no skin names:
-  // it carries children and rigid meshes alone; or none: the skin is given in the pose `rest`, and all joints bend
+  // inverse_binds: `[joint_count x 16]` inverse bind matrices, columns first. All zero: no skin names the joint; it
+  // moves its children and rigid meshes only. none: the skin is given in the pose `rest`, and every joint can bend
   // it
   // up: `[3]` declared axis, any length, or none: find it
   // forward: `[3]` declared axis, any length, or none: find it
@@ -2996,7 +2996,7 @@ class Skeleton {
     return joints;
   }
 
-  // Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful.
+  // Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful finding.
   std::string reasons() const {
     Call c(counts_);
     size_t size = 0;

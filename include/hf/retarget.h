@@ -1,17 +1,20 @@
 /* hf/retarget.h - play the motion of one skeleton on another, at run time, on plain arrays.
  *
- *   hf_retarget_create(horse, bull, NULL, &retarget);          once
- *   hf_retarget_solve(retarget, pose, 1.0 / 60, bull_pose);    each frame
+ *   hf_retarget_create(man, robot, NULL, &retarget);            once
+ *   hf_retarget_solve(retarget, pose, 1.0 / 60, robot_pose);    each frame
  *
- * A joint of the target turns as its partner of the source has turned since rest, seen from the body. Limbs whose rests
- * differ are aligned about shoulder and hip first, so a T pose, an A pose and a crouch meet. Chains with different
- * counts of joints share their turns by arc length. The hips travel by the ratio of leg lengths. Then feet go where the
- * feet of the source are over the ground: planted feet stay, legs bend so that feet reach, and soles, tails, necks and
- * the trunk stay above the ground. What the source puts deep into the ground goes as deep. No bone changes its length.
- * A joint without a partner keeps its rest under its parent. Between equal skeletons, the library copies the keys.
+ * The steps of a frame:
+ * 1. Turns. A joint of the target turns as its partner of the source has turned since rest, seen from the body. Where
+ *    the rests differ, limbs are aligned about shoulder and hip first: T pose, A pose and crouch meet. Chains with
+ *    different counts of joints share their turns by arc length.
+ * 2. Travel. The hips travel by the ratio of leg lengths.
+ * 3. Goals. A planted foot stays in its place, and legs bend so that feet reach. Soles, tails, necks and the trunk stay
+ *    above the ground, as far as the clip keeps the source above it.
+ * No bone changes its length. A joint without a partner keeps its rest under its parent. Between equal skeletons the
+ * library copies the pose.
  *
  * A pose is 10 numbers for each joint, relative to its parent: translation x y z, rotation x y z w, scale x y z. A
- * frame allocates nothing. Its cost does not depend on the pose. */
+ * frame allocates nothing. */
 #ifndef HF_RETARGET_H
 #define HF_RETARGET_H
 
@@ -33,8 +36,8 @@ enum hf_root_motion {
 
 /* Bits that name steps to leave out. */
 enum hf_retarget_step {
-  HF_RETARGET_KEEP_RESTS = 1, /* limbs are not aligned: the rests stand alike already, or shall differ */
-  HF_RETARGET_NO_GOALS = 2,   /* joints turn, and nothing looks at feet and ground */
+  HF_RETARGET_KEEP_RESTS = 1, /* limbs are not aligned: both rests are alike, or you want their difference */
+  HF_RETARGET_NO_GOALS = 2,   /* joints turn and the hips travel; feet and ground are ignored */
   HF_RETARGET_NO_LOCK = 4, /* planted feet may slide. A frame then has no state: a scrubbed timeline gives the bits of
                               a played one */
   HF_RETARGET_NO_COPY = 8  /* equal skeletons are retargeted like others */
@@ -91,7 +94,7 @@ enum hf_scale_from {
   HF_SCALE_HEIGHT = 3 /* heights of bodies: one has no legs */
 };
 
-/* Figures of a retarget. Those of frames count all frames since the last reset. */
+/* Figures of a retarget. Angles, stride and drop count all frames since the last reset. */
 typedef struct hf_retarget_info {
   uint32_t struct_size;
   uint32_t source_joint_count;

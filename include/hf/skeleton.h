@@ -19,7 +19,7 @@ extern "C" {
 /* A skeleton at rest and the findings about it. Calls read the object, none changes it. */
 typedef struct hf_skeleton_object* hf_skeleton;
 
-/* What a joint or a chain is. */
+/* The part of the body that a joint or a chain is. */
 enum hf_role {
   HF_ROLE_OTHER = 0,
   HF_ROLE_SPINE = 1,
@@ -72,9 +72,9 @@ typedef struct hf_skeleton_desc {
   const char* names;          /* one line for each joint in UTF-8, or NULL: names then say nothing */
   const uint32_t* parents;    /* [joint_count] number of the parent, HF_NO_INDEX for a root */
   const float* rest;          /* [joint_count][10] joint transforms */
-  const float* inverse_binds; /* [joint_count][16] inverse bind matrices, columns first, all zero for a joint that no
-                                 skin names: it carries children and rigid meshes alone; or NULL: the skin is given in
-                                 the pose `rest`, and all joints bend it */
+  const float* inverse_binds; /* [joint_count][16] inverse bind matrices, columns first. All zero: no skin names the
+                                 joint; it moves its children and rigid meshes only. NULL: the skin is given in the pose
+                                 `rest`, and every joint can bend it */
   const float* up;            /* [3] declared axis, any length, or NULL: find it */
   const float* forward;       /* [3] declared axis, any length, or NULL: find it */
   const int32_t* roles;       /* [joint_count] declared HF_ROLE_*, -1 for a joint without; or NULL */
@@ -101,8 +101,8 @@ HF_API hf_result hf_skeleton_create(const hf_skeleton_desc* desc, hf_skeleton* o
 /* Destroys a skeleton. Ignores NULL and destroyed objects. A retarget made from it stays valid. Since 0.1. */
 HF_API void hf_skeleton_destroy(hf_skeleton skeleton);
 
-/* The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints, 0 where there is no
- * such part; those of legs are of the hindmost pair that stands. */
+/* The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints; a length is 0
+ * where the body has no such part. Lengths of legs belong to the hindmost pair that stands. */
 typedef struct hf_skeleton_info {
   uint32_t struct_size;
   uint32_t joint_count;
@@ -125,7 +125,7 @@ typedef struct hf_skeleton_info {
 /* Writes the findings. Thread safety: reads `skeleton`. Since 0.1. */
 HF_API hf_result hf_skeleton_get_info(hf_skeleton skeleton, hf_skeleton_info* out_info);
 
-/* What a joint was found to be. */
+/* The findings about a joint. */
 typedef struct hf_joint_info {
   int32_t kind;   /* HF_JOINT_KIND_* */
   int32_t role;   /* HF_ROLE_*; of a twist joint, the role of its bone */
@@ -160,9 +160,9 @@ HF_API hf_result hf_skeleton_get_chains(hf_skeleton skeleton, uint32_t capacity,
 HF_API hf_result hf_skeleton_get_chain_joints(hf_skeleton skeleton, uint32_t capacity, uint32_t* out_joints,
                                               uint32_t* out_count);
 
-/* Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful. out_text:
- * NULL, or char[capacity] in UTF-8, zero-terminated. out_size: NULL, or receives the bytes with the zero. Thread
- * safety: reads `skeleton`. Since 0.1. */
+/* Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful finding.
+ * out_text: NULL, or char[capacity] in UTF-8, zero-terminated. out_size: NULL, or receives the bytes with the zero.
+ * Thread safety: reads `skeleton`. Since 0.1. */
 HF_API hf_result hf_skeleton_get_reasons(hf_skeleton skeleton, size_t capacity, char* out_text, size_t* out_size);
 
 #ifdef __cplusplus

@@ -222,9 +222,9 @@ namespace Hf
     public enum RetargetStep
     {
         None = 0,
-        /// <summary>limbs are not aligned: the rests stand alike already, or shall differ</summary>
+        /// <summary>limbs are not aligned: both rests are alike, or you want their difference</summary>
         KeepRests = Constants.HF_RETARGET_KEEP_RESTS,
-        /// <summary>joints turn, and nothing looks at feet and ground</summary>
+        /// <summary>joints turn and the hips travel; feet and ground are ignored</summary>
         NoGoals = Constants.HF_RETARGET_NO_GOALS,
         /// <summary>planted feet may slide. A frame then has no state: a scrubbed timeline gives the bits of a played one</summary>
         NoLock = Constants.HF_RETARGET_NO_LOCK,
@@ -244,7 +244,7 @@ namespace Hf
         Height = Constants.HF_SCALE_HEIGHT,
     }
 
-    /// <summary>What a joint or a chain is.</summary>
+    /// <summary>The part of the body that a joint or a chain is.</summary>
     public enum Role
     {
         Other = Constants.HF_ROLE_OTHER,
@@ -1240,7 +1240,7 @@ namespace Hf
         }
     }
 
-    /// <summary>Figures of a retarget. Those of frames count all frames since the last reset.</summary>
+    /// <summary>Figures of a retarget. Angles, stride and drop count all frames since the last reset.</summary>
     public sealed unsafe class RetargetInfo
     {
         public uint SourceJointCount;
@@ -1317,8 +1317,8 @@ namespace Hf
         }
     }
 
-    /// <summary>The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints, 0 where there
-    /// is no such part; those of legs are of the hindmost pair that stands.</summary>
+    /// <summary>The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints; a length is 0
+    /// where the body has no such part. Lengths of legs belong to the hindmost pair that stands.</summary>
     public sealed unsafe class SkeletonInfo
     {
         public uint JointCount;
@@ -1362,7 +1362,7 @@ namespace Hf
         }
     }
 
-    /// <summary>What a joint was found to be.</summary>
+    /// <summary>The findings about a joint.</summary>
     public sealed unsafe class JointInfo
     {
         /// <summary>JointKind</summary>
@@ -5458,9 +5458,9 @@ namespace Hf
     /// names: one line for each joint in UTF-8, or null: names then say nothing
     /// parents: [jointCount] number of the parent, uint.MaxValue for a root
     /// rest: [jointCount x 10] joint transforms
-    /// inverseBinds: [jointCount x 16] inverse bind matrices, columns first, all zero for a joint that no skin
-    ///     names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`, and
-    ///     all joints bend it
+    /// inverseBinds: [jointCount x 16] inverse bind matrices, columns first. All zero: no skin names the joint; it
+    ///     moves its children and rigid meshes only. null: the skin is given in the pose `rest`, and every joint
+    ///     can bend it
     /// up: [3] declared axis, any length, or null: find it
     /// forward: [3] declared axis, any length, or null: find it
     /// roles: [jointCount] declared Role, -1 for a joint without; or null
@@ -5496,9 +5496,9 @@ namespace Hf
         /// names: one line for each joint in UTF-8, or null: names then say nothing
         /// parents: [jointCount] number of the parent, uint.MaxValue for a root
         /// rest: [jointCount x 10] joint transforms
-        /// inverseBinds: [jointCount x 16] inverse bind matrices, columns first, all zero for a joint that no skin
-        ///     names: it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`,
-        ///     and all joints bend it
+        /// inverseBinds: [jointCount x 16] inverse bind matrices, columns first. All zero: no skin names the joint;
+        ///     it moves its children and rigid meshes only. null: the skin is given in the pose `rest`, and every
+        ///     joint can bend it
         /// up: [3] declared axis, any length, or null: find it
         /// forward: [3] declared axis, any length, or null: find it
         /// roles: [jointCount] declared Role, -1 for a joint without; or null
@@ -5621,7 +5621,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful.</summary>
+        /// <summary>Writes the reasons as text: first the reasons for the axes, then one sentence per line about each
+        /// doubtful finding.</summary>
         public string Reasons()
         {
             using (var c = new Call(this))

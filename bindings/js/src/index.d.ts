@@ -672,7 +672,7 @@ export interface RegionInfo {
   baseArea: number;
 }
 
-/** Figures of a retarget. Those of frames count all frames since the last reset. */
+/** Figures of a retarget. Angles, stride and drop count all frames since the last reset. */
 export interface RetargetInfo {
   sourceJointCount: number;
   targetJointCount: number;
@@ -714,8 +714,8 @@ export interface ChainMatch {
 }
 
 /**
- * The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints, 0 where there is
- * no such part; those of legs are of the hindmost pair that stands.
+ * The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints; a length is 0
+ * where the body has no such part. Lengths of legs belong to the hindmost pair that stands.
  */
 export interface SkeletonInfo {
   jointCount: number;
@@ -741,7 +741,7 @@ export interface SkeletonInfo {
   armLength: number;
 }
 
-/** What a joint was found to be. */
+/** The findings about a joint. */
 export interface JointInfo {
   /** HF_JOINT_KIND_* */
   kind: number;
@@ -2148,8 +2148,8 @@ export interface RetargetClass {
  * names: one line for each joint in UTF-8, or null: names then say nothing
  * parents: [jointCount] number of the parent, constants.HF_NO_INDEX for a root
  * rest: [jointCount x 10] joint transforms
- * inverseBinds: [jointCount x 16] inverse bind matrices, columns first, all zero for a joint that no skin names:
- *     it carries children and rigid meshes alone; or null: the skin is given in the pose `rest`, and all joints
+ * inverseBinds: [jointCount x 16] inverse bind matrices, columns first. All zero: no skin names the joint; it
+ *     moves its children and rigid meshes only. null: the skin is given in the pose `rest`, and every joint can
  *     bend it
  * up: [3] declared axis, any length, or null: find it
  * forward: [3] declared axis, any length, or null: find it
@@ -2179,7 +2179,10 @@ export interface Skeleton extends Handle {
   chains(): Chain[];
   /** Writes the joints of chain after chain. */
   chainJoints(): Uint32Array;
-  /** Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful. */
+  /**
+   * Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful
+   * finding.
+   */
   reasons(): string;
 }
 export interface SkeletonClass {

@@ -275,9 +275,9 @@ class RetargetStep(IntFlag):
 
     NONE = 0
     KEEP_RESTS = _raw.HF_RETARGET_KEEP_RESTS
-    """limbs are not aligned: the rests stand alike already, or shall differ"""
+    """limbs are not aligned: both rests are alike, or you want their difference"""
     NO_GOALS = _raw.HF_RETARGET_NO_GOALS
-    """joints turn, and nothing looks at feet and ground"""
+    """joints turn and the hips travel; feet and ground are ignored"""
     NO_LOCK = _raw.HF_RETARGET_NO_LOCK
     """planted feet may slide. A frame then has no state: a scrubbed timeline gives the bits of a played one"""
     NO_COPY = _raw.HF_RETARGET_NO_COPY
@@ -297,7 +297,7 @@ class ScaleFrom(IntEnum):
 
 
 class Role(IntEnum):
-    """What a joint or a chain is."""
+    """The part of the body that a joint or a chain is."""
 
     OTHER = _raw.HF_ROLE_OTHER
     SPINE = _raw.HF_ROLE_SPINE
@@ -2823,8 +2823,8 @@ class Skeleton(Object):
     names: one line for each joint in UTF-8, or None: names then say nothing
     parents: (joint_count,) number of the parent, NO_INDEX for a root
     rest: (joint_count, 10) joint transforms
-    inverse_binds: (joint_count, 16) inverse bind matrices, columns first, all zero for a joint that no skin names: it
-        carries children and rigid meshes alone; or None: the skin is given in the pose `rest`, and all joints bend it
+    inverse_binds: (joint_count, 16) inverse bind matrices, columns first. All zero: no skin names the joint; it moves
+        its children and rigid meshes only. None: the skin is given in the pose `rest`, and every joint can bend it
     up: (3,) declared axis, any length, or None: find it
     forward: (3,) declared axis, any length, or None: find it
     roles: (joint_count,) declared Role, -1 for a joint without; or None
@@ -2913,7 +2913,9 @@ class Skeleton(Object):
         return found['joints']
 
     def reasons(self) -> str:
-        """Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful."""
+        """Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful
+        finding.
+        """
         c = Call(self)
         size = ctypes.c_size_t()
         call('hf_skeleton_get_reasons', self._handle, 0, None, ref(size))

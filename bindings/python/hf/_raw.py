@@ -1757,7 +1757,7 @@ class hf_skeleton_info(Struct):
 
 
 class hf_joint_info(Struct):
-    """What a joint was found to be."""
+    """The findings about a joint."""
     kind: int
     role: int
     side: int

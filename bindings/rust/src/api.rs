@@ -983,8 +983,8 @@ impl<'a> Skin<'a> {
 /// x y z w, scale x y z.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SkeletonOptions<'a> {
-    /// `[joint_count x 16]` inverse bind matrices, columns first, all zero for a joint that no skin names: it carries
-    /// children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all joints bend it
+    /// `[joint_count x 16]` inverse bind matrices, columns first. All zero: no skin names the joint; it moves its
+    /// children and rigid meshes only. `None`: the skin is given in the pose `rest`, and every joint can bend it
     pub inverse_binds: Option<&'a [f32]>,
     /// `[3]` declared axis, any length, or `None`: find it
     pub up: Option<&'a [f32]>,
@@ -3853,8 +3853,8 @@ impl Skeleton {
     /// names: one line for each joint in UTF-8, or `None`: names then say nothing
     /// parents: `[joint_count]` number of the parent, [`raw::HF_NO_INDEX`] for a root
     /// rest: `[joint_count x 10]` joint transforms
-    /// inverse_binds: `[joint_count x 16]` inverse bind matrices, columns first, all zero for a joint that no skin names:
-    /// it carries children and rigid meshes alone; or `None`: the skin is given in the pose `rest`, and all joints
+    /// inverse_binds: `[joint_count x 16]` inverse bind matrices, columns first. All zero: no skin names the joint; it
+    /// moves its children and rigid meshes only. `None`: the skin is given in the pose `rest`, and every joint can
     /// bend it
     /// up: `[3]` declared axis, any length, or `None`: find it
     /// forward: `[3]` declared axis, any length, or `None`: find it
@@ -3949,7 +3949,8 @@ impl Skeleton {
         Ok(joints)
     }
 
-    /// Writes the reasons as text: what speaks for the axes, and a sentence a line where a finding is doubtful.
+    /// Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful
+    /// finding.
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn reasons(&self) -> Result<String> {
         let mut c = Call::new(&self.counts);

@@ -2018,7 +2018,7 @@ impl hf_skeleton_info {
     }
 }
 
-/// What a joint was found to be.
+/// The findings about a joint.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_joint_info {
