@@ -20,7 +20,7 @@ class Words:
             for m in methods:
                 self.table[m.name] = camel(handle["name"]) + ("" if m.function["verb"] == "create" else "." + language.method(m))
         for function in api["functions"]:
-            long = function["short_of"] or function["double_of"]
+            long = function["short_of"]
             if long in self.table:
                 self.table[function["name"]] = self.table[long]
         self.table.update({c["name"]: language.error(c["name"]) for c in api["constants"] if c["name"].startswith("HF_ERROR_")})
