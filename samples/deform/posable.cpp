@@ -69,10 +69,8 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
 void Posable::make_surface(const FlatMesh& mesh, const Options& options) {
   const std::vector<double> positions = double_positions(mesh.positions);
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count();
-  desc.triangle_count = mesh.triangle_count();
-  desc.positions_f64 = positions.data();
-  desc.triangles = mesh.triangles.data();
+  desc.positions = HF_ARRAY(positions.data(), mesh.vertex_count());
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangle_count());
   desc.thread_count = options.threads;
   if (options.paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
   const ModelLinks links(options.model, mesh);

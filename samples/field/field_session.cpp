@@ -94,11 +94,9 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
     : vertex_count_(static_cast<uint32_t>(mesh.positions.size())),
       components_(options.kind == FieldType::vector || options.kind == FieldType::direction ? 3 : 1) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = vertex_count_;
-  desc.positions_f64 = mesh.positions.empty() ? nullptr : &mesh.positions[0].x;
+  desc.positions = HF_ARRAY(mesh.positions.empty() ? nullptr : &mesh.positions[0].x, vertex_count_);
   if (mesh.face_sizes.empty()) {
-    desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
-    desc.triangles = mesh.triangles.data();
+    desc.triangles = HF_ARRAY(mesh.triangles.data(), static_cast<uint32_t>(mesh.triangles.size() / 3));
   } else {
     desc.face_count = static_cast<uint32_t>(mesh.face_sizes.size());
     desc.face_sizes = mesh.face_sizes.data();

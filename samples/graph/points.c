@@ -41,10 +41,8 @@ static void leg(float* positions, uint32_t* triangles) {
 /* The field of the mesh: x at the lower end, 1 at the upper end. */
 static void mesh_field(const float* positions, const uint32_t* triangles, double* out_field) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = AROUND * RINGS;
-  desc.triangle_count = 2 * AROUND * (RINGS - 1);
-  desc.positions = positions;
-  desc.triangles = triangles;
+  desc.positions = HF_ARRAY(positions, AROUND * RINGS);
+  desc.triangles = HF_ARRAY(triangles, 2 * AROUND * (RINGS - 1));
   hf_surface surface;
   hf_solver solver;
   ok(hf_surface_create(&desc, &surface));

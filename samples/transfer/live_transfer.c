@@ -36,10 +36,8 @@ static hf_surface surface_of(const float* positions) {
       *t++ = b + AROUND;
     }
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = VERTICES;
-  desc.triangle_count = TRIANGLES;
-  desc.positions = positions;
-  desc.triangles = triangles;
+  desc.positions = HF_ARRAY(positions, VERTICES);
+  desc.triangles = HF_ARRAY(triangles, TRIANGLES);
   hf_surface surface;
   return ok(hf_surface_create(&desc, &surface)), surface;
 }

@@ -71,10 +71,8 @@ static Body body_of(const char* file) {
     links.weights = shape.weights;
   }
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = body.info.vertex_count;
-  desc.triangle_count = body.info.triangle_count;
-  desc.positions_f64 = body.rest;
-  desc.triangles = shape.triangles;
+  desc.positions = HF_ARRAY(body.rest, body.info.vertex_count);
+  desc.triangles = HF_ARRAY(shape.triangles, body.info.triangle_count);
   desc.links = &links;
   desc.weld = HF_WELD_TOLERANCE;
   desc.weld_tolerance = (float)(1e-6 * body.diagonal);

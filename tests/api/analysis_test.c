@@ -144,8 +144,8 @@ static void distances_are_along_the_surface_and_minus_one_where_nothing_is_reach
     float distance[CUT_VERTICES];
     double precise[CUT_VERTICES];
     const uint32_t sources[2] = {CUT_LEFT, CUT_LEFT};
-    assert_ok(hf_geodesics_solve(geodesics, 2, sources, distance, 0));
-    assert_ok(hf_geodesics_solve_f64(geodesics, 1, sources, precise, 0));
+    assert_ok(hf_geodesics_solve(geodesics, 2, sources, OUT(distance)));
+    assert_ok(hf_geodesics_solve(geodesics, 1, sources, OUT(precise)));
     assert_true(distance[CUT_LEFT] == 0.0f);
     assert_true(distance[CUT_SEAM_LEFT] == distance[CUT_SEAM_RIGHT]);
     assert_true(distance[CUT_ISLAND] == -1.0f && distance[CUT_ISOLATED] == -1.0f);
@@ -228,7 +228,7 @@ static void a_surface_of_another_kind_gives_the_same_distances_and_tips(void** s
     const uint32_t source = 5;
     hf_geodesics geodesics = NULL;
     assert_ok(hf_geodesics_create(surfaces[i], NULL, &geodesics));
-    assert_ok(hf_geodesics_solve_f64(geodesics, 1, &source, distances[i], 0));
+    assert_ok(hf_geodesics_solve(geodesics, 1, &source, OUT(distances[i])));
     assert_ok(hf_surface_find_extremities(surfaces[i], NULL, 8, tips[i], &counts[i]));
     hf_geodesics_destroy(geodesics);
   }
@@ -251,7 +251,7 @@ static void paths_and_maps_agree_with_distances(void** state) {
   static double distance[COUNT], map[COUNT][2], positions[COUNT][3], parameters[COUNT], frame[6];
   static uint32_t edges[COUNT][2];
   const uint32_t source = 5;
-  assert_ok(hf_geodesics_solve_f64(geodesics, 1, &source, distance, 0));
+  assert_ok(hf_geodesics_solve(geodesics, 1, &source, OUT(distance)));
   hf_surface_point from = {{5, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
   assert_ok(hf_geodesics_get_map(geodesics, &from, 0, &map[0][0], frame));
   assert_near(frame[0] * frame[3] + frame[1] * frame[4] + frame[2] * frame[5], 0, 1e-12);
@@ -389,14 +389,14 @@ static void bad_input_is_named(void** state) {
   g.method = 0;
   BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_create(s, NULL, NULL));
   uint32_t source[2] = {0, COUNT};
-  BAD("no source", HF_ERROR_EMPTY, NO_INDEX, hf_geodesics_solve(geodesics, 0, source, floats, 0));
-  BAD("sources NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_solve(geodesics, 1, NULL, floats, 0));
-  BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_solve_f64(geodesics, 1, source, NULL, 0));
-  BAD("source out of range", HF_ERROR_OUT_OF_RANGE, 1, hf_geodesics_solve_f64(geodesics, 2, source, out, 0));
-  BAD("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, hf_geodesics_solve(geodesics, 1, source, floats, 3));
-  BAD("too many", HF_ERROR_TOO_LARGE, NO_INDEX, hf_geodesics_solve(geodesics, UINT32_MAX, source, floats, 0));
+  BAD("no source", HF_ERROR_EMPTY, NO_INDEX, hf_geodesics_solve(geodesics, 0, source, OUT(floats)));
+  BAD("sources NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_solve(geodesics, 1, NULL, OUT(floats)));
+  BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_solve(geodesics, 1, source, NULL));
+  BAD("source out of range", HF_ERROR_OUT_OF_RANGE, 1, hf_geodesics_solve(geodesics, 2, source, OUT(out)));
+  BAD("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, hf_geodesics_solve(geodesics, 1, source, OUT_ROWS(floats, 3)));
+  BAD("too many", HF_ERROR_TOO_LARGE, NO_INDEX, hf_geodesics_solve(geodesics, UINT32_MAX, source, OUT(floats)));
   source[0] = CUT_ISOLATED;
-  BAD("isolated", HF_ERROR_INVALID_ARGUMENT, 0, hf_geodesics_solve(of_other, 1, source, floats, 0));
+  BAD("isolated", HF_ERROR_INVALID_ARGUMENT, 0, hf_geodesics_solve(of_other, 1, source, OUT(floats)));
 
   hf_extremities_desc e;
   uint32_t count = 0;

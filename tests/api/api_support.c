@@ -167,7 +167,7 @@ uint32_t add_site(hf_solver solver, uint32_t vertex, double value) {
 
 double* field_of(hf_solver solver, uint32_t vertex_count) {
   double* field = checked_malloc(sizeof(double) * vertex_count);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(field), NULL));
   return field;
 }
 

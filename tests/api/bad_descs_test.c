@@ -102,10 +102,10 @@ static void fill_site_info(void* d) {
 static hf_result get_sites(void* d) { return hf_solver_get_sites(scene.solver, d); }
 static void fill_solve_info(void* d) { *(hf_solve_info*)d = HF_INIT(hf_solve_info); }
 static hf_result solve(void* d) { return hf_solve(scene.solver, floats, 0, d); }
-static hf_result solve_f64(void* d) { return hf_solver_solve_f64(scene.solver, doubles, 0, d); }
+static hf_result solve_f64(void* d) { return hf_solver_solve(scene.solver, OUT(doubles), d); }
 static void fill_preview_info(void* d) { *(hf_preview_info*)d = HF_INIT(hf_preview_info); }
-static hf_result solve_preview(void* d) { return hf_solver_solve_preview(scene.solver, floats, 0, 1, d); }
-static hf_result solve_preview_f64(void* d) { return hf_solver_solve_preview_f64(scene.solver, doubles, 0, 0, d); }
+static hf_result solve_preview(void* d) { return hf_solver_solve_preview(scene.solver, OUT(floats), 1, d); }
+static hf_result solve_preview_f64(void* d) { return hf_solver_solve_preview(scene.solver, OUT(doubles), 0, d); }
 static hf_result with_three_sites(hf_result (*call)(hf_solver, void*), void* d) {
   hf_solver copy = NULL;
   hf_result result = hf_solver_clone(scene.three, &copy);
@@ -116,8 +116,8 @@ static hf_result with_three_sites(hf_result (*call)(hf_solver, void*), void* d) 
   hf_solver_destroy(copy);
   return result;
 }
-static hf_result vectors(hf_solver s, void* d) { return hf_solver_solve_vectors(s, floats, 0, NULL, d); }
-static hf_result vectors_f64(hf_solver s, void* d) { return hf_solver_solve_vectors_f64(s, doubles, 0, NULL, d); }
+static hf_result vectors(hf_solver s, void* d) { return hf_solver_solve_vectors(s, OUT(floats), NULL, d); }
+static hf_result vectors_f64(hf_solver s, void* d) { return hf_solver_solve_vectors(s, OUT(doubles), NULL, d); }
 static hf_result solve_vectors(void* d) { return with_three_sites(vectors, d); }
 static hf_result solve_vectors_f64(void* d) { return with_three_sites(vectors_f64, d); }
 
@@ -181,7 +181,7 @@ static void fill_frame(void* d) {
   hf_transfer_frame* frame = d;
   *frame = HF_INIT(hf_transfer_frame);
   frame->source_positions = scene.posed;
-  frame->target_positions = floats;
+  frame->target_positions = ROWS_OUT(floats);
 }
 static hf_result transfer_apply(void* d) { return hf_transfer_apply(scene.transfer, d); }
 static void fill_skin(void* d) { *(hf_skin_info*)d = HF_INIT(hf_skin_info); }
@@ -249,8 +249,8 @@ static hf_result direction_create(void* d) {
   hf_direction_destroy(direction);
   return result;
 }
-static hf_result direction_solve(void* d) { return hf_direction_solve(scene.direction, floats, 0, d); }
-static hf_result direction_solve_f64(void* d) { return hf_direction_solve_f64(scene.direction, doubles, 0, d); }
+static hf_result direction_solve(void* d) { return hf_direction_solve(scene.direction, OUT(floats), d); }
+static hf_result direction_solve_f64(void* d) { return hf_direction_solve(scene.direction, OUT(doubles), d); }
 static void fill_direction_statistics(void* d) { *(hf_direction_statistics*)d = HF_INIT(hf_direction_statistics); }
 static hf_result direction_statistics(void* d) { return hf_direction_get_statistics(scene.direction, d); }
 
@@ -288,7 +288,7 @@ static hf_result region_info(void* d) { return hf_region_get_info(scene.region, 
 static void fill_morph(void* d) {
   hf_morph_desc* morph = d;
   *morph = HF_INIT(hf_morph_desc);
-  morph->positions = floats;
+  morph->positions = ROWS_OUT(floats);
 }
 static hf_result region_morph(void* d) { return hf_region_morph(scene.region, d); }
 static void fill_detail(void* d) { *(hf_detail_desc*)d = HF_INIT(hf_detail_desc); }
@@ -399,11 +399,11 @@ static const struct {
     {"hf_solver_edit_sites: edit->move_to", sizeof(hf_sites_desc), fill_places, edit_move, 0},
     {"hf_solver_get_sites: out_info", sizeof(hf_sites_info), fill_site_info, get_sites, 0},
     {"hf_solve: out_info", sizeof(hf_solve_info), fill_solve_info, solve, 1},
-    {"hf_solver_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_f64, 1},
+    {"hf_solver_solve: out_info", sizeof(hf_solve_info), fill_solve_info, solve_f64, 1},
     {"hf_solver_solve_preview: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview, 1},
-    {"hf_solver_solve_preview_f64: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview_f64, 1},
+    {"hf_solver_solve_preview: out_info", sizeof(hf_preview_info), fill_preview_info, solve_preview_f64, 1},
     {"hf_solver_solve_vectors: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors, 1},
-    {"hf_solver_solve_vectors_f64: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors_f64, 1},
+    {"hf_solver_solve_vectors: out_info", sizeof(hf_solve_info), fill_solve_info, solve_vectors_f64, 1},
     {"hf_pose_create: desc", sizeof(hf_pose_desc), fill_pose, pose_create, 1},
     {"hf_pose_add_handles: handles", sizeof(hf_handles_desc), fill_handles, pose_add_handles, 0},
     {"hf_pose_get_skin: info", sizeof(hf_skin_info), fill_pose_skin, pose_get_skin, 0},
@@ -428,7 +428,7 @@ static const struct {
     {"hf_surface_find_extremities: desc", sizeof(hf_extremities_desc), fill_extremities, find_extremities, 1},
     {"hf_direction_create: desc", sizeof(hf_direction_desc), fill_direction, direction_create, 1},
     {"hf_direction_solve: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve, 1},
-    {"hf_direction_solve_f64: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve_f64, 1},
+    {"hf_direction_solve: out_info", sizeof(hf_solve_info), fill_solve_info, direction_solve_f64, 1},
     {"hf_direction_get_statistics: out_statistics", sizeof(hf_direction_statistics), fill_direction_statistics,
      direction_statistics, 0},
     {"hf_region_create: desc", sizeof(hf_region_desc), fill_region, region_create, 1},

@@ -20,10 +20,9 @@ static void good_input(void) {
   for (size_t v = 0; v < VERTICES; ++v) masses[v] = 1 + (double)v;
   desc = HF_INIT(hf_graph_desc);
   desc.vertex_count = VERTICES;
-  desc.edge_count = EDGES;
-  desc.edges = edges;
-  desc.weights = weights;
-  desc.masses = masses;
+  desc.edges = HF_ARRAY(edges, EDGES);
+  desc.weights = HF_ARRAY(weights, EDGES);
+  desc.masses = HF_ARRAY(masses, VERTICES);
   desc.allocator = counting_hooks(&counter);
   out = scene.sheet; /* must become NULL */
 }
@@ -155,7 +154,7 @@ static double before[VERTICES];
 
 static int field_unchanged(void) {
   double now[VERTICES];
-  return hf_solver_solve_f64(solver, now, 0, NULL) == HF_OK && same_bits(now, before, sizeof now) &&
+  return hf_solver_solve(solver, OUT(now), NULL) == HF_OK && same_bits(now, before, sizeof now) &&
          hf_solver_get_site_count(vectors) == 1;
 }
 static void nothing(void) {}
@@ -185,7 +184,7 @@ static void make_graph_solvers(void) {
   add_site(solver, 0, 1);
   add_site(solver, 2, -1);
   assert_ok(hf_solver_add_site(vectors, 1, up, NULL));
-  assert_ok(hf_solver_solve_f64(solver, before, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(before), NULL));
 }
 
 static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
@@ -272,8 +271,8 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("a disc", 1, hf_add_sites(solver, &disc, NULL));
   NEEDS("a disc in a batch", 1, hf_solver_edit_sites(solver, &edit, NULL));
   NEEDS("a move into a triangle", 0, hf_solver_move_sites(solver, 1, &site, &in_triangle));
-  NEEDS("vectors", NO_INDEX, hf_solver_solve_vectors(vectors, xyz_f32, 0, NULL, NULL));
-  NEEDS("vectors in double", NO_INDEX, hf_solver_solve_vectors_f64(vectors, xyz, 0, NULL, NULL));
+  NEEDS("vectors", NO_INDEX, hf_solver_solve_vectors(vectors, OUT(xyz_f32), NULL, NULL));
+  NEEDS("vectors in double", NO_INDEX, hf_solver_solve_vectors(vectors, OUT(xyz), NULL, NULL));
   NEEDS("vectors that move", NO_INDEX, hf_solver_move_vectors(vectors, 1, &site, vertex));
   NEEDS("vectors that turn", NO_INDEX, hf_solver_rotate_vectors(vectors, 1, &site, &angle));
   ROW("screening", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_solver_set_screening(solver, screening, NULL));
@@ -323,8 +322,8 @@ static void surfaces_of_graphs_do_all_else(void** state) {
   assert_int_equal(solved.unreached_vertex_count, 4); /* the second square and the vertex without an edge */
   assert_ok(hf_solver_solve_at(solver, 2, asked, values));
   assert_true(values[0] == 0 && values[1] == before[1]);
-  assert_ok(hf_solver_solve_preview(solver, field, 0, 1, &preview));
-  assert_ok(hf_solver_solve_preview_f64(solver, field_f64, 0, 2, &preview));
+  assert_ok(hf_solver_solve_preview(solver, OUT(field), 1, &preview));
+  assert_ok(hf_solver_solve_preview(solver, OUT(field_f64), 2, &preview));
   assert_ok(hf_solver_release_preview(solver));
   assert_ok(hf_solver_certify(solver, &certificate));
   assert_int_equal(certificate.overshoot_checked, 1);
@@ -349,7 +348,7 @@ static void surfaces_of_graphs_do_all_else(void** state) {
   assert_ok(hf_solver_edit_sites(copy, &edit, NULL));
   assert_ok(hf_solver_prepare_rebase(copy));
   assert_ok(hf_remove_sites(copy, 1, &other));
-  assert_ok(hf_solver_solve_f64(solver, field_f64, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(field_f64), NULL));
   assert_true(same_bits(field_f64, before, sizeof before));
   assert_int_equal(hf_solver_get_site_count(solver), 2);
   hf_solver_destroy(copy);

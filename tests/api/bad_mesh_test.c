@@ -50,13 +50,12 @@ static void in_64_bits(void) {
 }
 
 static void in_16_bits(void) {
-  desc.triangles = NULL;
-  desc.triangles_u16 = triangles_u16;
+  desc.triangles = HF_ARRAY(NULL, 0);
+  desc.triangles = HF_ARRAY(triangles_u16, 0);
 }
 
 static void in_sizes(void) {
-  desc.triangles = NULL;
-  desc.triangle_count = 0;
+  desc.triangles = HF_ARRAY(NULL, 0);
   desc.face_count = CUT_TRIANGLES;
   desc.corner_count = 3 * CUT_TRIANGLES;
   desc.face_sizes = face_sizes;

@@ -55,10 +55,10 @@ static void good_input(void) {
   radii[0] = radii[1] = 0.2;
   transforms[0].rotation[3] = transforms[1].rotation[3] = 1;
   transforms[0].translation[0] = 3;
-  deform.positions = floats;
+  deform.positions = ROWS_OUT(floats);
   memcpy(source, scene.posed, sizeof source);
   frame.source_positions = source;
-  frame.target_positions = floats;
+  frame.target_positions = ROWS_OUT(floats);
   propose = HF_INIT(hf_handle_proposals_desc);
   memset(joints, 0, sizeof joints);
   parents[0] = NO_INDEX;
@@ -291,17 +291,17 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
 
   ROW("no such handle", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_handle(scene.pose, 2, &info));
   ROW("UINT32_MAX", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_handle(scene.pose, UINT32_MAX, &info));
-  ROW("no such handle", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 2, floats, 0));
-  ROW("output NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, NULL, 0));
-  ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, floats, 3));
+  ROW("no such handle", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 2, OUT(floats)));
+  ROW("output NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, NULL));
+  ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, OUT_ROWS(floats, 3)));
 
 #define DEFORM(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_deform(scene.pose, &deform, NULL))
-  DEFORM("no output", HF_ERROR_NULL_POINTER, deform.positions = NULL);
-  DEFORM("both outputs", HF_ERROR_INVALID_ARGUMENT, deform.positions_f64 = doubles);
-  DEFORM("stride 11", HF_ERROR_TOO_SMALL, deform.position_stride = 11);
+  DEFORM("no output", HF_ERROR_NULL_POINTER, deform.positions = ROWS_OUT(NULL));
+  DEFORM("both outputs", HF_ERROR_INVALID_ARGUMENT, deform.positions = ROWS_OUT(doubles));
+  DEFORM("stride 11", HF_ERROR_TOO_SMALL, deform.positions.stride = 11);
   DEFORM("stride of floats", HF_ERROR_TOO_SMALL,
-         (deform.positions = NULL, deform.positions_f64 = doubles, deform.position_stride = 12));
-  DEFORM("normal stride 4", HF_ERROR_TOO_SMALL, (deform.normals = normals, deform.normal_stride = 4));
+         (deform.positions = NULL, deform.positions_f64 = doubles, deform.positions.stride = 12));
+  DEFORM("normal stride 4", HF_ERROR_TOO_SMALL, (deform.normals = normals, deform.normals.stride = 4));
   DEFORM("1001 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = 1001);
   DEFORM("2^32 - 1 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = UINT32_MAX);
   DEFORM("refine 65", HF_ERROR_INVALID_ARGUMENT, deform.refine = 65);
@@ -351,7 +351,7 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   check_row(__LINE__, "no handle", "hf_pose_get_skin", hf_pose_get_skin(out_pose, &skin), HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_get_handle", hf_pose_get_handle(out_pose, 0, &info), HF_ERROR_NOT_FOUND,
             NO_INDEX);
-  check_row(__LINE__, "no handle", "hf_pose_get_field", hf_pose_get_field(out_pose, 0, floats, 0), HF_ERROR_NOT_FOUND,
+  check_row(__LINE__, "no handle", "hf_pose_get_field", hf_pose_get_field(out_pose, 0, OUT(floats)), HF_ERROR_NOT_FOUND,
             NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_remove_handles", hf_pose_remove_handles(out_pose, 1, numbers),
             HF_ERROR_NOT_FOUND, 0);
@@ -464,10 +464,10 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
 
   APPLY("no source", HF_ERROR_NULL_POINTER, NO_INDEX, frame.source_positions = NULL);
   APPLY("both sources", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, frame.source_positions_f64 = doubles);
-  APPLY("both outputs", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, frame.target_positions_f64 = doubles);
+  APPLY("both outputs", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, frame.target_positions = ROWS_OUT(doubles));
   APPLY("source stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, frame.source_stride = 11);
-  APPLY("target stride 8", HF_ERROR_TOO_SMALL, NO_INDEX, frame.target_stride = 8);
-  APPLY("normal stride 1", HF_ERROR_TOO_SMALL, NO_INDEX, (frame.target_normals = normals, frame.normal_stride = 1));
+  APPLY("target stride 8", HF_ERROR_TOO_SMALL, NO_INDEX, frame.target_positions.stride = 8);
+  APPLY("normal stride 1", HF_ERROR_TOO_SMALL, NO_INDEX, (frame.target_normals = normals, frame.target_normals.stride = 1));
   APPLY("source NaN", HF_ERROR_NON_FINITE, 17, source[3 * 17 + 2] = (float)NAN);
   APPLY("source 1e30 boxes away", HF_ERROR_TOO_LARGE, 17, source[3 * 17] = 1e31f);
   APPLY("source infinite", HF_ERROR_NON_FINITE, TUBE_VERTICES - 1, source[3 * TUBE_VERTICES - 1] = (float)INFINITY);

@@ -76,7 +76,7 @@ static hf_result region_get_curve(void* h) {
 }
 static hf_result detail_morph(void* h) {
   hf_morph_desc desc = HF_INIT(hf_morph_desc);
-  desc.positions_f64 = positions;
+  desc.positions = ROWS_OUT(positions);
   return hf_detail_morph(h, &desc);
 }
 

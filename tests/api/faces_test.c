@@ -39,8 +39,7 @@ static Sheet bent_sheet(void) {
 
 static hf_surface_desc desc_of(const Sheet* sheet) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = POINTS;
-  desc.positions_f64 = sheet->positions;
+  desc.positions = HF_ARRAY(sheet->positions, POINTS);
   desc.face_count = QUADS;
   desc.corner_count = 4 * QUADS;
   desc.face_sizes = sheet->sizes;
@@ -60,7 +59,7 @@ static void field_on(const hf_surface_desc* desc, double* field) {
   hf_solver solver = solver_on(surface);
   add_site(solver, LEFT, 0);
   add_site(solver, desc->vertex_count - 1, 1);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(field), NULL));
   hf_solver_destroy(solver);
   hf_surface_destroy(surface);
 }
@@ -161,11 +160,10 @@ static void faces_of_three_corners_are_triangles(void** state) {
   hf_solver solver = solver_on(surface);
   add_site(solver, CUT_LEFT, 0);
   add_site(solver, CUT_RIGHT, 1);
-  assert_ok(hf_solver_solve_f64(solver, triangles, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(triangles), NULL));
   const hf_surface_report before = report_of(&options.surface);
   hf_surface_desc desc = options.surface;
-  desc.triangles = NULL;
-  desc.triangle_count = 0;
+  desc.triangles = HF_ARRAY(NULL, 0);
   desc.face_count = CUT_TRIANGLES;
   desc.corner_count = 3 * CUT_TRIANGLES;
   desc.face_sizes = sizes;
@@ -174,7 +172,7 @@ static void faces_of_three_corners_are_triangles(void** state) {
   hf_solver other = solver_on(same);
   add_site(other, CUT_LEFT, 0);
   add_site(other, CUT_RIGHT, 1);
-  assert_ok(hf_solver_solve_f64(other, faces, 0, NULL));
+  assert_ok(hf_solver_solve(other, OUT(faces), NULL));
   assert_memory_equal(triangles, faces, sizeof faces);
   hf_surface_report after = report_of(&desc);
   assert_int_equal(after.face_count, CUT_TRIANGLES);
@@ -261,8 +259,7 @@ static void concave_faces_holes_and_dirt(void** state) {
                         6, 5,  3};                                    /* the third again, turned round */
   const uint32_t sizes[] = {14, 4, 4, 3, 3};
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 14;
-  desc.positions = &positions[0][0];
+  desc.positions = HF_ARRAY(&positions[0][0], 14);
   desc.face_count = 5;
   desc.corner_count = (uint32_t)COUNT_OF(c);
   desc.face_sizes = sizes;
@@ -302,8 +299,7 @@ static void sides_of_faces_are_counted_not_cuts(void** state) {
   uint32_t corners[] = {0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
   const uint32_t sizes[] = {4, 4, 4, 4, 4, 4};
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 8;
-  desc.positions = &positions[0][0];
+  desc.positions = HF_ARRAY(&positions[0][0], 8);
   desc.face_count = 6;
   desc.corner_count = 24;
   desc.face_sizes = sizes;
@@ -349,8 +345,7 @@ static void linear_fields_are_exact_on_flat_faces(void** state) {
   }
   sizes[0] = AROUND;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = ALL;
-  desc.positions_f64 = positions;
+  desc.positions = HF_ARRAY(positions, ALL);
   desc.corners = corners;
   desc.face_sizes = sizes;
   desc.face_count = 1 + AROUND;
@@ -363,7 +358,7 @@ static void linear_fields_are_exact_on_flat_faces(void** state) {
     for (uint32_t i = 0; i < AROUND; ++i) values[i] = positions[3 * rim[i]] + 2 * positions[3 * rim[i] + 1];
     const hf_sites_desc sites = sites_at(AROUND, rim, values);
     assert_ok(hf_add_sites(solver, &sites, NULL));
-    assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
+    assert_ok(hf_solver_solve(solver, OUT(field), NULL));
     for (uint32_t v = 0; v < ALL; ++v)
       assert_true(fabs(field[v] - positions[3 * v] - 2 * positions[3 * v + 1]) < 1e-12);
     hf_solver_destroy(solver);
@@ -413,8 +408,8 @@ static void a_pose_of_faces_follows_its_handles(void** state) {
   assert_ok(hf_pose_add_handles(pose, &regions, handles));
   float posed[3 * POINTS], normals[3 * POINTS];
   hf_deform_desc out = HF_INIT(hf_deform_desc);
-  out.positions = posed;
-  out.normals = normals;
+  out.positions = ROWS_OUT(posed);
+  out.normals = ROWS_OUT(normals);
   assert_ok(hf_pose_deform(pose, &out, NULL));
   for (uint32_t i = 0; i < 3 * POINTS; ++i) assert_true(fabs(posed[i] - sheet.positions[i]) < 1e-5);
   /* the normal of a corner of the sheet is Newell's normal of its one face, wherever the cut runs */

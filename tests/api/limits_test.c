@@ -21,9 +21,8 @@ static hf_surface_desc soup(void) {
   }
   hf_surface_desc desc = options_of(&places).surface;
   desc.vertex_count = VERTICES;
-  desc.triangle_count = TRIANGLES;
-  desc.triangles = corners;
-  desc.triangles_u16 = NULL;
+  desc.triangles = HF_ARRAY(corners, TRIANGLES);
+  desc.triangles = HF_ARRAY(NULL, TRIANGLES);
   desc.triangle_stride = 0;
   desc.allocator = counting_hooks(&counter);
   return desc;

@@ -108,8 +108,8 @@ static void what_works_on_triangles_does_not_see_links(void** state) {
   assert_ok(hf_geodesics_create(plain, NULL, &without));
   const uint32_t source = CUT_LEFT;
   double a[CUT_VERTICES], b[CUT_VERTICES];
-  assert_ok(hf_geodesics_solve_f64(with, 1, &source, a, 0));
-  assert_ok(hf_geodesics_solve_f64(without, 1, &source, b, 0));
+  assert_ok(hf_geodesics_solve(with, 1, &source, OUT(a)));
+  assert_ok(hf_geodesics_solve(without, 1, &source, OUT(b)));
   assert_true(same_bits(a, b, sizeof a));
   hf_geodesics_destroy(with);
   hf_geodesics_destroy(without);

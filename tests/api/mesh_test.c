@@ -94,10 +94,8 @@ static hf_surface_report report_of_tetrahedra(int first_turned, int second_turne
     triangles[3 * t + 1] = v;
   }
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 8;
-  desc.positions = positions;
-  desc.triangle_count = second_open ? 7 : 8;
-  desc.triangles = triangles;
+  desc.positions = HF_ARRAY(positions, 8);
+  desc.triangles = HF_ARRAY(triangles, second_open ? 7 : 8);
   hf_surface surface;
   assert_ok(hf_surface_create(&desc, &surface));
   const hf_surface_report report = report_of(surface);
@@ -138,14 +136,14 @@ static void what_no_site_reaches_is_zero_and_counted(void** state) {
   double field[CUT_VERTICES];
   hf_solve_info info = HF_INIT(hf_solve_info);
   const uint32_t first = add_site(solver, CUT_LEFT, 3);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve(solver, OUT(field), &info));
   assert_int_equal(info.unreached_component_count, 1);
   assert_int_equal(info.first_unreached_component, 1);
   assert_int_equal(info.unreached_vertex_count, 9 + 1);
   for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_true(v < CUT_ISLAND ? fabs(field[v] - 3) < 1e-12 : field[v] == 0);
   /* a site on the piece reaches it; the isolated vertex stays */
   const uint32_t second = add_site(solver, CUT_ISLAND + 4, -2);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve(solver, OUT(field), &info));
   assert_int_equal(info.unreached_component_count, 0);
   assert_int_equal(info.first_unreached_component, HF_NO_INDEX);
   assert_int_equal(info.unreached_vertex_count, 1);
@@ -153,12 +151,12 @@ static void what_no_site_reaches_is_zero_and_counted(void** state) {
   assert_true(field[CUT_ISOLATED] == 0);
   /* the last site of the first component leaves: it is unreached, and exact again after another comes */
   assert_ok(hf_remove_sites(solver, 1, &first));
-  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve(solver, OUT(field), &info));
   assert_int_equal(info.first_unreached_component, 0);
   assert_int_equal(info.unreached_vertex_count, 50 + 1);
   for (uint32_t v = 0; v < CUT_ISLAND; ++v) assert_true(field[v] == 0);
   add_site(solver, CUT_RIGHT, 11);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve(solver, OUT(field), &info));
   for (uint32_t v = 0; v < CUT_ISLAND; ++v) assert_true(fabs(field[v] - 11) < 1e-11);
   assert_ok(hf_remove_sites(solver, 1, &second));
   double at[2];

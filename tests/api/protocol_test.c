@@ -360,10 +360,8 @@ static void linked_create(void) {
   hf_links_desc links = HF_INIT(hf_links_desc);
   links.mode = HF_LINK_PIECES;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 12;
-  desc.triangle_count = 16;
-  desc.positions = corners;
-  desc.triangles = faces;
+  desc.positions = HF_ARRAY(corners, 12);
+  desc.triangles = HF_ARRAY(faces, 16);
   desc.links = &links;
   assert_ok(hf_surface_create(&desc, &linked));
 }

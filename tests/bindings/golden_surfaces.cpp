@@ -44,22 +44,19 @@ Result Scene::run_surface(const Json& step) {
     for (const auto& [key, value] : step["positions"].items()) positions[std::stoul(key)] = number(value);
   if (step.contains("triangles"))
     for (const auto& [key, value] : step["triangles"].items()) triangles[std::stoul(key)] = value.get<uint32_t>();
-  desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
-  desc.positions_f64 = positions.data();
-  desc.triangle_count = step.contains("no_triangles") ? 0 : static_cast<uint32_t>(triangles.size() / 3);
+  desc.positions = HF_ARRAY(positions.data(), positions.size() / 3);
   const size_t width = step.value("index_bits", 32u) / 8;
   desc.triangle_stride = step.value("triangle_stride", 0u);
   const auto laid = lay_out(triangles, width, desc.triangle_stride ? desc.triangle_stride : 3 * width);
   if (desc.triangle_count && width == sizeof(uint16_t))
-    desc.triangles_u16 = reinterpret_cast<const uint16_t*>(laid.data());
+    desc.triangles = HF_ARRAY(reinterpret_cast<const uint16_t*>(laid.data()), step.contains("no_triangles") ? 0 : static_cast<uint32_t>(triangles.size() / 3));
   else if (desc.triangle_count)
-    desc.triangles = reinterpret_cast<const uint32_t*>(laid.data());
+    desc.triangles = HF_ARRAY(reinterpret_cast<const uint32_t*>(laid.data()), 0);
   Numbers offsets, corners, tags;
   if (step.contains("faces")) {
     offsets = step["faces"]["offsets"].get<Numbers>();
     corners = step["faces"]["corners"].get<Numbers>();
-    desc.triangle_count = 0;
-    desc.triangles = nullptr;
+    desc.triangles = HF_ARRAY(nullptr, 0);
     desc.face_count = static_cast<uint32_t>(offsets.size() - 1);
     desc.face_starts = offsets.data();
     desc.corner_count = static_cast<uint32_t>(corners.size());
@@ -98,10 +95,9 @@ Result Scene::run_graph(const Json& step) {
   const auto weights = doubles(step, "weights"), masses = doubles(step, "masses", step["vertex_count"].get<size_t>());
   if (edges && weights && edges->size() != 2 * weights->size()) fail("edges must hold two vertices for each weight");
   desc.vertex_count = step["vertex_count"];
-  desc.edge_count = count(weights);
-  desc.edges = data(edges);
-  desc.weights = data(weights);
-  desc.masses = data(masses);
+  desc.edges = HF_ARRAY(data(edges), count(weights));
+  desc.weights = HF_ARRAY(data(weights), count(weights));
+  desc.masses = HF_ARRAY(data(masses), step["vertex_count"]);
   hf_surface raw = nullptr;
   check(hf_surface_create_graph(&desc, &raw));
   Object& object = objects_[step["as"]];

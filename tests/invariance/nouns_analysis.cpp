@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "setting.h"
+#include "support/arrays.h"
 
 namespace invariance {
 namespace {
@@ -51,7 +52,7 @@ Measured distances(const Setting& s, std::int32_t method) {
   for (const std::uint32_t count : {1u, 3u}) {
     const std::uint32_t sources[] = {s.pick(0), s.pick(4), s.pick(7)};
     std::vector<double> values(s.copy.points.size());
-    ok(hf_geodesics_solve_f64(geodesics, count, sources, values.data(), 0));
+    ok(hf_geodesics_solve(geodesics, count, sources, OUT(values.data())));
     for (double& v : values) v = v < 0 ? -1 : s.back_size(v) / s.body.diagonal;
     out.add(count == 1 ? "one source" : "three sources", s.gather(values));
   }

@@ -81,11 +81,10 @@ Setting::Setting(const Body& of, const Copy& made) : body(of), copy(made) {
 
 hf_surface_desc Setting::desc() const {
   hf_surface_desc d = HF_INIT(hf_surface_desc);
-  d.vertex_count = static_cast<std::uint32_t>(copy.points.size());
   if (copy.form == Form::doubles) {
-    d.positions_f64 = doubles_.data();
+    d.positions = HF_ARRAY(doubles_.data(), copy.points.size());
   } else {
-    d.positions = floats_.data();
+    d.positions = HF_ARRAY(floats_.data(), copy.points.size());
   }
   const auto triangle_count = static_cast<std::uint32_t>(copy.triangles.size());
   if (copy.form == Form::faces) {
@@ -95,11 +94,10 @@ hf_surface_desc Setting::desc() const {
     d.corners = corners_.data();
     return d;
   }
-  d.triangle_count = triangle_count;
   if (copy.form == Form::u16) {
-    d.triangles_u16 = short_corners_.data();
+    d.triangles = HF_ARRAY(short_corners_.data(), triangle_count);
   } else {
-    d.triangles = corners_.data();
+    d.triangles = HF_ARRAY(corners_.data(), triangle_count);
   }
   if (copy.form == Form::strided) {
     d.position_stride = gap * sizeof(float);

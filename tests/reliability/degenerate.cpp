@@ -9,6 +9,7 @@
 #include "degenerate_shapes.h"
 #include "hf/quads.h"
 #include "report.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -179,8 +180,8 @@ void play_distances(const Scene& scene, hf_geodesics geodesics, std::int32_t met
     std::vector<double> d(scene.n);
     std::vector<float> single(scene.n);
     const std::uint32_t count = static_cast<std::uint32_t>(sources.size());
-    if (!ANSWERED(hf_geodesics_solve_f64(geodesics, count, sources.data(), d.data(), 0))) continue;
-    check(ANSWERED(hf_geodesics_solve(geodesics, count, sources.data(), single.data(), 0)), "float distances");
+    if (!ANSWERED(hf_geodesics_solve(geodesics, count, sources.data(), OUT(d.data())))) continue;
+    check(ANSWERED(hf_geodesics_solve(geodesics, count, sources.data(), OUT(single.data()))), "float distances");
     const std::vector<double> most = along_edges(scene, sources);
     for (std::size_t v = 0; v < scene.n; ++v) {
       check(d[v] == -1 || (d[v] >= 0 && std::isfinite(d[v])), "a distance is no distance");
@@ -271,9 +272,9 @@ void play_solve(const Scene& scene, hf_direction direction) {
   std::vector<double> d(3 * scene.n);
   std::vector<float> f(3 * scene.n);
   hf_solve_info info = HF_INIT(hf_solve_info);
-  if (ANSWERED(hf_direction_solve_f64(direction, d.data(), 0, &info)))
+  if (ANSWERED(hf_direction_solve(direction, OUT(d.data()), &info)))
     check(all_finite(d.data(), d.size()), "a direction is not finite");
-  if (ANSWERED(hf_direction_solve(direction, f.data(), 0, nullptr))) {
+  if (ANSWERED(hf_direction_solve(direction, OUT(f.data()), nullptr))) {
     for (const float x : f) check(std::isfinite(x), "a direction in float is not finite");
   }
   std::uint32_t count = 0;
@@ -333,13 +334,11 @@ void play(const DegenerateMesh& mesh) {
   where = mesh.name;
   std::vector<float> floats(mesh.positions.begin(), mesh.positions.end());
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count();
-  desc.triangle_count = mesh.triangle_count();
   if (mesh.in_float)
-    desc.positions = floats.data();
+    desc.positions = HF_ARRAY(floats.data(), mesh.vertex_count());
   else
-    desc.positions_f64 = mesh.positions.data();
-  desc.triangles = mesh.triangles.data();
+    desc.positions = HF_ARRAY(mesh.positions.data(), mesh.vertex_count());
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangle_count());
   desc.weld = mesh.weld;
   desc.allocator = padded_allocator();
   hf_surface surface = nullptr;

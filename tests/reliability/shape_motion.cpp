@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "shape_play.h"
+#include "support/arrays.h"
 
 namespace shapes {
 
@@ -59,8 +60,8 @@ bool Player::transfer() {
   const auto frame = [&](const std::vector<double>& source) {
     std::vector<double> out(target.positions.size());
     hf_transfer_frame f = HF_INIT(hf_transfer_frame);
-    f.source_positions_f64 = source.data();
-    f.target_positions_f64 = out.data();
+    f.source_positions = HF_ARRAY(source.data(), source.size() / 3);
+    f.target_positions = ROWS_OUT(out.data());
     expect(HF_OK, hf_transfer_apply(transfer.handle, &f), "hf_transfer_apply");
     hold(finite(out), "hf_transfer_apply: not finite");
     return out;

@@ -45,10 +45,8 @@ TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
   saved.bytes = bytes.data();
   saved.byte_count = bytes.size();
   auto desc = hf::make<hf_surface_desc>();
-  desc.vertex_count = static_cast<uint32_t>(strip.positions.size() / 3);
-  desc.positions = strip.positions.data();
-  desc.triangle_count = static_cast<uint32_t>(strip.triangles.size() / 3);
-  desc.triangles = strip.triangles.data();
+  desc.positions = HF_ARRAY(strip.positions.data(), strip.positions.size() / 3);
+  desc.triangles = HF_ARRAY(strip.triangles.data(), strip.triangles.size() / 3);
   desc.saved_factor = &saved;
   const hf::Surface again(desc);
   EXPECT_EQ(again.statistics().factor_loaded, 1);

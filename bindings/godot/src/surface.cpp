@@ -25,8 +25,7 @@ Value create_of(Surface& s, hf_surface_desc& desc, const Argument& positions_giv
   if (positions_given.null) fail("positions are null", HF_ERROR_NULL_POINTER);
   const Doubles& positions = positions_given.list;
   if (positions.size() % 3) fail("positions hold three numbers each");
-  desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
-  desc.positions_f64 = positions.data();
+  desc.positions = HF_ARRAY(positions.data(), static_cast<uint32_t>(positions.size() / 3));
   auto factor = make<hf_factor_desc>();
   if (!saved.bytes.empty()) {
     factor.bytes = saved.bytes.data();
@@ -46,8 +45,7 @@ Value create(Surface& s, const Arguments& a) {
   auto desc = make<hf_surface_desc>();
   const List triangles = integers(at(a, 1), "triangles");
   if (triangles.values.size() % 3) fail("triangles hold three numbers each");
-  desc.triangle_count = static_cast<uint32_t>(triangles.values.size() / 3);
-  desc.triangles = triangles.data();
+  desc.triangles = HF_ARRAY(triangles.data(), static_cast<uint32_t>(triangles.values.size() / 3));
   return create_of(s, desc, at(a, 0), at(a, 2), at(a, 3));
 }
 
