@@ -65,7 +65,7 @@ void graph_field(const Graph* graph, uint32_t vertex_count, int allow_negative, 
   held.values = values;
   ok(hf_create(surface, NULL, &solver));
   ok(hf_add_sites(solver, &held, NULL));
-  ok(hf_solver_solve_f64(solver, out_field, 0, NULL));
+  ok(hf_solver_solve(solver, &HF_ARRAY_OUT(out_field, vertex_count), NULL));
 
   hf_certificate certificate = HF_INIT(hf_certificate);
   ok(hf_solver_certify(solver, &certificate));

@@ -52,7 +52,7 @@ static void mesh_field(const float* positions, const uint32_t* triangles, double
     ok(hf_solver_add_site(solver, i, &low, NULL));
     ok(hf_solver_add_site(solver, AROUND * (RINGS - 1) + i, &high, NULL));
   }
-  ok(hf_solver_solve_f64(solver, out_field, 0, NULL));
+  ok(hf_solver_solve(solver, &HF_ARRAY_OUT(out_field, AROUND * RINGS), NULL));
   hf_solver_destroy(solver);
   hf_surface_destroy(surface);
 }

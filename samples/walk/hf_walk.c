@@ -149,8 +149,8 @@ int main(int argc, char** argv) {
     times[f] = clip.duration * (double)f / (double)(frames - 1);
     good(hf_gltf_model_pose(source.model, 0, times[f], posed));
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions_f64 = posed;
-    frame.target_positions_f64 = played + row * f;
+    frame.source_positions = HF_ARRAY(posed, source.info.vertex_count);
+    frame.target_positions = HF_ARRAY_OUT(played + row * f, target.info.vertex_count);
     ok(hf_transfer_apply(transfer, &frame));
   }
   hf_gltf_frames_desc motion = HF_INIT(hf_gltf_frames_desc);
