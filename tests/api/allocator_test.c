@@ -1,5 +1,6 @@
-/* The host's allocator: every byte through it, every byte back, none while a pose is dragged, and no call from inside it.
- * Refused allocations: reliability_refuse refuses each of them, reliability_unchanged looks at the objects after it. */
+/* The host's allocator: every byte through it, every byte back, none while a pose is dragged, and no call from inside
+ * it. Refused allocations: reliability_refuse refuses each of them, reliability_unchanged looks at the objects after
+ * it. */
 #include "api_support.h"
 
 enum { AROUND = 8, RINGS = 10, VERTICES = AROUND * RINGS };

@@ -4,11 +4,6 @@
 
 #define assert_near(a, b, tolerance) assert_true(fabs((a) - (b)) <= (tolerance))
 
-static hf_scalars scalars_f64(const double* values) {
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = values;
-  return field;
-}
 static hf_isolines no_lines(void) {
   hf_isolines lines = HF_INIT(hf_isolines);
   return lines;
@@ -20,13 +15,13 @@ typedef struct Tube {
   Surface mesh;
   hf_surface surface;
   double height[COUNT];
-  hf_scalars field;
+  hf_array field;
 } Tube;
 static void tube_create(Tube* tube) {
   tube->mesh = surface_tube(AROUND, RINGS);
   tube->surface = surface_on(&tube->mesh);
   for (uint32_t v = 0; v < COUNT; ++v) tube->height[v] = (double)tube->mesh.positions[3 * v + 1];
-  tube->field = scalars_f64(tube->height);
+  tube->field = HF_ARRAY(tube->height, COUNT);
 }
 static void tube_destroy(Tube* tube) {
   hf_surface_destroy(tube->surface);
@@ -96,7 +91,7 @@ static void levels_of_equal_area_and_length_are_even_on_a_tube(void** state) {
   tube_create(&tube);
   double squared[COUNT], levels[4];
   for (int v = 0; v < COUNT; ++v) squared[v] = tube.height[v] * tube.height[v];
-  const hf_scalars field = scalars_f64(squared);
+  const hf_array field = HF_ARRAY(squared, COUNT);
   for (int32_t spacing = HF_LEVELS_AREA; spacing <= HF_LEVELS_LENGTH; ++spacing) {
     assert_ok(hf_surface_space_levels(tube.surface, &field, spacing, 4, levels));
     for (int k = 0; k < 4; ++k) assert_near(sqrt(levels[k]), 4.0 * (k + 1), 0.05);
@@ -338,14 +333,13 @@ static void bad_input_is_named(void** state) {
   hf_critical_info info = HF_INIT(hf_critical_info);
   hf_surface s = tube.surface;
 
-  hf_scalars f = tube.field;
-  f.values = floats;
-  BAD("both kinds of values", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &f, 0, 2, levels));
-  f.values = NULL;
-  f.values_f64 = NULL;
+  hf_array f = tube.field;
+  f.count = COUNT + 1;
+  BAD("a value too many", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &f, 0, 2, levels));
+  f.data = NULL;
   BAD("no values", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_trace_isolines(s, &f, 2, levels, &lines));
   f = tube.field;
-  f.value_stride = 4;
+  f.stride = 4;
   BAD("stride 4 for doubles", HF_ERROR_TOO_SMALL, NO_INDEX, hf_surface_find_critical_points(s, &f, 0, NULL, &info));
   tube.height[17] = HUGE_VAL;
   BAD("an infinite value", HF_ERROR_NON_FINITE, 17, hf_surface_space_levels(s, &tube.field, 0, 2, levels));

@@ -51,9 +51,9 @@ static void hf_surface_create_graph_refuses_bad_graphs(void** state) {
   assert_true(nothing_exists());
 
   CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, desc.vertex_count = 0);
-  CREATE("no edges", HF_ERROR_EMPTY, NO_INDEX, desc.edge_count = 0);
-  CREATE("no edge array", HF_ERROR_NULL_POINTER, NO_INDEX, desc.edges = NULL);
-  CREATE("no weights", HF_ERROR_NULL_POINTER, NO_INDEX, desc.weights = NULL);
+  CREATE("no edges", HF_ERROR_EMPTY, NO_INDEX, (desc.edges.count = 0, desc.weights.count = 0));
+  CREATE("no edge array", HF_ERROR_NULL_POINTER, NO_INDEX, desc.edges.data = NULL);
+  CREATE("no weights", HF_ERROR_NULL_POINTER, NO_INDEX, desc.weights.data = NULL);
   CREATE("self loops alone", HF_ERROR_EMPTY, NO_INDEX, no_edge_is_left());
   CREATE("weights of 0 alone", HF_ERROR_EMPTY, NO_INDEX, no_weight_is_left());
   CREATE("end = vertex_count", HF_ERROR_OUT_OF_RANGE, 0, edges[0] = VERTICES);
@@ -78,11 +78,11 @@ static void hf_surface_create_graph_refuses_bad_graphs(void** state) {
   CREATE("2^32 - 1 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_count = UINT32_MAX);
   CREATE("2^31 vertices, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
          (desc.vertex_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
-  CREATE("2^32 - 1 edges", HF_ERROR_TOO_LARGE, NO_INDEX, desc.edge_count = UINT32_MAX);
+  CREATE("2^32 - 1 edges", HF_ERROR_TOO_LARGE, NO_INDEX, desc.edges.count = desc.weights.count = UINT32_MAX);
   CREATE("2^31 edges, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
-         (desc.edge_count = 0x80000000u, desc.edge_limit = UINT32_MAX));
+         (desc.edges.count = desc.weights.count = 0x80000000u, desc.edge_limit = UINT32_MAX));
   CREATE("more edges than sixteen per vertex of the limit", HF_ERROR_TOO_LARGE, NO_INDEX,
-         (desc.vertex_limit = VERTICES, desc.edge_count = 16 * (VERTICES + 1)));
+         (desc.vertex_limit = VERTICES, desc.edges.count = desc.weights.count = 16 * (VERTICES + 1)));
   CREATE("a vertex more than the limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_limit = VERTICES - 1);
   CREATE("an edge more than the limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.edge_limit = EDGES - 1);
   scene_destroy(&scene);
@@ -103,7 +103,6 @@ static void hf_surface_create_graph_refuses_bad_options(void** state) {
   CREATE("field kind 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.field_kind = 3);
   CREATE("ordering 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.ordering = 3);
   CREATE("257 threads", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.thread_count = 257);
-  CREATE("reserved 1", HF_ERROR_INVALID_DESC, NO_INDEX, desc.reserved = 1);
   CREATE("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, desc.struct_size = 0);
   CREATE("allocator without release", HF_ERROR_NULL_POINTER, NO_INDEX, desc.allocator.release = NULL);
   CREATE("allocator that refuses at once", HF_ERROR_OUT_OF_MEMORY, NO_INDEX, counter.refuse_at = counter.calls + 1);
@@ -193,14 +192,14 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   make_graph_solvers();
   const double point[3] = {0, 0, 0}, ray[3] = {0, 0, 1}, level = 0.5;
   hf_hit hit = HF_INIT(hf_hit);
-  hf_scalars scalars = HF_INIT(hf_scalars);
+  const hf_array scalars = HF_ARRAY(before, VERTICES);
   hf_isolines lines = HF_INIT(hf_isolines);
   hf_critical_info critical = HF_INIT(hf_critical_info);
   uint32_t number = 0;
   double levels[2], distance, xyz[3 * VERTICES];
   float xyz_f32[3 * VERTICES];
   hf_surface relinked = NULL;
-  hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
+  const hf_array posed = HF_ARRAY(xyz, VERTICES);
   hf_gaps_info gaps = HF_INIT(hf_gaps_info);
   hf_pose pose = NULL;
   hf_region region = NULL;
@@ -217,13 +216,11 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   hf_weights_out skin = HF_INIT(hf_weights_out);
   hf_flow flow = NULL;
   hf_transfer transfer = NULL;
-  scalars.values_f64 = before;
 
   assert_ok(hf_surface_get_links(graph, 0, NULL, &number)); /* a graph has no links */
   assert_int_equal(number, 0);
   assert_ok(hf_surface_get_pieces(graph, 0, NULL, NULL, &number));
   assert_int_equal(number, VERTICES);
-  posed.positions_f64 = xyz;
   assert_ok(hf_surface_measure_gaps(graph, &posed, 0, NULL, &gaps));
   assert_int_equal(gaps.link_count, 0);
   NEEDS("a ray", NO_INDEX, hf_surface_cast_ray(graph, point, ray, NULL, &hit));

@@ -15,7 +15,7 @@ static hf_result deform_now(hf_pose pose, float* positions) {
 
 static hf_result transfer_now(const Scene* scene, float* positions) {
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = scene->posed;
+  frame.source_positions = HF_ARRAY(scene->posed, TUBE_VERTICES);
   frame.target_positions = ROWS_OUT(positions);
   return hf_transfer_apply(scene->transfer, &frame);
 }

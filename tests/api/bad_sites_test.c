@@ -323,7 +323,8 @@ static void reading_with_bad_arguments_is_refused(void** state) {
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve(scene.solver, NULL, NULL));
   ROW("stride 1", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve(scene.solver, floats, 1, NULL));
   ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve(scene.solver, floats, 3, NULL));
-  ROW("stride of floats", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solver_solve(scene.solver, OUT_ROWS(doubles, 4), NULL));
+  ROW("stride of floats", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_solver_solve(scene.solver, OUT_ROWS(doubles, 4), NULL));
   ROW("stride of two of three channels", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
       hf_solver_solve(scene.three, OUT_ROWS(doubles, 16), NULL));
   ROW("no sites", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solve(scene.three, floats, 0, NULL));
@@ -335,11 +336,10 @@ static void reading_with_bad_arguments_is_refused(void** state) {
       hf_solver_solve_vectors(scene.solver, OUT(floats), NULL, NULL));
   ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0,
       hf_solver_solve_vectors(scene.solver, OUT(doubles), NULL, NULL));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
-      hf_solver_solve_vectors(scene.three, NULL, doubles, NULL));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
-      hf_solver_solve_vectors(scene.three, NULL, doubles, NULL));
-  ROW("stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, OUT_ROWS(floats, 11), NULL, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, NULL, doubles, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, NULL, doubles, NULL));
+  ROW("stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_solver_solve_vectors(scene.three, OUT_ROWS(floats, 11), NULL, NULL));
   ROW("stride 23", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
       hf_solver_solve_vectors(scene.three, OUT_ROWS(doubles, 23), NULL, NULL));
   ROW("no vertex", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 0, list, points));

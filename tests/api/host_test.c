@@ -77,7 +77,7 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
     note(w, hf_transfer_create(surface, surface, NULL, &transfer));
     note(w, hf_transfer_add_pairs(transfer, &pairs, NULL));
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions = w->posed;
+    frame.source_positions = HF_ARRAY(w->posed, VERTICES);
     frame.target_positions = ROWS_OUT(w->transferred);
     note(w, hf_transfer_apply(transfer, &frame));
     free(ends);

@@ -110,7 +110,7 @@ static void use_member(Family* f, int member, const Surface* tube) {
     hf_solver_destroy(more);
   } else {
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions = tube->positions;
+    frame.source_positions = HF_ARRAY(tube->positions, tube->vertex_count);
     frame.target_positions = ROWS_OUT(positions);
     assert_ok(hf_transfer_apply(f->transfer, &frame));
   }

@@ -20,10 +20,7 @@ static hf_surface_desc soup(void) {
     corners[i] = (random >> 8) % VERTICES;
   }
   hf_surface_desc desc = options_of(&places).surface;
-  desc.vertex_count = VERTICES;
   desc.triangles = HF_ARRAY(corners, TRIANGLES);
-  desc.triangles = HF_ARRAY(NULL, TRIANGLES);
-  desc.triangle_stride = 0;
   desc.allocator = counting_hooks(&counter);
   return desc;
 }

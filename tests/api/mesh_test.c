@@ -62,8 +62,7 @@ static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
                              0,        24,       12};      /* a flap across the sheet */
   memcpy(dirty + 96, more, sizeof more);
   Options desc = options_of(&sheet);
-  desc.surface.triangles = dirty;
-  desc.surface.triangle_count = 36;
+  desc.surface.triangles = HF_ARRAY(dirty, 36);
   hf_surface surface = NULL;
   hf_solver solver = NULL;
   assert_ok(make(&desc, &surface, &solver));
@@ -212,8 +211,8 @@ static double* moved_field(const Surface* sheet, double scale, double offset, in
     floats[i] = (float)doubles[i];
   }
   Options desc = options_of(sheet);
-  desc.surface.positions = as_float ? floats : NULL;
-  desc.surface.positions_f64 = as_float ? NULL : doubles;
+  desc.surface.positions = HF_ARRAY(doubles, sheet->vertex_count);
+  if (as_float) desc.surface.positions = HF_ARRAY(floats, sheet->vertex_count);
   hf_solver solver = NULL;
   assert_ok(make(&desc, NULL, &solver));
   add_site(solver, 0, -1e6);
@@ -259,8 +258,8 @@ static void interleaved_vertices_are_read_by_their_stride(void** state) {
   for (uint32_t v = 0; v < sheet.vertex_count; ++v) memcpy(records + (size_t)RECORD * v, sheet.positions + 3 * v, 12);
   Options desc = options_of(&sheet);
   hf_solver plain = surface_solver(&sheet), strided = NULL;
-  desc.surface.positions = (const float*)(const void*)records;
-  desc.surface.position_stride = RECORD;
+  desc.surface.positions.data = records;
+  desc.surface.positions.stride = RECORD;
   assert_ok(make(&desc, NULL, &strided));
   hf_solver both[2] = {plain, strided};
   double* field[2];
@@ -293,17 +292,21 @@ static void triangles_of_16_bits_and_any_stride_give_the_same_bits(void** state)
     memcpy(narrow + (size_t)NARROW * t, packed + 3 * t, 6);
   }
   const struct {
-    const void *triangles, *triangles_u16;
+    const void* triangles;
+    int32_t type;
     uint32_t stride;
-  } forms[4] = {{sheet.triangles, NULL, 0}, {wide, NULL, WIDE}, {NULL, packed, 0}, {NULL, narrow, NARROW}};
+  } forms[4] = {{sheet.triangles, HF_TYPE_PLAIN, 0},
+                {wide, HF_TYPE_PLAIN, WIDE},
+                {packed, HF_TYPE_UINT16, 0},
+                {narrow, HF_TYPE_UINT16, NARROW}};
   double* fields[4];
   unsigned char* factors[4];
   size_t sizes[4];
   for (int i = 0; i < 4; ++i) {
     Options desc = options_of(&sheet);
-    desc.surface.triangles = forms[i].triangles;
-    desc.surface.triangles_u16 = forms[i].triangles_u16;
-    desc.surface.triangle_stride = forms[i].stride;
+    desc.surface.triangles.data = forms[i].triangles;
+    desc.surface.triangles.type = forms[i].type;
+    desc.surface.triangles.stride = forms[i].stride;
     hf_surface surface = NULL;
     hf_solver solver = NULL;
     assert_ok(make(&desc, &surface, &solver));

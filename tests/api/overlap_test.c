@@ -89,7 +89,7 @@ static void a_posed_source_may_become_the_target_in_place(void** state) {
     posed[3 * v] += 0.02f * y * y;
   }
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed;
+  frame.source_positions = HF_ARRAY(posed, VERTICES);
   frame.target_positions = ROWS_OUT(apart);
   assert_ok(hf_transfer_apply(transfer, &frame));
   frame.target_positions = ROWS_OUT(posed);

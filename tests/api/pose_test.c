@@ -27,7 +27,7 @@ static int free_tube(void** state) {
 static hf_deform_desc to_doubles(double* positions, float* normals) {
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
   desc.positions = ROWS_OUT(positions);
-  desc.normals = ROWS_OUT(normals);
+  if (normals) desc.normals = ROWS_OUT(normals);
   return desc;
 }
 
@@ -188,7 +188,6 @@ static void float_double_and_strided_outputs_agree(void** state) {
   hf_deform_desc desc = to_doubles(doubles, NULL);
   desc.restart = 1;
   assert_ok(hf_pose_deform(pose, &desc, NULL));
-  desc.positions = (hf_array_out){0};
   desc.positions = ROWS_OUT(floats);
   desc.normals = ROWS_OUT(normals);
   assert_ok(hf_pose_deform(pose, &desc, NULL));
@@ -371,7 +370,7 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
     hf_transfer transfer = transfer_of(transfer_modes[m], surface, target, AROUND, RINGS, 9, 17, pairs);
     static float positions[3 * 9 * 17], normals[3 * 9 * 17];
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions = tube.positions;
+    frame.source_positions = HF_ARRAY(tube.positions, VERTICES);
     frame.target_positions = ROWS_OUT(positions);
     frame.target_normals = ROWS_OUT(normals);
     assert_ok(hf_transfer_apply(transfer, &frame));
@@ -400,7 +399,7 @@ static void a_transfer_of_stretch_swells_with_the_source_and_refuses_holds_and_s
   static double posed[3 * VERTICES], made[3 * TARGET], before[3 * TARGET];
   for (uint32_t i = 0; i < 3 * VERTICES; ++i) posed[i] = 1.5 * (double)tube.positions[i];
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed;
+  frame.source_positions = HF_ARRAY(posed, VERTICES);
   frame.target_positions = ROWS_OUT(made);
   assert_ok(hf_transfer_apply(transfer, &frame));
   double box = 0; /* without fmax: GCC 12 for ARM breaks down on a maximum in a loop */
@@ -441,7 +440,7 @@ static void dials_are_read_back_and_neutral_ones_change_no_bit(void** state) {
   for (uint32_t v = 0; v < VERTICES; ++v)
     for (int c = 0; c < 3; ++c) posed[3 * v + c] = tube.positions[3 * v + c] + (c == 0 ? 2.0f : 0.0f);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed;
+  frame.source_positions = HF_ARRAY(posed, VERTICES);
   frame.target_positions = ROWS_OUT(plain);
   assert_ok(hf_transfer_apply(transfer, &frame));
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
@@ -492,7 +491,7 @@ static void the_skin_replays_the_transfer(void** state) {
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, target, AROUND, RINGS, 9, 17, pairs);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed;
+  frame.source_positions = HF_ARRAY(posed, VERTICES);
   frame.target_positions = ROWS_OUT(moved);
   assert_ok(hf_transfer_apply(transfer, &frame));
 
@@ -556,7 +555,7 @@ static void a_frame_may_be_transferred_in_place(void** state) {
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, surface, AROUND, RINGS, AROUND, RINGS, pairs);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed;
+  frame.source_positions = HF_ARRAY(posed, VERTICES);
   frame.target_positions = ROWS_OUT(apart);
   assert_ok(hf_transfer_apply(transfer, &frame));
   frame.target_positions = ROWS_OUT(posed);
@@ -583,7 +582,7 @@ static void a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_t
   static float out[3 * VERTICES];
   const double place[3] = {1.5, -0.25, 7.0};
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = tube.positions;
+  frame.source_positions = HF_ARRAY(tube.positions, VERTICES);
   frame.target_positions = ROWS_OUT(out);
   frame.hold_count = 1;
   frame.hold_pairs = &pairs[1];

@@ -347,8 +347,7 @@ static void flow_lines_rise_and_outlive_the_surface(void** state) {
   hf_flow flow = NULL;
   assert_ok(hf_flow_create(surface, &flow));
   hf_surface_destroy(surface);
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = height;
+  const hf_array field = HF_ARRAY(height, COUNT);
   const uint32_t seed = 10 * AROUND + 3;
   for (int pass = 0; pass < 2; ++pass) {
     hf_streamlines lines = HF_INIT(hf_streamlines);
@@ -523,8 +522,7 @@ static void bad_input_is_named(void** state) {
   assert_ok(hf_flow_create(surface, &flow));
   assert_code(HF_ERROR_INVALID_OBJECT, hf_quads_get_info((hf_quads)flow, NULL));
   double values[COUNT] = {0};
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = values;
+  const hf_array field = HF_ARRAY(values, COUNT);
   hf_streamlines out = HF_INIT(hf_streamlines);
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_flow_trace(flow, &field, &out)); /* no line is wanted */
   out.wanted_count = 1;

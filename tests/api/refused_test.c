@@ -26,7 +26,7 @@ static void a_frame_without_pairs_keeps_no_normals(void** state) {
   assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
   float posed[3 * COUNT] = {0}, normals[3 * COUNT];
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed;
+  frame.source_positions = HF_ARRAY(posed, COUNT);
   frame.target_normals = ROWS_OUT(normals);
   const size_t before = memory.live_bytes;
   assert_code(HF_ERROR_EMPTY, hf_transfer_apply(transfer, &frame));

@@ -118,7 +118,7 @@ static void use_member(Household* h, int member, const Surface* tube) {
       break;
     case TRANSFER: {
       hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-      frame.source_positions = tube->positions;
+      frame.source_positions = HF_ARRAY(tube->positions, COUNT);
       frame.target_positions = ROWS_OUT(positions);
       assert_ok(hf_transfer_apply(h->transfer, &frame));
       break;
@@ -142,9 +142,8 @@ static void use_member(Household* h, int member, const Surface* tube) {
     }
     default: {
       for (uint32_t v = 0; v < COUNT; ++v) values[v] = (double)tube->positions[3 * v + 1] + 1e-3 * (v % AROUND);
-      hf_scalars field = HF_INIT(hf_scalars);
+      const hf_array field = HF_ARRAY(values, COUNT);
       hf_streamlines lines = HF_INIT(hf_streamlines);
-      field.values_f64 = values;
       lines.wanted_count = 4;
       assert_ok(hf_flow_trace(h->flow, &field, &lines));
     }

@@ -33,7 +33,7 @@ ConnectionSystem connection_system(const Mesh& mesh, const std::vector<uint32_t>
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   input.positions = {mesh.positions.data(), 3 * sizeof(double)};
-  input.triangles = mesh.triangles.data();
+  input.triangles = hf_inner::IndexRows(mesh.triangles.data(), 3);
   const auto core = hf_inner::Core::make(input, {}, memory, std::make_shared<hf_inner::JobRunner>(1));
   const hf_inner::DirectionSolver solver(core, 1);
   const hf_inner::SymmetricMatrix& a = solver.matrix();

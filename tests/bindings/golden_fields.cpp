@@ -135,8 +135,7 @@ Result Scene::run_quads(const Json& step, const std::string& what) {
   if (what == "streamlines") {
     const auto field = doubles(step, "field", on.vertex_count);
     const auto seeds = numbers(step, "seeds");
-    auto scalars = make<hf_scalars>();
-    scalars.values_f64 = data(field);
+    const hf_array scalars = HF_ARRAY(data(field), field ? on.vertex_count : 0);
     auto lines = make<hf_streamlines>();
     lines.wanted_count = step.value("count", 0u);
     if (seeds) {

@@ -136,7 +136,7 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     const auto posed = doubles(step, "positions", 3 * on.source_vertex_count);
     result.array.emplace(3 * on.vertex_count);
     auto frame = make<hf_transfer_frame>();
-    frame.source_positions_f64 = data(posed);
+    frame.source_positions = HF_ARRAY(data(posed), posed ? on.source_vertex_count : 0);
     frame.target_positions = ROWS_OUT(result.array->data());
     check(hf_transfer_apply(on.transfer.get(), &frame));
   } else {

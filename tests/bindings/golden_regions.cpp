@@ -27,7 +27,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     auto desc = make<hf_region_desc>();
     set_options(step, {{"base", &desc.base}});
     const auto positions = doubles(step, "positions", 3 * on.vertex_count);
-    desc.positions = ROWS_OUT(data(positions));
+    if (positions) desc.positions = HF_ARRAY(data(positions), on.vertex_count);
     hf_region raw = nullptr;
     check(hf_region_create(on.surface.get(), &desc, &raw));
     const size_t n = on.vertex_count;

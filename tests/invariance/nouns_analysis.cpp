@@ -20,8 +20,9 @@ std::vector<double> wave(const Body& body) {
 
 struct Scalars {
   std::vector<double> values;
-  hf_scalars desc = HF_INIT(hf_scalars);
-  Scalars(const Setting& s, double added) : values(s.spread(wave(s.body), added)) { desc.values_f64 = values.data(); }
+  hf_array desc;
+  Scalars(const Setting& s, double added)
+      : values(s.spread(wave(s.body), added)), desc(HF_ARRAY(values.data(), values.size())) {}
 };
 
 // A vertex that is not the body's has no value: its triangles do not count.

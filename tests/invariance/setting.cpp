@@ -88,10 +88,10 @@ hf_surface_desc Setting::desc() const {
   }
   const auto triangle_count = static_cast<std::uint32_t>(copy.triangles.size());
   if (copy.form == Form::faces) {
-    d.face_count = triangle_count;
-    d.corner_count = 3 * triangle_count;
-    d.face_sizes = sizes_.data();
-    d.corners = corners_.data();
+    faces_ = HF_INIT(hf_faces_desc);
+    faces_.sizes = HF_ARRAY(sizes_.data(), triangle_count);
+    faces_.corners = HF_ARRAY(corners_.data(), 3 * triangle_count);
+    d.faces = &faces_;
     return d;
   }
   if (copy.form == Form::u16) {
@@ -100,8 +100,8 @@ hf_surface_desc Setting::desc() const {
     d.triangles = HF_ARRAY(corners_.data(), triangle_count);
   }
   if (copy.form == Form::strided) {
-    d.position_stride = gap * sizeof(float);
-    d.triangle_stride = gap * sizeof(std::uint32_t);
+    d.positions.stride = gap * sizeof(float);
+    d.triangles.stride = gap * sizeof(std::uint32_t);
   }
   return d;
 }

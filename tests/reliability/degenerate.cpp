@@ -63,7 +63,7 @@ struct Scene {
   }
 };
 
-void play_levels(const Scene& scene, const hf_scalars& field, const std::vector<double>& values) {
+void play_levels(const Scene& scene, const hf_array& field, const std::vector<double>& values) {
   std::vector<double> levels = {0, 1, 1, -2.5, 1e300, -1e-300};
   for (std::int32_t spacing = HF_LEVELS_VALUE; spacing <= HF_LEVELS_LENGTH; ++spacing) {
     for (const std::uint32_t count : {1u, 7u}) {
@@ -101,8 +101,7 @@ void play_levels(const Scene& scene, const hf_scalars& field, const std::vector<
 }
 
 void play_field(const Scene& scene, const DegenerateField& given) {
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = given.values.data();
+  const hf_array field = HF_ARRAY(given.values.data(), given.values.size());
   play_levels(scene, field, given.values);
   hf_critical_info info = HF_INIT(hf_critical_info);
   if (ANSWERED(hf_surface_find_critical_points(scene.surface, &field, 0, nullptr, &info))) {

@@ -14,9 +14,9 @@
 
 #include "base/elementary.h"
 #include "report.h"
+#include "support/arrays.h"
 #include "surfaces.h"
 #include "whole_api.h"
-#include "support/arrays.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #if defined(_WIN32)
@@ -181,8 +181,7 @@ class Stages {
     const hf_solver solver = make_solver(surface);
     add(solver, 7, 811, 29, nullptr);
     must(hf_solver_solve(solver, OUT(doubles_.data()), nullptr), "hf_solver_solve");
-    hf_scalars scalars = desc<hf_scalars>();
-    scalars.values_f64 = doubles_.data();
+    const hf_array scalars = HF_ARRAY(doubles_.data(), doubles_.size());
     std::vector<hf_critical_point> points(n_);
     hf_critical_info info = desc<hf_critical_info>();
     must(hf_surface_find_critical_points(surface, &scalars, n_, points.data(), &info),

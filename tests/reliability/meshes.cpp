@@ -313,7 +313,7 @@ hf_surface_desc surface_desc(const Mesh& m, int operator_kind, int field_kind) {
   desc.positions = HF_ARRAY(m.positions.data(), m.count());
   desc.triangles = HF_ARRAY(m.triangles.data(), m.triangles.size() / 3);
   static const std::uint32_t no_triangle[3] = {0, 0, 0};
-  if (m.triangles.empty()) desc.triangles = no_triangle;
+  if (m.triangles.empty()) desc.triangles = HF_ARRAY(no_triangle, 0);
   desc.operator_kind = operator_kind;
   desc.field_kind = field_kind;
   return desc;
@@ -372,8 +372,7 @@ std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operato
     wanted.field_kind = field_kind;
     if (hf_surface_save(made, field_kind, nullptr, size, bytes.data(), nullptr) != HF_OK ||
         hf_surface_create(&desc, &loaded) != HF_OK || hf_create(loaded, &wanted, &solver) != HF_OK ||
-        hf_add_sites(solver, &sites, nullptr) != HF_OK ||
-        hf_solver_solve(solver, OUT(field.data()), nullptr) != HF_OK)
+        hf_add_sites(solver, &sites, nullptr) != HF_OK || hf_solver_solve(solver, OUT(field.data()), nullptr) != HF_OK)
       field.assign(m.count(), NAN);
   }
   hf_solver_destroy(solver);

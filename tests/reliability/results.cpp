@@ -53,7 +53,7 @@ void arguments(const Scene& s) {
   d.struct_size = 1;
   provoke(hf_surface_create(&d, &surface), "struct_size 1");
   d = scene_desc(s);
-  d.vertex_count = 0;
+  d.positions.count = 0;
   provoke(hf_surface_create(&d, &surface), "no vertices");
   d = scene_desc(s);
   d.vertex_limit = 1;
@@ -61,7 +61,7 @@ void arguments(const Scene& s) {
   d = scene_desc(s);
   provoke(hf_surface_create(&d, &surface), "triangles beyond the vertices");
   d = scene_desc(s);
-  d.position_stride = 1;
+  d.positions.stride = 1;
   provoke(hf_surface_create(&d, &surface), "stride 1");
   std::vector<float> infinite = s.positions;
   infinite[5] = HUGE_VALF;

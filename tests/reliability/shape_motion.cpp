@@ -237,8 +237,7 @@ bool Player::links() {
   }
   std::vector<double> gaps(found.size());
   const std::vector<double> bent = posed();
-  hf_gaps_desc measured = HF_INIT(hf_gaps_desc);
-  measured.positions_f64 = bent.data();
+  const hf_array measured = HF_ARRAY(bent.data(), bent.size() / 3);
   hf_gaps_info opened = HF_INIT(hf_gaps_info);
   expect(
       HF_OK,

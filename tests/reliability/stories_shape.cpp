@@ -14,8 +14,7 @@ hf_surface made(Story& s, const Tube& tube, Allocator& memory) {
 
 void lines(Story& s, const Tube& tube, Allocator& memory) {
   const hf_surface surface = made(s, tube, memory);
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = tube.height.data();
+  const hf_array field = HF_ARRAY(tube.height.data(), tube.height.size());
   double levels[4] = {0, 0, 0, 0};
   s.call("hf_surface_space_levels",
          [&] { return hf_surface_space_levels(surface, &field, HF_LEVELS_LENGTH, 4, levels); });
@@ -229,8 +228,7 @@ void flow(Story& s, const Tube& tube, Allocator& memory) {
   hf_flow flow = nullptr;
   s.make("hf_flow_create", flow, [&] { return hf_flow_create(surface, &flow); });
   hf_surface_destroy(surface);
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = tube.height.data();
+  const hf_array field = HF_ARRAY(tube.height.data(), tube.height.size());
   std::vector<double> positions(3 * 2000);
   hf_streamlines lines = HF_INIT(hf_streamlines);
   lines.wanted_count = 6;

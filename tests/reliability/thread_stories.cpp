@@ -1,4 +1,5 @@
 #include "thread_stories.h"
+
 #include "support/arrays.h"
 
 namespace reliability {
@@ -242,8 +243,7 @@ void read_transfer(const Scene& s, const Objects& o, unsigned, Seen& seen) {
 }
 
 void read_analysis(const Scene& s, const Objects& o, unsigned, Seen& seen) {
-  hf_scalars field = desc<hf_scalars>();
-  field.values_f64 = s.height.data();
+  const hf_array field = HF_ARRAY(s.height.data(), s.height.size());
   double levels[6];
   seen.call(hf_surface_space_levels(o.surface, &field, HF_LEVELS_AREA, 6, levels));
   seen.take(levels, 6);

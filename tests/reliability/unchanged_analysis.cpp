@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "unchanged.h"
 #include "support/arrays.h"
+#include "unchanged.h"
 
 namespace unchanged {
 namespace {
@@ -52,10 +52,9 @@ class Analysis final : public Subject {
 
  private:
   friend struct AnalysisCalls;
-  hf_scalars scalars(Random& random) {
-    hf_scalars s = HF_INIT(hf_scalars);
-    s.values_f64 = field_.data();
-    s.value_stride = random.one_in(20) ? 3 : 0;
+  hf_array scalars(Random& random) {
+    hf_array s = HF_ARRAY(field_.data(), field_.size());
+    s.stride = random.one_in(20) ? 3 : 0;
     return s;
   }
   // Geodesics keep the progress object they were made with. The cancel of a call goes to that one.
@@ -152,7 +151,7 @@ struct AnalysisCalls {
     const std::uint32_t at = random.below(s.world.shape->vertices());
     const double kept = s.field_[at];
     if (random.one_in(5)) s.field_[at] = bad;
-    const hf_scalars field = s.scalars(random);
+    const hf_array field = s.scalars(random);
     double levels[5] = {1.5, 7, random.number(), 20, 33};
     std::vector<double> positions(3000);
     std::vector<hf_critical_point> points(20);
@@ -195,7 +194,7 @@ struct AnalysisCalls {
     if (random.one_in(3)) shape.positions[random.below(3 * shape.vertices())] = static_cast<float>(random.number());
     if (random.one_in(3)) shape.triangles[random.below(3 * shape.count())] = random.index(shape.vertices());
     desc.positions = HF_ARRAY(shape.positions.data(), shape.positions.size() / 3);
-    desc.triangles = shape.triangles.data();
+    desc.triangles = HF_ARRAY(shape.triangles.data(), shape.count());
     desc.progress = s.world.progress();
     desc.weld = random.pick({0, 1, 2, 3});
     desc.field_kind = random.pick({0, 1, 2, 3});
@@ -232,7 +231,7 @@ struct AnalysisCalls {
     desc.edges = HF_ARRAY(edges.data(), weights.size());
     desc.weights = HF_ARRAY(weights.data(), weights.size());
     desc.allow_negative = random.pick({0, 0, 1, 2});
-    if (random.one_in(2)) desc.masses = masses.data();
+    if (random.one_in(2)) desc.masses = HF_ARRAY(masses.data(), masses.size());
     desc.field_kind = random.pick({0, 1, 2, 3});
     desc.progress = s.world.progress();
     desc.memory_limit_mb = s.world.desc.memory_limit_mb;

@@ -1,8 +1,8 @@
 // Regions: curves, rings and lists of vertices, clones, and detail carried from one to another.
 #include <cmath>
 
-#include "unchanged.h"
 #include "support/arrays.h"
+#include "unchanged.h"
 
 namespace unchanged {
 namespace {
@@ -173,8 +173,8 @@ struct RegionCalls {
     hf_region_desc desc = HF_INIT(hf_region_desc);
     desc.base = random.pick({0, 1, 2, 3, 4});
     desc.progress = s.world.progress();
-    desc.reserved = random.one_in(20);
-    if (random.one_in(2)) desc.positions = ROWS_OUT(positions.data());
+    if (random.one_in(2)) desc.positions = HF_ARRAY(positions.data(), positions.size() / 3);
+    desc.positions.reserved = random.one_in(20);
     hf_region made = s.branches_[0].handle;
     const hf_result result = hf_region_create(s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused region is no NULL");

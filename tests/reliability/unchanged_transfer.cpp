@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "unchanged.h"
 #include "support/arrays.h"
+#include "unchanged.h"
 
 namespace unchanged {
 namespace {
@@ -204,7 +204,7 @@ struct TransferCalls {
     desc.hold_pairs = frame.holds.data();
     desc.hold_positions = frame.places.data();
     if (random.one_in(3)) desc.target_normals = ROWS_OUT(normals.data());
-    if (random.one_in(20)) desc.source_stride = 5;
+    if (random.one_in(20)) desc.source_positions.stride = 5;
     return hf_transfer_apply(s.handle_, random.spoiled(desc));
   }
   static hf_result dials(Subject& subject, Random& random) {

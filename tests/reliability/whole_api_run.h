@@ -2,8 +2,8 @@
 #pragma once
 #include <cstring>
 
-#include "whole_api.h"
 #include "support/arrays.h"
+#include "whole_api.h"
 
 namespace reliability {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hf/hf.h"
-#include "support/dense.h"
 #include "support/arrays.h"
+#include "support/dense.h"
 
 namespace graph_test {
 
@@ -30,7 +30,7 @@ struct Graph {
     d.edges = HF_ARRAY(edges.data(), weights.size());
     d.weights = HF_ARRAY(weights.data(), weights.size());
     d.allow_negative = allow_negative;
-    if (!masses.empty()) d.masses = masses.data();
+    if (!masses.empty()) d.masses = HF_ARRAY(masses.data(), masses.size());
     return d;
   }
 };
