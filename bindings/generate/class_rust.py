@@ -63,7 +63,7 @@ class Steps:
 
     def value(self, v, parameter):
         kind, *rest = v
-        borrow = "&" if parameter["const"] else "&mut "
+        borrow = "&" if parameter["const"] or parameter["view"] else "&mut "  # a view is read, what it views is not
         if kind == "number":
             return self.number(rest[1], safe(rest[0]))
         if kind == "handle":

@@ -50,7 +50,7 @@ static void hf_surface_create_graph_refuses_bad_graphs(void** state) {
   out = NULL;
   assert_true(nothing_exists());
 
-  CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, desc.vertex_count = 0);
+  CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, (desc.vertex_count = 0, desc.masses.count = 0));
   CREATE("no edges", HF_ERROR_EMPTY, NO_INDEX, (desc.edges.count = 0, desc.weights.count = 0));
   CREATE("no edge array", HF_ERROR_NULL_POINTER, NO_INDEX, desc.edges.data = NULL);
   CREATE("no weights", HF_ERROR_NULL_POINTER, NO_INDEX, desc.weights.data = NULL);
@@ -59,7 +59,9 @@ static void hf_surface_create_graph_refuses_bad_graphs(void** state) {
   CREATE("end = vertex_count", HF_ERROR_OUT_OF_RANGE, 0, edges[0] = VERTICES);
   CREATE("end UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 8, edges[17] = UINT32_MAX);
   CREATE("end 2^31", HF_ERROR_OUT_OF_RANGE, 3, edges[6] = 0x80000000u);
-  CREATE("vertex_count one too small", HF_ERROR_OUT_OF_RANGE, 6, desc.vertex_count = 6);
+  CREATE("vertex_count one too small", HF_ERROR_OUT_OF_RANGE, 6, (desc.vertex_count = 6, desc.masses.count = 6));
+  CREATE("a mass too few", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.masses.count -= 1);
+  CREATE("a weight too few", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weights.count -= 1);
   CREATE("weight NaN", HF_ERROR_NON_FINITE, 2, weights[2] = (double)NAN);
   CREATE("weight infinite", HF_ERROR_NON_FINITE, 0, weights[0] = HUGE_VAL);
   CREATE("weight minus infinity", HF_ERROR_NON_FINITE, 8, weights[8] = -HUGE_VAL);
@@ -77,7 +79,7 @@ static void hf_surface_create_graph_refuses_bad_graphs(void** state) {
 
   CREATE("2^32 - 1 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_count = UINT32_MAX);
   CREATE("2^31 vertices, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
-         (desc.vertex_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
+         (desc.vertex_count = desc.masses.count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
   CREATE("2^32 - 1 edges", HF_ERROR_TOO_LARGE, NO_INDEX, desc.edges.count = desc.weights.count = UINT32_MAX);
   CREATE("2^31 edges, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
          (desc.edges.count = desc.weights.count = 0x80000000u, desc.edge_limit = UINT32_MAX));

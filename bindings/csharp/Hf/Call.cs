@@ -161,7 +161,7 @@ namespace Hf
         }
 
         /// <summary>An hf_array: rows of the numbers that the caller has.</summary>
-        public hf_array View(Array values, string name, params string[] dims)
+        hf_array ViewOf(Array values, string name, string[] dims)
         {
             if (values == null) return default(hf_array);
             Fit(values.Length, name, dims);
@@ -171,13 +171,15 @@ namespace Hf
 
         public hf_array View(Reals values, string name, params string[] dims)
         {
-            return View(values == null ? null : values.Values, name, dims);
+            return ViewOf(values == null ? null : values.Values, name, dims);
         }
 
         public hf_array View(Indices values, string name, params string[] dims)
         {
-            return View(values == null ? null : values.Values, name, dims);
+            return ViewOf(values == null ? null : values.Values, name, dims);
         }
+
+        public hf_array View(uint[] values, string name, params string[] dims) { return ViewOf(values, name, dims); }
 
         /// <summary>An array for the library to fill; none where it has no place.</summary>
         public static hf_array_out Out(void* place, bool isDouble, int rows)

@@ -2273,7 +2273,7 @@ impl Solver {
         let mut out = vec![f64::default(); c.product(&["vertex_count", "channel_count"])];
         let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_solver_solve(self.handle, &mut out_view, &mut info) })?;
+        check(unsafe { raw::hf_solver_solve(self.handle, &out_view, &mut info) })?;
         Ok(out)
     }
 
@@ -2285,7 +2285,7 @@ impl Solver {
         of_length(out, "out", c.product(&["vertex_count", "channel_count"]))?;
         let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_solver_solve(self.handle, &mut out_view, &mut info) })?;
+        check(unsafe { raw::hf_solver_solve(self.handle, &out_view, &mut info) })?;
         Ok(info)
     }
 
@@ -2327,7 +2327,7 @@ impl Solver {
         let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         let normals_at: *mut f64 = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_solver_solve_vectors(self.handle, &mut out_view, normals_at, &mut info) })?;
+        check(unsafe { raw::hf_solver_solve_vectors(self.handle, &out_view, normals_at, &mut info) })?;
         Ok(out)
     }
 
@@ -2341,7 +2341,7 @@ impl Solver {
         let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_solver_solve_vectors(self.handle, &mut out_view, normals_at, &mut info) })?;
+        check(unsafe { raw::hf_solver_solve_vectors(self.handle, &out_view, normals_at, &mut info) })?;
         Ok(info)
     }
 
@@ -2370,7 +2370,7 @@ impl Solver {
         let mut out = vec![f64::default(); c.product(&["vertex_count", "channel_count"])];
         let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_solver_solve_preview(self.handle, &mut out_view, correction_count, &mut info) })?;
+        check(unsafe { raw::hf_solver_solve_preview(self.handle, &out_view, correction_count, &mut info) })?;
         Ok(out)
     }
 
@@ -2382,7 +2382,7 @@ impl Solver {
         of_length(out, "out", c.product(&["vertex_count", "channel_count"]))?;
         let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_solver_solve_preview(self.handle, &mut out_view, correction_count, &mut info) })?;
+        check(unsafe { raw::hf_solver_solve_preview(self.handle, &out_view, correction_count, &mut info) })?;
         Ok(info)
     }
 
@@ -2531,7 +2531,7 @@ impl Geodesics {
         let mut out = vec![f64::default(); c.product(&["vertex_count"])];
         let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_geodesics_solve(self.handle, c.count("source_count", 1)?, sources_, &mut out_view) })?;
+        check(unsafe { raw::hf_geodesics_solve(self.handle, c.count("source_count", 1)?, sources_, &out_view) })?;
         Ok(out)
     }
 
@@ -2543,7 +2543,7 @@ impl Geodesics {
         of_length(out, "out", c.product(&["vertex_count"]))?;
         let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_geodesics_solve(self.handle, c.count("source_count", 1)?, sources_, &mut out_view) })?;
+        check(unsafe { raw::hf_geodesics_solve(self.handle, c.count("source_count", 1)?, sources_, &out_view) })?;
         Ok(())
     }
 
@@ -2777,7 +2777,7 @@ impl Direction {
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
         let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_direction_solve(self.handle, &mut out_view, &mut info) })?;
+        check(unsafe { raw::hf_direction_solve(self.handle, &out_view, &mut info) })?;
         Ok(out)
     }
 
@@ -2789,7 +2789,7 @@ impl Direction {
         of_length(out, "out", c.product(&["vertex_count", "3"]))?;
         let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_direction_solve(self.handle, &mut out_view, &mut info) })?;
+        check(unsafe { raw::hf_direction_solve(self.handle, &out_view, &mut info) })?;
         Ok(info)
     }
 
@@ -3072,7 +3072,7 @@ impl Pose {
         let mut out = vec![f64::default(); c.product(&["vertex_count"])];
         let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_pose_get_field(self.handle, handle, &mut out_view) })?;
+        check(unsafe { raw::hf_pose_get_field(self.handle, handle, &out_view) })?;
         Ok(out)
     }
 
@@ -3083,7 +3083,7 @@ impl Pose {
         of_length(out, "out", c.product(&["vertex_count"]))?;
         let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_pose_get_field(self.handle, handle, &mut out_view) })?;
+        check(unsafe { raw::hf_pose_get_field(self.handle, handle, &out_view) })?;
         Ok(())
     }
 
