@@ -54,8 +54,6 @@ def say_field(field, text, struct_text):
     field["view"] = numbers_of(field, rest[array.end():] if array else "")
     other = re.search(r"[Ww]ithout (\w+)[:,]? " + DIMS, rest) if field["dims"] else None
     field["without"] = {other.group(1): dims_of(other.group(2))} if other else {}
-    rows = re.match(r"bytes between (?:rows|entries) of ([\w, ]+?)(?:[;.]|$)", rest)
-    field["rows_of"] = re.findall(r"\w+", rows.group(1).replace(" and ", ", ")) if rows else []
     field["optional"] = bool(re.search(r"\bNULL\b", text) or (field["pointer"] and re.search(
         r"[Ee]ach (?:array )?(?:may be|is) NULL", struct_text)))
     field["enum"] = said_enum(text)

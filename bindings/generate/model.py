@@ -53,7 +53,7 @@ def role_of(api, item, struct=None):
         return "array" if item["dims"] else "scalar"
     if item.get("count"):
         return "string" if item["type"] == "char" else "fixed"
-    if item.get("rows_of") or item["name"].endswith("_stride"):
+    if item["name"].endswith("_stride"):
         return "stride"
     if re.fullmatch(r"(\w+_)?capacity", item["name"]):
         return "capacity"
@@ -103,11 +103,6 @@ def look_at_struct(api, struct, enums, problems):
             problems.append(f"{where}.{field['name']}: an array of what? start its comment with [count] of float or double, say")
         if field["pointer"] and field["role"] == "scalar":
             problems.append(f"{where}.{field['name']}: how many? start its comment with [count]")
-        if field["role"] == "stride" and not field["rows_of"]:
-            problems.append(f"{where}.{field['name']}: of which arrays? say: bytes between rows of NAME; 0 = packed")
-        for name in field["rows_of"]:
-            if not named(fields, name):
-                problems.append(f"{where}.{field['name']}: no field {name}")
         if struct["used"] == "inout" and not field["pointer"] and field["role"] not in ("size", "reserved") and not field["direction"]:
             problems.append(f"{where}.{field['name']}: who writes it? start its comment with in: or out:")
         if not field["direction"]:
@@ -138,7 +133,7 @@ def look_at_parameters(api, function, enums, problems):
     where, items = function["name"], function["parameters"]
     twins(items)
     counted = set().union(*(symbols(p["dims"]) for p in items if p["const"]), set())
-    for place, p in enumerate(items):
+    for p in items:
         p["role"] = role_of(api, p)
         if p["enum"] and not p["pointer"]:
             p["enum"] = enums.get(p["enum"]) or problems.append(f"{where}, {p['name']}: no enum has the values {p['enum']}*")
@@ -164,10 +159,6 @@ def look_at_parameters(api, function, enums, problems):
             p["counted_by"] = tells[0] if tells else ""
             if not tells:
                 problems.append(f"{where}, {p['name']}: who says how many were written? out_count, or: out_info->some_count of them")
-        if p["role"] == "stride":
-            before = items[place - 1]
-            p["rows_of"] = [before["name"]] if before["role"] == "array" else problems.append(
-                f"{where}, {p['name']}: a stride follows its array")
 
 
 def place_of(api, function):

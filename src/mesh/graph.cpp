@@ -32,7 +32,7 @@ struct Arc {
 
 void check_counts(const GraphInput& input) {
   if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
-  if (input.edge_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "edge_count is 0");
+  if (input.edge_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "edges.count is 0");
   if (input.vertex_count > most_elements)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, most_elements);
   if (input.edge_count > most_elements)

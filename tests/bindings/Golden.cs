@@ -165,7 +165,7 @@ class Scene
                         "thread_count", "vertex_limit", "triangle_limit", "memory_limit_mb", "link_pieces");
                     double[] positions = null;
                     uint[] triangles = null;
-                    if (step["mesh"] != null)
+                    if (step["mesh"] == null) throw new HfException("no positions", Constants.HF_ERROR_NULL_POINTER);
                     {
                         Map mesh = meshes[(string)step["mesh"]];
                         positions = ((Items)mesh["positions"]).Select(Number).ToArray();

@@ -738,7 +738,7 @@ impl Scene<'_> {
                 let masses = self.doubles(step, "masses");
                 let made = {
                     options.vertex_count = whole(&step["vertex_count"]);
-                    options.masses = masses.as_deref();
+                    options.masses = masses.as_deref().map(Reals::F64);
                     Surface::from_graph(&edges, &weights, &options)?
                 };
                 self.keep(step, Object::Surface(made))

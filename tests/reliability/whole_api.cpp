@@ -1,8 +1,8 @@
 #include <array>
 
 #include "../support/stick_man.h"
-#include "whole_api_run.h"
 #include "support/arrays.h"
+#include "whole_api_run.h"
 
 namespace reliability {
 
@@ -59,8 +59,7 @@ void Run::surface_and_picking() {
   call(hf_surface_get_pieces(linked, n, pieces.data(), light.data(), &pieces_count), "hf_surface_get_pieces");
   take(pieces.data(), pieces_count);
   take(light.data(), pieces_count);
-  hf_gaps_desc gaps = desc<hf_gaps_desc>();
-  gaps.positions = s.posed.data();
+  const hf_array gaps = HF_ARRAY(s.posed.data(), s.posed.size() / 3);
   hf_gaps_info opened = desc<hf_gaps_info>();
   call(hf_surface_measure_gaps(linked, &gaps, 0, nullptr, &opened), "hf_surface_measure_gaps");
   take(&opened, 1);
@@ -271,11 +270,9 @@ void Run::factor_and_preview() {
 
 void Run::analysis() {
   hf_surface_desc d = surface_desc();
-  d.positions = nullptr;
-  d.positions_f64 = s.positions_f64.data();
+  d.positions = HF_ARRAY(s.positions_f64.data(), n);
   const hf_surface surface = make(d);
-  hf_scalars field = desc<hf_scalars>();
-  field.values_f64 = s.height.data();
+  const hf_array field = HF_ARRAY(s.height.data(), n);
   Numbers levels(6);
   for (int spacing = 0; spacing < 3; ++spacing) {
     call(hf_surface_space_levels(surface, &field, spacing, 6, levels.data()), "hf_surface_space_levels");

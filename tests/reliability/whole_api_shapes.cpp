@@ -1,6 +1,6 @@
 // Poses, transfers, quads, streamlines, regions and their detail, skin weights.
-#include "whole_api_run.h"
 #include "support/arrays.h"
+#include "whole_api_run.h"
 
 namespace reliability {
 
@@ -137,8 +137,7 @@ void Run::quads_and_flow() {
   hf_flow flow = nullptr;
   call(hf_flow_create(surface, &flow), "hf_flow_create");
   hf_surface_destroy(surface);
-  hf_scalars field = desc<hf_scalars>();
-  field.values_f64 = s.height.data();
+  const hf_array field = HF_ARRAY(s.height.data(), n);
   hf_streamlines lines = desc<hf_streamlines>();
   lines.wanted_count = 12;
   call(hf_flow_trace(flow, &field, &lines), "hf_flow_trace");
