@@ -76,7 +76,7 @@ class Steps:
             return f"{rest[0]}_at" if rest[0] in self.fills else "out" if rest[0] == "out" else f"{safe(rest[0])}.data()"
         if kind == "info":
             return safe(rest[0])
-        return {"self": "get()", "null": "nullptr", "stride": "0"}.get(kind) or {
+        return {"self": "get()", "null": "nullptr"}.get(kind) or {
             "ref": "&{name}", "ref_if": "&{name}", "text": "c.text({name})", "figure": "&{name}", "count": 'c.count("{raw}", 1)',
             "room": 'room.get("{raw}")', "grown": "room.at({name})", "literal": "{raw}", "size_of": "{name}.size()"}[kind].format(name=safe(rest[0]), raw=rest[0])
 
@@ -113,15 +113,16 @@ class Steps:
         return lines
 
     def do_array(self, var, name, item):
+        if item["view"]:
+            return [f'const hf_array {safe(var)} = c.view({safe(name)}, {self.needed(name)}, "{name}", {self.dims(item["dims"])});']
         return [f'const {item["type"]}* {safe(var)} = c.array({safe(name)}, {self.needed(name)}, "{name}", {self.dims(item["dims"])});']
 
     def do_rows(self, struct, field, name, var="desc"):
         given, dims = self.given(name), self.dims(field["dims"])
         for missing, other in field["without"].items():
             dims = f"{self.given(missing)}.empty() ? Dims{self.dims(other)} : Dims{dims}"
-        twin = struct.twins.get(field["name"])
-        if twin:
-            return [f'c.either({given}, {self.needed(name)}, &{safe(var)}.{field["name"]}, &{safe(var)}.{twin["name"]}, "{name}", {dims});']
+        if field["view"]:
+            return [f'{safe(var)}.{field["name"]} = c.view({given}, {self.needed(name)}, "{name}", {dims});']
         return [f'{safe(var)}.{field["name"]} = c.array({given}, {self.needed(name)}, "{name}", {dims});']
 
     def do_fields(self, struct, var):
@@ -157,7 +158,7 @@ class Steps:
         given = self.given(field["name"])
         return [f"{var}.{field['name']} = {given} ? {given}->get() : nullptr;"]
 
-    def do_out(self, var, item, twin, given, stride=None):
+    def do_out(self, var, item, twin, given):
         dims = self.dims(item["dims"])
         if given:
             return [f'need(size, c.product({dims}), "out");']
@@ -166,9 +167,16 @@ class Steps:
     def do_fill(self, var, item, twin, given):
         return [f"if ({var}) {var}->resize(c.product({self.dims(item['dims'])}));", f"{item['type']}* {var}_at = {var} ? {var}->data() : nullptr;"]
 
-    def do_point(self, var, field, twin, stride, optional):
-        target = twin["name"] if twin and self.kind == "double" and not optional else field["name"]
-        return [f"desc.{target} = {var + '_at' if optional else 'out'};"]
+    def out_view(self, var, item):
+        place = f"{var}_at" if var in self.fills else "out" if var == "out" else f"{safe(var)}.data()"
+        return f'c.out({place}, "{item["dims"][0]}")'
+
+    def do_view(self, var, name, item):
+        return [f"const hf_array_out {safe(var)} = {self.out_view(name, item)};"]
+
+    def do_point(self, var, field, twin, optional):
+        plain = f"{var}_at" if optional else "out"
+        return [f"desc.{field['name']} = {self.out_view(var, field) if field['view'] else plain};"]
 
     def do_scalar(self, var, item):
         return [f"{item['type']} {safe(var)} = 0;"]
@@ -176,8 +184,8 @@ class Steps:
     def do_info(self, var, type, optional):
         return [f"auto {safe(var)}_ = make<{type}>();", f"if (!{safe(var)}) {safe(var)} = &{safe(var)}_;"] if optional else [f"auto {safe(var)} = make<{type}>();"]
 
-    def do_call(self, function, chosen, values):
-        return [f"check({self.called(chosen[0] if chosen and self.kind == 'double' else function, values)});"]
+    def do_call(self, function, values):
+        return [f"check({self.called(function, values)});"]
 
     def do_returns(self, function, values):
         return [f"return {self.called(function, values)};"]
@@ -248,7 +256,7 @@ class Writer(class_rust.Writer):
         if role == "array" and struct and item["name"] in struct.ragged:
             return "std::vector<std::vector<uint32_t>>"
         if role == "array":
-            return PAIRS[item["type"]] if struct and item["name"] in struct.twins else f"std::vector<{item['type']}>"
+            return PAIRS[item["type"]] if item.get("twin") else f"std::vector<{item['type']}>"
         return {"handle": f"const {camel(item['type'])}*", "bytes": "std::vector<uint8_t>", "string": "std::vector<std::string>",
                 "struct": f"std::optional<{self.options_name(self.structs[item['type']]) if item['type'] in self.structs else ''}>"}[role]
 
@@ -276,8 +284,7 @@ class Writer(class_rust.Writer):
     # ---- methods ----
 
     def argument(self, a, plan):
-        struct = a.struct or next((self.structs[p["type"]] for p in plan.method.whole if a.item in self.structs[p["type"]].given), None)
-        name = safe(a.name)
+        struct, name = a.struct, safe(a.name)
         if a.role == "place":
             return f"const hf_surface_point& {name}"
         if a.role == "fill":
@@ -438,7 +445,10 @@ class Writer(class_rust.Writer):
         rest = [q for q in m.function["parameters"] if q["role"] not in ("handle",) and q is not p]
         extra = "".join(f", {q['type']} {q['name']} = 0" for q in rest)
         body = ["Call c;", *[f'c.parent("{q["name"]}", {q["name"]}.known_counts());' for q in m.parents]]
-        body += [f'c.known("{k}", desc.{k});' for k in self.counts if named(self.structs[p["type"]].struct["fields"], k)]
+        fields = self.structs[p["type"]].struct["fields"]
+        for k in self.counts:
+            rows = next((f for f in fields if f["role"] == "array" and f["view"] and f["dims"][0] == k), None)
+            body += [f'c.known("{k}", desc.{k});'] if named(fields, k) else [f'c.known("{k}", desc.{rows["name"]}.count);'] if rows else []
         if "channel_count" in self.counts:
             body.append('if (!desc.channel_count) c.known("channel_count", 1);')
         counts = ", ".join(f'"{k}"' for k in self.counts)

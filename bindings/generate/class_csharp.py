@@ -75,7 +75,7 @@ class Steps:
         name = lower(rest[0]) if rest else ""
         if kind == "number":
             return self.number(rest[1], name)
-        return {"self": "RawHandle", "null": "null", "stride": "0"}.get(kind) or {
+        return {"self": "RawHandle", "null": "null"}.get(kind) or {
             "handle": "c.Handle({name})", "place": "c.Place({name}, \"{name}\")", "ref": "{name}", "ref_if": "{last} == null ? null : {name}",
             "var": "{name}", "text": "c.Text({name})", "figure": "&{name}", "address": "{name}Place", "count": "(uint)c.Count(\"{raw}\", 1)",
             "info": "&{name}", "room": "(uint)found[\"{raw}\"]", "grown": "found.Place(\"{raw}\")", "literal": "(UIntPtr){raw}",
@@ -114,15 +114,17 @@ class Steps:
         return lines + [f'c.Spread({lower(given)}, "{lower(given)}", {f["count"]}, {name}->{f["name"]}, sizeof({type}), {self.dims(dims)});' for f, given in fields]
 
     def do_array(self, var, name, item):
+        if item["view"]:
+            view = f'c.View({lower(name)}, "{lower(name)}", {self.dims(item["dims"])})'
+            return [f"hf_array {lower(var)}Array = {view};", f"hf_array* {lower(var)} = &{lower(var)}Array;"]
         return [f'void* {lower(var)} = c.Array({lower(name)}, "{lower(name)}", {self.dims(item["dims"])});']
 
     def do_rows(self, struct, field, name, var="desc"):
         given, dims, target = self.given(name), self.dims(field["dims"]), f"{lower(var)}->{raw_safe(field['name'])}"
         for missing, other in field["without"].items():
             dims = f"{self.given(missing)} == null ? new[] {{ {self.dims(other)} }} : new[] {{ {dims} }}"
-        twin = struct.twins.get(field["name"])
-        if twin:
-            return [f'c.Either({given}, "{lower(name)}", out {target}, out {lower(var)}->{twin["name"]}, {dims});']
+        if field["view"]:
+            return [f'{target} = c.View({given}, "{lower(name)}", {dims});']
         return [f'{target} = (IntPtr)c.Array({given}, "{lower(name)}", {dims});']
 
     def do_fields(self, struct, var):
@@ -161,7 +163,7 @@ class Steps:
     def field_handle(self, var, field):
         return [f"{var}->{field['name']} = c.Handle({self.given(field['name'])});"]
 
-    def do_out(self, var, item, twin, given, stride=None):
+    def do_out(self, var, item, twin, given):
         name, dims = lower(var), self.dims(item["dims"])
         if given and self.into:
             return self.span("into", name, self.into, dims)
@@ -178,10 +180,15 @@ class Steps:
 
     fresh = None
 
-    def do_point(self, var, field, twin, stride, optional):
-        kind = self.into or self.fresh
-        target = twin["name"] if twin and kind == "double" and not optional else field["name"]
-        return [f"desc->{target} = (IntPtr){lower(var)}Place;"]
+    def out_view(self, var, item):
+        double = var == "out" and (self.into or self.fresh) == "double"
+        return f'Call.Out({lower(var)}Place, {"true" if double else "false"}, c.Size("{item["dims"][0]}"))'
+
+    def do_view(self, var, name, item):
+        return [f"hf_array_out {lower(var)}Array = {self.out_view(name, item)};", f"hf_array_out* {lower(var)} = &{lower(var)}Array;"]
+
+    def do_point(self, var, field, twin, optional):
+        return [f"desc->{field['name']} = {self.out_view(var, field) if field['view'] else f'(IntPtr){lower(var)}Place'};"]
 
     def do_scalar(self, var, item):
         return [f"{TYPES[item['type']]} {lower(var)} = 0;"]
@@ -194,8 +201,7 @@ class Steps:
     def called(self, function, values):
         return f"Functions.{function}({', '.join(map(self.value, values))})"
 
-    def do_call(self, function, chosen, values):
-        function = chosen[0] if chosen and (self.into or self.fresh) == "double" else function
+    def do_call(self, function, values):
         return [f"HfException.Check({self.called(function, values)});"]
 
     def do_returns(self, function, values):
@@ -262,7 +268,7 @@ class Writer:
 
     # ---- arguments ----
 
-    def hint(self, item, role=None, struct=None, twin=None):
+    def hint(self, item, role=None):
         role = role or item["role"]
         if role == "enum":
             return camel(item["enum"])
@@ -273,26 +279,23 @@ class Writer:
         if role in ("array", "fixed"):
             if named(self.api["structs"], item["type"]):
                 return cs(item["type"]) + "[]"
-            twin = twin or (struct and role == "array" and struct.twins.get(item["name"]))
-            return PAIRS[item["type"]] if twin else TYPES[item["type"]] + "[]"
+            return PAIRS[item["type"]] if role == "array" and item.get("twin") else TYPES[item["type"]] + "[]"
         if role == "fill":
             return f"Span<{TYPES[item['type']]}>"
         return HINTS.get(role) or TYPES[item["type"]].replace("UIntPtr", "ulong")
 
-    def argument(self, a, whole):
-        struct = a.struct or next((s for s in whole if a.item in s.given), None)
-        hint = self.hint(a.item, a.role, struct)
+    def argument(self, a):
+        hint = self.hint(a.item, a.role)
         default = {"enum": f"default({hint})", "fill": f"default({hint})", "request": "false", "flag": "false", "scalar": "0"}.get(a.role, "null")
         return f"{hint} {lower(a.name)}" + ("" if a.required else f" = {default}")
 
     def signature(self, plan, head, into):
-        whole = [self.structs[p["type"]] for p in plan.method.whole]
         shown = [a for a in plan.arguments if a.role not in ("info", "out", "type")]
-        parts = [self.argument(a, whole) for a in shown if a.required]
+        parts = [self.argument(a) for a in shown if a.required]
         parts += [f"Span<{into}> into"] if into else []
         fills = [a for a in shown if a.role == "fill" and into]  # more arrays to fill stand beside the first
         rest = [a for a in shown if not a.required and a not in fills]
-        parts += [self.argument(a, whole) for a in [*fills, *sorted(rest, key=lambda a: not a.first)]]
+        parts += [self.argument(a) for a in [*fills, *sorted(rest, key=lambda a: not a.first)]]
         return f"{head}({', '.join(parts)})"
 
     # ---- methods ----
@@ -465,10 +468,10 @@ class Writer:
             planner.field(struct, f, first)
         out = ["", *(self.doc(struct.struct["doc"], 4) if struct.struct["doc"] else []), f"    public sealed unsafe class {cs(name)}", "    {"]
         for a in planner.arguments:
-            out += (self.doc(a.doc, 8) if a.doc else []) + [f"        public {self.hint(a.item, a.role, struct)} {upper(a.name)};"]
+            out += (self.doc(a.doc, 8) if a.doc else []) + [f"        public {self.hint(a.item, a.role)} {upper(a.name)};"]
         ahead = next((a for (f, first), a in zip(struct.asked(), planner.arguments) if first and a.role in ("array", "blob")), None)
         if ahead:
-            kind = self.hint(ahead.item, ahead.role, struct)
+            kind = self.hint(ahead.item, ahead.role)
             out += ["", f"        public static implicit operator {cs(name)}({kind} {lower(ahead.name)})", "        {",
                     f"            return {lower(ahead.name)} == null ? null : new {cs(name)} {{ {upper(ahead.name)} = {lower(ahead.name)} }};", "        }"]
         steps, body = Steps(self, inner=struct), []

@@ -45,8 +45,8 @@ class Steps:
     def value(self, v):
         kind, *rest = v
         name = js(rest[0]) if rest else ""
-        if kind in ("self", "null", "stride"):
-            return {"self": "this._handle", "null": "null", "stride": "0"}[kind]
+        if kind in ("self", "null"):
+            return {"self": "this._handle", "null": "null"}[kind]
         return {"number": name, "handle": f"handleOf({name}, {camel(rest[-1])}, '{name}')" if kind == "handle" else "",
                 "place": f"c.place('{rest[-1]}', {name}, '{name}')" if kind == "place" else "", "ref": name,
                 "ref_if": f"{js(rest[-1])} === null || {js(rest[-1])} === undefined ? null : {name}" if kind == "ref_if" else "", "var": name,
@@ -79,13 +79,17 @@ class Steps:
         return [f"const {js(var)} = c.records('{type}', {self.dims(dims)}, {{ {given} }});"]
 
     def do_array(self, var, name, item):
+        if item["view"]:
+            return [f"const {js(var)} = c.view('{js(name)}', {js(name)}, '{self.kinds(item, item['twin'])}', {self.dims(item['dims'])});"]
         return [f"const {js(var)} = c.array('{js(name)}', {js(name)}, '{self.kinds(item)}', {self.dims(item['dims'])});"]
 
     def do_rows(self, struct, field, name, var="desc"):
         shape = self.dims(field["dims"])
         for missing, other in field["without"].items():
             shape = f"{js(missing)} ? {shape} : {self.dims(other)}"
-        return [f"c.rows({js(var)}, '{field['name']}', '{js(name)}', {js(name)}, '{self.kinds(field, struct.twins.get(field['name']))}', {shape});"]
+        if field["view"]:
+            return [f"{js(var)}.set('{field['name']}', c.view('{js(name)}', {js(name)}, '{self.kinds(field, field['twin'])}', {shape}));"]
+        return [f"c.rows({js(var)}, '{field['name']}', '{js(name)}', {js(name)}, '{self.kinds(field)}', {shape});"]
 
     def do_fields(self, struct, var):
         lines = []
@@ -120,19 +124,23 @@ class Steps:
     def field_handle(self, var, field):
         return [f"{var}.set('{field['name']}', handleOf({js(field['name'])}, {camel(field['type'])}, '{js(field['name'])}') || null);"]
 
-    def do_out(self, var, item, twin, given, stride=None):
+    def do_out(self, var, item, twin, given):
         kinds, dims = self.kinds(item, twin), self.dims(item["dims"])
         if given:
             return [f"{js(var)} = c.out({js(var)}, '{kinds}', {dims}{', Type' if twin else ''});"]
         return [f"const {js(var)} = c.out(null, '{kinds}', {dims});"]
 
-    def do_fill(self, var, item, twin, given):
-        return [f"const {js(var)}_ = {js(var)} && c.out({js(var)}, '{self.kinds(item, twin)}', {self.dims(item['dims'])}, null, '{js(var)}');"]
+    def do_view(self, var, name, item):
+        return [f"const {js(var)} = c.viewOut({js(name)}, {self.dims(item['dims'])});"]
 
-    def do_point(self, var, field, twin, stride, optional):
+    def do_fill(self, var, item, twin, given):
+        kinds = self.kinds(item, item.get("twin"))
+        return [f"const {js(var)}_ = {js(var)} && c.out({js(var)}, '{kinds}', {self.dims(item['dims'])}, null, '{js(var)}');"]
+
+    def do_point(self, var, field, twin, optional):
         name = js(var) + "_" * optional
-        target = f"{name} instanceof Float64Array ? '{field['name']}_f64' : '{field['name']}'" if twin else f"'{field['name']}'"
-        return [f"desc.set({target}, {name} && written({name}));"]
+        value = f"c.viewOut({name}, {self.dims(field['dims'])})" if field["view"] else f"written({name})"
+        return [f"desc.set('{field['name']}', {name} && {value});"]
 
     def do_scalar(self, var, item):
         return [f"const {js(var)} = new {ARRAYS[KINDS[item['type']]]}(1);"]
@@ -140,9 +148,8 @@ class Steps:
     def do_info(self, var, type, optional):
         return [] if optional else [f"const {js(var)} = c.struct('{type}', {{}});"]
 
-    def do_call(self, function, chosen, values):
-        called = f"{js(chosen[1])} instanceof Float64Array ? '{chosen[0]}' : '{function}'" if chosen else f"'{function}'"
-        return [f"call({', '.join([called, *map(self.value, values)])});"]
+    def do_call(self, function, values):
+        return [f"call({', '.join([repr(function), *map(self.value, values)])});"]
 
     def do_returns(self, function, values):
         return [f"return direct('{function}', {', '.join(map(self.value, values))});"]
@@ -153,7 +160,7 @@ class Steps:
         return [*lines, f"{'this' if made == 'self' else made}._own({', '.join([repr(function), 'c', *map(self.value, values)])});"]
 
     def do_bytes(self, function, first, second):
-        first, second = self.do_call(function, None, first), self.do_call(function, None, second)
+        first, second = self.do_call(function, first), self.do_call(function, second)
         return ["const size = c.sizes();", *first, "const block = new Uint8Array(Number(size[0]));", *second]
 
     def do_grow(self, function, owner, values, tell, rooms, arrays, into):
@@ -165,7 +172,7 @@ class Steps:
             kind = item["type"] if named(self.w.api["structs"], item["type"]) else KINDS[item["type"]]
             entry = f"{js(name)}: ['{kind}', {self.dims(item['dims'])}]"
             made.append(f"...({js(name)} ? {{ {entry} }} : {{}})" if on_request else entry)
-        asked = self.do_call(function, None, values)[0].rstrip(";")
+        asked = self.do_call(function, values)[0].rstrip(";")
         asked = f"(c.into({js(into)}, room, made), {asked})" if into else asked
         who = "this" if owner == "self" else js(owner)
         return [*lines, f"const found = c.grow({who}, '{function}', (room, made) => {asked}, () => ({{ {tells} }}), {{ {room} }}, {{ {', '.join(made)} }});"]

@@ -63,7 +63,7 @@ class Steps:
         if kind == "number":
             name, item = rest
             return f"number({safe(name)}, '{name}', ctypes.{CTYPES[item['type']]}{', flag=False' if item['role'] == 'enum' else ''})"
-        return {"self": "self._handle", "null": "None", "stride": "stride"}.get(kind) or {
+        return {"self": "self._handle", "null": "None"}.get(kind) or {
             "handle": "handle_of({0}, {1}, '{2}')", "place": "ref(place(_raw.{type}, {0}))", "ref": "ref({0})", "ref_if": "None if {1} is None else ref({0})",
             "var": "{0}", "text": "c.text({0})", "figure": "ref({0})", "address": "address({0})", "count": "c.n.setdefault('{raw}', 1)",
             "info": "c.info({0}, _raw.{type})", "room": "room['{raw}']", "grown": "address(made['{raw}'])", "literal": "{raw}",
@@ -91,16 +91,19 @@ class Steps:
         return [f"{var} = c.records(_raw.{type}, {self.dims(dims)}, {{{given}}})"]
 
     def do_array(self, var, name, item):
+        if item["view"]:
+            return [f"{safe(var)} = c.view('{name}', {safe(name)}, '{self.kinds(item, item['twin'])}', {self.dims(item['dims'])})"]
         return [f"{var} = c.array('{name}', {safe(name)}, '{self.kinds(item)}', {self.dims(item['dims'])}{', sentinel=True' if item['sentinel'] else ''})"]
 
     def do_rows(self, struct, field, name, var="desc"):
         shape = self.dims(field["dims"])
         for missing, other in field["without"].items():
             shape = f"{self.dims(other)} if {safe(missing)} is None else {shape}"
-        extra = f", '{struct.strides[field['name']]}'" if field["name"] in struct.strides else ""
-        extra += ", sentinel=True" if field["sentinel"] else ""
+        if field["view"]:
+            return [f"{var}.{field['name']} = c.view('{name}', {safe(name)}, '{self.kinds(field, field['twin'])}', {shape})"]
+        extra = ", sentinel=True" if field["sentinel"] else ""
         extra += f", name='{name}'" if name != field["name"] else ""
-        return [f"c.rows({var}, '{field['name']}', {safe(name)}, '{self.kinds(field, struct.twins.get(field['name']))}', {shape}{extra})"]
+        return [f"c.rows({var}, '{field['name']}', {safe(name)}, '{self.kinds(field)}', {shape}{extra})"]
 
     def do_fields(self, struct, var):
         """Arrays, handles and descs of a struct, then the counts that follow."""
@@ -134,19 +137,21 @@ class Steps:
     def field_handle(self, var, field):
         return [f"{var}.{field['name']} = handle_of({safe(field['name'])}, {camel(field['type'])}, '{field['name']}')"]
 
-    def do_out(self, var, item, twin, given, stride=None):
-        target = self.pending or ("stride" if stride else "_")  # the stride goes into a desc, or is an argument
-        return [f"{safe(var)}, {target} = c.out({safe(var) if given else 'None'}, '{self.kinds(item, twin)}', {self.dims(item['dims'])}"
-                f"{', dtype' if given and twin else ''})"]
+    def do_out(self, var, item, twin, given):
+        extra = ", dtype" if given and twin else ""
+        extra += "" if item["view"] else ", packed=True"
+        return [f"{safe(var)} = c.out({safe(var) if given else 'None'}, '{self.kinds(item, twin)}', {self.dims(item['dims'])}{extra})"]
 
-    pending = None
+    def do_view(self, var, name, item):
+        return [f"{safe(var)} = c.view_out({safe(name)}, {self.dims(item['dims'])})"]
 
     def do_fill(self, var, item, twin, given):
-        return [f"if {safe(var)} is not None:", f"    {safe(var)}, {self.pending or '_'} = c.out({safe(var)}, '{self.kinds(item, twin)}', {self.dims(item['dims'])}, name='{var}')"]
+        kinds, packed = self.kinds(item, item.get("twin")), "" if item["view"] else ", packed=True"
+        return [f"if {safe(var)} is not None:", f"    {safe(var)} = c.out({safe(var)}, '{kinds}', {self.dims(item['dims'])}, name='{var}'{packed})"]
 
-    def do_point(self, var, field, twin, stride, optional):
-        target = f"'{field['name']}_f64' if {safe(var)}.dtype == np.float64 else '{field['name']}'" if twin else f"'{field['name']}'"
-        return [f"{'    ' if optional else ''}setattr(desc, {target}, address({safe(var)}))"]
+    def do_point(self, var, field, twin, optional):
+        value = f"c.view_out({safe(var)}, {self.dims(field['dims'])})" if field["view"] else f"address({safe(var)})"
+        return [f"{'    ' if optional else ''}desc.{field['name']} = {value}"]
 
     def do_scalar(self, var, item):
         return [f"{safe(var)} = ctypes.{CTYPES[item['type']]}()"]
@@ -154,9 +159,8 @@ class Steps:
     def do_info(self, var, type, optional):
         return [f"{safe(var)} = {safe(var) + ' or ' if optional else ''}c.struct(_raw.{type}, {{}})"]
 
-    def do_call(self, function, chosen, values):
-        called = f"'{chosen[0]}' if {chosen[1]}.dtype == np.float64 else '{function}'" if chosen else f"'{function}'"
-        return [f"call({', '.join([called, *map(self.value, values)])})"]
+    def do_call(self, function, values):
+        return [f"call({', '.join([repr(function), *map(self.value, values)])})"]
 
     def do_returns(self, function, values):
         return []
@@ -167,7 +171,7 @@ class Steps:
         return [*lines, f"{made}._own({', '.join([repr(function), 'c', *map(self.value, values)])})"]
 
     def do_bytes(self, function, first, second):
-        return ["size = ctypes.c_size_t()", *self.do_call(function, None, first), "block = np.empty(size.value, np.uint8)", *self.do_call(function, None, second)]
+        return ["size = ctypes.c_size_t()", *self.do_call(function, first), "block = np.empty(size.value, np.uint8)", *self.do_call(function, second)]
 
     def do_grow(self, function, owner, values, tell, rooms, arrays, into):
         lines = ["count = ctypes.c_uint32()"] if any(var == "count" for _, var, _ in tell) else []
@@ -180,7 +184,7 @@ class Steps:
             entry = f"'{safe(name)}': ({kind}, {self.dims(item['dims'])})"
             made.append(f"**({{{entry}}} if {safe(name)} else {{}})" if on_request else entry)
         lines += ["", "def run(room: Any, made: Any) -> None:"] + ([f"    c.into({into}, room, made)"] if into else [])
-        lines += ["    " + line for line in self.do_call(function, None, values)]
+        lines += ["    " + line for line in self.do_call(function, values)]
         lines += ["", f"found = c.grow({owner if owner == 'self' else safe(owner)}, '{function}', run, lambda: {{{tells}}}, {{{room}}}, {{{', '.join(made)}}})"]
         return lines + [f"found['{name}'] = found['{name}'] != 0" for name, item, _ in arrays if item.get("flag") and not into]
 
@@ -231,13 +235,8 @@ class Writer:
     # ---- methods ----
 
     def render(self, plan):
-        out, steps = [], Steps(self)
-        for place, (op, values) in enumerate(plan.steps):
-            following = plan.steps[place + 1] if place + 1 < len(plan.steps) else ("", {})
-            stride = following[1].get("stride") if following[0] == "point" else None
-            steps.pending = f"desc.{stride}" if stride else "_" if following[0] == "point" else None
-            out += steps.lines(op, values)
-        return out
+        steps = Steps(self)
+        return [line for op, values in plan.steps for line in steps.lines(op, values)]
 
     def returned(self, plan):
         """[(expression, hint)]"""

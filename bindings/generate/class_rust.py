@@ -63,7 +63,7 @@ class Steps:
 
     def value(self, v, parameter):
         kind, *rest = v
-        borrow = "&" if parameter["const"] else "&mut "
+        borrow = "&" if parameter["const"] or parameter["view"] else "&mut "  # a view is read, what it views is not
         if kind == "number":
             return self.number(rest[1], safe(rest[0]))
         if kind == "handle":
@@ -76,7 +76,7 @@ class Steps:
             if rest[0] in self.fills:
                 return f"{rest[0]}_at"
             return f"{safe(rest[0])}.as_mut_ptr()" + (".cast()" if rest[0] == "out" and self.twin or parameter["type"] in ("void", "char") else "")
-        return {"self": "self.handle", "null": "std::ptr::null_mut()", "stride": "0"}.get(kind) or {
+        return {"self": "self.handle", "null": "std::ptr::null_mut()"}.get(kind) or {
             "ref": "{borrow}{name}", "ref_if": "{borrow}{name}", "text": "c.text({name})?", "figure": "&mut {name}", "count": 'c.count("{raw}", 1)?',
             "info": "&mut {name}", "room": 'room.get("{raw}")', "grown": "room.at(&mut {name})", "literal": "{raw}",
             "size_of": "{name}.len()"}[kind].format(borrow=borrow, name=safe(rest[0]), raw=rest[0])
@@ -117,17 +117,22 @@ class Steps:
         return lines
 
     def do_array(self, var, name, item):
+        if item["view"]:
+            return [f"let {safe(var)} = {self.view(name, item, self.dims(item['dims']))};"]
         return [f'let {safe(var)} = c.array({self.maybe(name)}, "{name}", {self.dims(item["dims"])})?;']
+
+    def view(self, name, item, dims):
+        """An hf_array: of slices of either type, or of the only one."""
+        given = f"Some({safe(name)}.into())" if item["twin"] and name in self.required else self.maybe(name)
+        return f'c.{PAIRS[item["type"]].lower() if item["twin"] else "words"}({given}, "{name}", {dims})?'
 
     def do_rows(self, struct, field, name, var="desc"):
         given, dims, target = self.maybe(name), self.dims(field["dims"]), f"{safe(var)}.{raw_safe(field['name'])}"
         for missing, other in field["without"].items():
-            one, two = (f'c.array({given}, "{name}", {d})?' for d in (self.dims(other), dims))
+            one, two = (self.view(name, field, d) if field["view"] else f'c.array({given}, "{name}", {d})?' for d in (self.dims(other), dims))
             return [f"{target} = if {self.given(missing)}.is_none() {{ {one} }} else {{ {two} }};"]
-        twin = struct.twins.get(field["name"])
-        if twin:
-            into = f"Some({safe(name)}.into())" if name in self.required else given
-            return [f'({target}, {safe(var)}.{twin["name"]}) = c.{PAIRS[field["type"]].lower()}({into}, "{name}", {dims})?;']
+        if field["view"]:
+            return [f"{target} = {self.view(name, field, dims)};"]
         return [f'{target} = c.array({given}, "{name}", {dims})?;']
 
     def do_fields(self, struct, var):
@@ -161,7 +166,7 @@ class Steps:
     def field_handle(self, var, field):
         return [f"{var}.{field['name']} = {self.given(field['name'])}.map_or(std::ptr::null_mut(), |o| o.handle);"]
 
-    def do_out(self, var, item, twin, given, stride=None):
+    def do_out(self, var, item, twin, given):
         dims = self.dims(item["dims"])
         if given and not self.fresh:
             return [f'of_length(out, "out", c.product({dims}))?;']
@@ -170,16 +175,21 @@ class Steps:
 
     def do_fill(self, var, item, twin, given):
         if self.fresh:
-            return [f"let {var}_at = std::ptr::null_mut();"]
+            return [f"let {var}_at: *mut {TYPES[item['type']]} = std::ptr::null_mut();"]
         return [f'let {var}_at = c.fill({var}, "{var}", {self.dims(item["dims"])})?;']
 
-    def do_point(self, var, field, twin, stride, optional):
-        if optional:
-            return [f"desc.{field['name']} = {var}_at;"]
-        kind = "f64" if self.fresh else "P"
-        if twin:
-            return [f"(desc.{field['name']}, desc.{twin['name']}) = {kind}::both_mut(out.as_mut_ptr());"]
-        return [f"desc.{field['name']} = out.as_mut_ptr();"]
+    def out_view(self, var, item):
+        if var in self.fills:
+            return f'c.out({var}_at, false, "{item["dims"][0]}")'
+        double = "false" if not self.twin else "true" if self.fresh else "P::DOUBLE"
+        return f'c.out({safe(var)}.as_mut_ptr(), {double}, "{item["dims"][0]}")'
+
+    def do_view(self, var, name, item):
+        return [f"let {safe(var)} = {self.out_view(name, item)};"]
+
+    def do_point(self, var, field, twin, optional):
+        plain = f"{var}_at" if optional else "out.as_mut_ptr()"
+        return [f"desc.{field['name']} = {self.out_view(var, field) if field['view'] else plain};"]
 
     def do_scalar(self, var, item):
         return [f"let mut {safe(var)} = {TYPES[item['type']]}::default();"]
@@ -187,14 +197,8 @@ class Steps:
     def do_info(self, var, type, optional):
         return [] if optional else [f"let mut {safe(var)} = raw::{type}::default();"]
 
-    def do_call(self, function, chosen, values):
-        plain = self.called(function, values)
-        if chosen and self.fresh:
-            plain = self.called(chosen[0], values)
-        elif chosen:
-            return ["// SAFETY: every slice is as long as its check says.",
-                    f"check(unsafe {{ if P::DOUBLE {{ {self.called(chosen[0], values)}) }} else {{ {plain}) }} }})?;"]
-        return ["// SAFETY: every slice is as long as its check says.", f"check(unsafe {{ {plain}) }})?;"]
+    def do_call(self, function, values):
+        return ["// SAFETY: every slice is as long as its check says.", f"check(unsafe {{ {self.called(function, values)}) }})?;"]
 
     def do_returns(self, function, values):
         return ["// SAFETY: the handle is valid.", f"unsafe {{ {self.called(function, values)}) }}"]
@@ -288,7 +292,7 @@ class Writer:
         elif role == "array" and struct and item["name"] in struct.ragged:
             return f"Option<&{life}[&{life}[u32]]>"
         elif role == "array":
-            twin = struct and item["name"] in struct.twins
+            twin = item.get("twin")
             kind = f"{PAIRS[item['type']]}<{life.strip() or chr(39) + '_'}>" if twin else f"&{life}[{self.element(item)}]"
         else:
             inner = self.structs.get(item["type"])
@@ -326,7 +330,6 @@ class Writer:
     # ---- methods ----
 
     def argument(self, a, plan):
-        struct = a.struct or next((self.structs[p["type"]] for p in plan.method.whole if a.item in self.structs[p["type"]].given), None)
         if a.role == "place":
             return f"{safe(a.name)}: &raw::hf_surface_point"
         if a.role == "fill":
@@ -335,11 +338,11 @@ class Writer:
             return f"want_{a.name}: bool"
         if a.role == "text":
             return f"{safe(a.name)}: Option<&[&str]>"
-        if a.role == "array" and struct and a.item["name"] in struct.twins and a.required:
+        if a.role == "array" and a.item.get("twin") and a.required:
             return f"{safe(a.name)}: impl Into<{PAIRS[a.item['type']]}<'i>>"
         if a.role == "array" and a.item["role"] == "fixed" or (a.role == "fixed" and a.name != a.item["name"]):
             return f"{safe(a.name)}: Option<&[{TYPES[a.item['type']]}]>"
-        return f"{safe(a.name)}: {self.hint(a.item, struct, a.required, life='')}"
+        return f"{safe(a.name)}: {self.hint(a.item, a.struct, a.required, life='')}"
 
     def signature(self, plan, into):
         m, parts = plan.method, []
@@ -369,13 +372,13 @@ class Writer:
     def ahead_hint(self, desc, name):
         """Slices that the call is about stand without Some, unless the header says that they may be NULL."""
         item = named(desc.struct["fields"], name)
-        if item["role"] == "array" and item["name"] in desc.twins:
+        if item["role"] == "array" and item.get("twin"):
             return f"impl Into<{PAIRS[item['type']]}<'i>>"
         return self.hint(item, desc, life="") if item["optional"] else re.sub(r"^Option<(.*)>$", r"\1", self.hint(item, desc, life=""))
 
     def ahead_value(self, desc, name):
         item = named(desc.struct["fields"], name)
-        if item["role"] == "array" and item["name"] in desc.twins:
+        if item["role"] == "array" and item.get("twin"):
             return f"Some({safe(name)}.into())"
         return f"Some({safe(name)})" if item["role"] == "array" and not item["optional"] else safe(name)
 

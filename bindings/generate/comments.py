@@ -1,16 +1,19 @@
 """The words of the headers: what a comment says about a field, a parameter, an enum or a function.
 
 Field of a struct            [a][b] at the start: an array of a rows of b. `in`, `out`: who writes it. NULL: it may be left out.
+                             An hf_array also says its numbers: [a][b] of float or double.
                              HF_X_*: a value of that enum. "1: ..." of an int32_t: a flag. HF_NO_INDEX: -1 stands for it.
 Parameter, in the function's `name: type[a][b]` or `name: NULL, or ...`; `name: receives ...` is one value out.
 comment
 Enum                         the word Bits at the start: its values can be combined.
-Function                     Errors: ..., Cost: ..., Thread safety: ..., Since ... end it. "Does the same as F, in double."
+Function                     Errors: ..., Cost: ..., Thread safety: ..., Since ... end it.
 """
 
 import re
 
 DIMS = r"((?:\[[^\]]+\])+)"
+VIEWS = ("hf_array", "hf_array_out")
+NUMBERS = r" of (float|double|u?int\d+_t)(?: or (float|double|u?int\d+_t))?"
 UNITS = [("ms", r"_ms$", None), ("bytes", r"_bytes$", None), ("radians", None, r"\bradians\b"), ("degrees", None, r"\bdegrees\b"),
          ("1 / length^2", None, r"1 / length\^2"), ("length", None, r"in (?:the|each surface's|the target's) units?\b|unit of the (?:mesh|positions)"),
          ("MiB", r"_mb$", None)]
@@ -47,11 +50,10 @@ def say_field(field, text, struct_text):
         field["direction"] = "inout"
     rest = text[said.end():] if said else text
     array = re.match(r"(?:NULL(?: = [\w ]+)?, or )?" + DIMS, rest)
-    field["dims"] = dims_of(array.group(1)) if array and field["pointer"] else []
+    field["dims"] = dims_of(array.group(1)) if array and (field["pointer"] or field["type"] in VIEWS) else []
+    field["view"] = numbers_of(field, rest[array.end():] if array else "")
     other = re.search(r"[Ww]ithout (\w+)[:,]? " + DIMS, rest) if field["dims"] else None
     field["without"] = {other.group(1): dims_of(other.group(2))} if other else {}
-    rows = re.match(r"bytes between (?:rows|entries) of ([\w, ]+?)(?:[;.]|$)", rest)
-    field["rows_of"] = re.findall(r"\w+", rows.group(1).replace(" and ", ", ")) if rows else []
     field["optional"] = bool(re.search(r"\bNULL\b", text) or (field["pointer"] and re.search(
         r"[Ee]ach (?:array )?(?:may be|is) NULL", struct_text)))
     field["enum"] = said_enum(text)
@@ -60,6 +62,12 @@ def say_field(field, text, struct_text):
     field["sentinel"] = "HF_NO_INDEX" in text
     field["unit"], field["doc"] = unit_of(field["name"], text), text
     return field
+
+
+def numbers_of(item, text):
+    """The types that an hf_array may have, the plain one first."""
+    said = re.match(NUMBERS, text)
+    return [kind for kind in said.groups() if kind] if said and item["type"] in VIEWS else []
 
 
 def said_enum(text):
@@ -85,7 +93,7 @@ def segments(prose, names):
     found = {}
     for mark, following in zip(marks, [*marks[1:], None]):
         piece = prose[mark.end():following.start() if following else len(prose)].strip()
-        alone = re.match(rf"(?:NULL, or )?(?:\w+ ?)?{DIMS}\.(?=\s|$)", piece)  # what follows is about the call
+        alone = re.match(rf"(?:NULL, or )?(?:\w+ ?)?{DIMS}(?:{NUMBERS})?\.(?=\s|$)", piece)  # what follows is about the call
         piece = alone.group(0) if alone else piece
         for name in re.findall(r"\w+", mark.group(1).replace(" and ", " ")):
             found[name] = piece.split("\n\n")[0].strip()
@@ -97,6 +105,7 @@ def say_parameter(parameter, text):
     first = re.split(r"(?<=[.])\s", text)[0] if text else ""
     array = re.search(rf"(?:^|\b)(?:{parameter['type']} ?)?{DIMS}", first) or re.match(rf"{DIMS}", text)
     parameter["dims"] = dims_of(array.group(1)) if array and parameter["pointer"] else []
+    parameter["view"] = numbers_of(parameter, first[array.end():] if array else "")
     parameter["optional"] = bool(parameter["pointer"] or parameter["type"].startswith("hf_")) and bool(
         re.search(r"^NULL\b|\bor NULL\b|; NULL\b", text))
     parameter["receives"] = "receives" in text

@@ -24,6 +24,7 @@ import model
 import names
 import parse_headers
 
+RAW = (layer_csharp, layer_js, layer_python, layer_rust)  # they show structs as they are
 BINDINGS = pathlib.Path(__file__).resolve().parent.parent
 ROOT = BINDINGS.parent
 
@@ -40,7 +41,7 @@ def files(include=ROOT / "include"):
     # the functions by name, one a line: packages and tests read it
     result["functions.txt"] = "".join(f["name"] + "\n" for f in api["functions"])
     for layer in (class_cpp, class_csharp, class_js, class_python, class_rust, layer_python, layer_js, layer_csharp, layer_rust, names):
-        result.update(layer.write(api))
+        result.update(layer.write(api if layer in RAW else model.elements(api)))
     return result
 
 

@@ -2,15 +2,19 @@
 
 derive(api) adds them to the description; every layer reads the same. Roles:
   size, reserved    struct_size and reserved
-  array             numbers or plain structs, `dims` rows by columns; string and bytes likewise
+  array             numbers or plain structs, `dims` rows by columns; string and bytes likewise. An hf_array has `view`, the types
+                    that its numbers may have
   count             how long an array is: a layer takes it from the array
   capacity, stride  of the caller's arrays
   handle, struct, callback, enum, flag, scalar, fixed (double[3])
 """
 
+import copy
 import re
 
-SUFFIXES = ("_f64", "_u16")  # the same array in another type
+from comments import VIEWS
+
+SUFFIXES = ("_u16",)  # the same array in another type
 
 class Problems(Exception):
     pass
@@ -27,6 +31,8 @@ def named(items, name):
 
 def role_of(api, item, struct=None):
     handle, inner = named(api["handles"], item["type"]), named(api["structs"], item["type"])
+    if item["type"] in VIEWS:
+        return "array"
     if struct and item["name"] == "struct_size":
         return "size"
     if struct and item["name"].startswith("reserved"):
@@ -47,7 +53,7 @@ def role_of(api, item, struct=None):
         return "array" if item["dims"] else "scalar"
     if item.get("count"):
         return "string" if item["type"] == "char" else "fixed"
-    if item.get("rows_of") or item["name"].endswith("_stride"):
+    if item["name"].endswith("_stride"):
         return "stride"
     if re.fullmatch(r"(\w+_)?capacity", item["name"]):
         return "capacity"
@@ -55,7 +61,7 @@ def role_of(api, item, struct=None):
 
 
 def twins(items):
-    """An array of the same name with _f64 or _u16 is the same in another type."""
+    """An array of the same name with _u16 is the same in another type."""
     for item in items:
         base = next((item["name"][:-len(end)] for end in SUFFIXES if item["name"].endswith(end)), "")
         item["twin_of"] = base if named(items, base) else ""
@@ -93,17 +99,15 @@ def look_at_struct(api, struct, enums, problems):
             field["counted_by"] = re.sub("capacity$", "count", field["name"])
             if not named(fields, field["counted_by"]):
                 problems.append(f"{where}.{field['name']}: no field {field['counted_by']} says how many were written")
+        if field["type"] in VIEWS and not (field["dims"] and field["view"]):
+            problems.append(f"{where}.{field['name']}: an array of what? start its comment with [count] of float or double, say")
         if field["pointer"] and field["role"] == "scalar":
             problems.append(f"{where}.{field['name']}: how many? start its comment with [count]")
-        if field["role"] == "stride" and not field["rows_of"]:
-            problems.append(f"{where}.{field['name']}: of which arrays? say: bytes between rows of NAME; 0 = packed")
-        for name in field["rows_of"]:
-            if not named(fields, name):
-                problems.append(f"{where}.{field['name']}: no field {name}")
         if struct["used"] == "inout" and not field["pointer"] and field["role"] not in ("size", "reserved") and not field["direction"]:
             problems.append(f"{where}.{field['name']}: who writes it? start its comment with in: or out:")
         if not field["direction"]:
-            field["direction"] = ("out" if not field["const"] else "in") if field["role"] == "array" else (
+            read = field["const"] or field["type"] == "hf_array"
+            field["direction"] = ("in" if read else "out") if field["role"] == "array" else (
                 "out" if struct["used"] == "out" else "in")
 
 
@@ -129,7 +133,7 @@ def look_at_parameters(api, function, enums, problems):
     where, items = function["name"], function["parameters"]
     twins(items)
     counted = set().union(*(symbols(p["dims"]) for p in items if p["const"]), set())
-    for place, p in enumerate(items):
+    for p in items:
         p["role"] = role_of(api, p)
         if p["enum"] and not p["pointer"]:
             p["enum"] = enums.get(p["enum"]) or problems.append(f"{where}, {p['name']}: no enum has the values {p['enum']}*")
@@ -143,6 +147,8 @@ def look_at_parameters(api, function, enums, problems):
             p["role"] = "count"
         if p["role"] == "struct" and p["direction"] == "out" and any(q["name"] == "capacity" for q in items) and "capacity" in p["doc"] and not p["dims"]:
             problems.append(f"{where}, {p['name']}: say {p['type']}[capacity]")
+        if p["type"] in VIEWS and not (p["dims"] and p["view"]):
+            problems.append(f"{where}, {p['name']}: an array of what? say in the comment: {p['name']}: [count] of float or double")
         if p["pointer"] and not p["const"] and p["direction"] == "in":
             problems.append(f"{where}, {p['name']}: written by the library, so its name starts with out_ or inout_")
         if p["role"] == "capacity":
@@ -153,10 +159,6 @@ def look_at_parameters(api, function, enums, problems):
             p["counted_by"] = tells[0] if tells else ""
             if not tells:
                 problems.append(f"{where}, {p['name']}: who says how many were written? out_count, or: out_info->some_count of them")
-        if p["role"] == "stride":
-            before = items[place - 1]
-            p["rows_of"] = [before["name"]] if before["role"] == "array" else problems.append(
-                f"{where}, {p['name']}: a stride follows its array")
 
 
 def place_of(api, function):
@@ -208,10 +210,6 @@ def derive(api):
     for struct in api["structs"]:
         look_at_struct(api, struct, enums, problems)
     for function in api["functions"]:
-        same = re.match(r"Does the same as (\w+), in double\.", function["doc"])
-        function["double_of"] = same.group(1) if same else ""
-        for p, q in zip(function["parameters"], named(api["functions"], function["double_of"])["parameters"] if same else ()):
-            p.update({key: q[key] for key in q if key not in ("name", "type", "pointer", "const")})
         look_at_parameters(api, function, enums, problems)
         function["noun"], function["verb"] = place_of(api, function)
         function["kind"] = kind_of(api, function)
@@ -235,6 +233,24 @@ def derive(api):
     if problems:
         raise Problems("\n  ".join(["the headers leave open:", *problems]))
     return api
+
+
+def elements(api):
+    """The description for classes of languages: an hf_array is an array of its plain numbers, and its `twin` the other type."""
+    api = copy.deepcopy(api)
+    for item in (f for s in api["structs"] for f in s["fields"]):
+        as_numbers(item, const=item["type"] == "hf_array")
+    for item in (p for f in api["functions"] for p in f["parameters"]):
+        as_numbers(item, const=item["type"] == "hf_array")
+    api["structs"] = [s for s in api["structs"] if s["name"] not in VIEWS]
+    api["enums"] = [e for e in api["enums"] if e["name"] != "hf_type"]  # languages know the types of their arrays
+    return api
+
+
+def as_numbers(item, const):
+    if item["type"] not in VIEWS:
+        return
+    item.update({"type": item["view"][0], "pointer": 1, "const": const, "twin": {**item, "type": item["view"][1]} if item["view"][1:] else None})
 
 
 def names_known(api, function, parameter):

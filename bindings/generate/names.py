@@ -11,11 +11,11 @@ from plan import LOOSE, camel, classes
 def write(api):
     groups, _ = classes(api)
     methods = {m.name: (handle, m) for handle, group in groups for m in group}
-    lines = ["# Names", "", "Generated from include/hf/*.h by bindings/generate; do not edit. A function without a name of its own is the short form of another, or the same in double:",
-             "the other takes its arguments.", "", "| C | C++ | Python | JavaScript | C# | Rust |", "|---|---|---|---|---|---|"]
+    lines = ["# Names", "", "Generated from include/hf/*.h by bindings/generate; do not edit. A function without a name of its own is the short form of another, which takes its",
+             "arguments.", "", "| C | C++ | Python | JavaScript | C# | Rust |", "|---|---|---|---|---|---|"]
     for function in api["functions"]:
         name = function["name"]
-        handle, m = methods.get(name) or methods.get(function["short_of"] or function["double_of"]) or (None, None)
+        handle, m = methods.get(name) or methods.get(function["short_of"]) or (None, None)
         if name in LOOSE:
             cpp = python = script = sharp = rust = "inside the package"
         elif m.kind == "destroy":

@@ -12,7 +12,7 @@ from model import OBJECT_COUNTS, named, symbols
 # what a call is about comes first; the other ways to say it are named, as options are
 FIRST = {"hf_surface_desc": ("positions", "triangles"), "hf_skeleton_desc": ("names", "parents", "rest"),
          "hf_skin_desc": ("positions", "triangles", "joints", "weights"), "hf_sites_desc": ("vertices", "values"), "hf_morph_desc": ("weight",),
-         "hf_transfer_frame": ("source_positions",), "hf_gaps_desc": ("positions",), "hf_handles_desc": ("region_vertices",),
+         "hf_transfer_frame": ("source_positions",), "hf_faces_desc": ("corners", "sizes", "starts"), "hf_handles_desc": ("region_vertices",),
          "hf_pairs_desc": ("source_vertices", "target_vertices", "flags"), "hf_graph_desc": ("edges", "weights"), "hf_pins_desc": ("vertices",),
          "hf_skeleton_desc": ("names", "parents", "rest"), "hf_skin_desc": ("positions", "triangles", "joints", "weights")}
 # functions that no class holds: the layers use them for errors and versions
@@ -36,8 +36,6 @@ class Struct:
     def __init__(self, api, struct):
         fields = [f for f in struct["fields"] if not f["twin_of"] and f["role"] not in ("size", "reserved", "callback") and f["name"] not in LENT]
         self.api, self.struct, self.name = api, struct, struct["name"]
-        self.twins = {f["twin_of"]: f for f in struct["fields"] if f["twin_of"]}
-        self.strides = {name: f["name"] for f in struct["fields"] for name in f["rows_of"]}
         self.counts = [f for f in fields if f["role"] == "count"]
         self.capacities = [f for f in fields if f["role"] == "capacity"]
         arrays = [f for f in fields if f["role"] == "array"]
@@ -63,9 +61,6 @@ class Struct:
         options = [f for f in self.struct["fields"] if f in self.scalars + self.fixed + self.handles + self.inner and f not in first]
         return [(f, True) for f in first] + [(f, not first) for f in rest] + [(f, False) for f in options]
 
-    def is_one_array(self):
-        return len(self.given) == 1 and not (self.scalars or self.handles or self.inner or self.filled or self.fixed or self.capacities or self.blobs)
-
     def key(self, dim, prefix=""):
         """A dimension as a key of the counts of a call: inner structs have counts of their own."""
         name = next(iter(symbols([dim])), "")
@@ -81,17 +76,13 @@ class Method:
         self.parents = [p for p in parameters if p["role"] == "handle" and not p["pointer"] and p is not self.own]
         self.capacity = next((p for p in parameters if p["role"] == "capacity"), None)
         self.counters = {p["name"] for p in parameters if self.capacity and p["name"] == self.capacity["counted_by"]}
-        self.strides = {p["rows_of"][0]: p["name"] for p in parameters if p["role"] == "stride"}
-        self.twin = next((f for f in api["functions"] if f["double_of"] == self.name), None)
         self.inputs = [p for p in parameters if p["direction"] == "in" and p is not self.own and p["role"] not in ("count", "capacity", "stride")]
         self.outputs = [p for p in parameters if p["direction"] != "in" and p["name"] not in self.counters]
         given = [p for p in self.inputs if p["role"] == "struct"]
         plain = [p for p in given if structs[p["type"]].struct["used"] == "plain"]
-        one = [p for p in given if p not in plain and p["name"] != "desc" and structs[p["type"]].is_one_array()]
         self.places = plain if self.kind != "call" or not self.verb_sets() else []  # a struct given whole
         self.records = [p for p in plain if p not in self.places]  # a struct given field by field
-        self.whole = one  # a struct of one array is that array
-        self.flat = [p for p in given if p not in plain and p not in one]
+        self.flat = [p for p in given if p not in plain]
         texts = [p for p in self.inputs if p["role"] == "string"]
         self.texts = texts
 
@@ -127,8 +118,7 @@ class Method:
 def classes(api):
     """[(handle, [Method])]: what a layer shows, in the order of the headers."""
     structs = {s["name"]: Struct(api, s) for s in api["structs"]}
-    doubled = {f["name"] for f in api["functions"] if f["double_of"]}
-    methods = [Method(api, f, structs) for f in api["functions"] if f["name"] not in doubled and not f["short_of"] and f["name"] not in LOOSE]
+    methods = [Method(api, f, structs) for f in api["functions"] if not f["short_of"] and f["name"] not in LOOSE]
     lost = [m.name for m in methods if not m.noun]
     if lost:
         raise ValueError(f"no class for {', '.join(lost)}")

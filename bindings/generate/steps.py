@@ -4,8 +4,8 @@ plan(api, structs, sizes, method) gives a Plan. A language writes each step in i
 
   arguments  Argument: role handle, place, array, lists, text, blob, fixed, desc, scalar, flag, enum, out (an array to fill and
              return), type (of a new one), fill (an array to fill), info (a struct to fill), request (whether an array is wanted)
-  steps      (op, values): forget, known, struct, rows, desc, record, records, array, out, fill, point, scalar, info, call, make,
-             bytes, grow, returns
+  steps      (op, values): forget, known, struct, rows, desc, record, records, array, out, view, fill, point, scalar, info, call,
+             make, bytes, grow, returns. An item with a `view` is an hf_array in C
   results    Result: array, info, figure, arrays (a struct of arrays), object, bytes, string
 """
 
@@ -29,7 +29,7 @@ class Planner:
     def __init__(self, api, structs, sizes, method):
         self.api, self.structs, self.sizes, self.m = api, structs, sizes, method
         self.arguments, self.steps, self.results, self.values = [], [], [], {}
-        self.grown, self.grown_struct, self.chosen, self.desc = [], None, None, None
+        self.grown, self.grown_struct, self.desc = [], None, None
 
     def argue(self, name, role, item, required=False, first=True, doc=None, struct=None):
         if any(a.name == name for a in self.arguments):
@@ -72,12 +72,6 @@ class Planner:
         elif p in m.places:
             self.argue(name, "place", p, required=True)
             self.values[name] = ("place", name, p["type"])
-        elif p in m.whole:
-            struct = self.structs[p["type"]]
-            self.argue(name, "array", struct.given[0], required=True, doc=p["doc"])
-            self.do("struct", var=name + "_", type=p["type"], fields=[])
-            self.do("rows", struct=struct, var=name + "_", field=struct.given[0], name=name)
-            self.values[name] = ("ref_if", name + "_", name)
         elif p in m.flat:
             struct = self.structs[p["type"]]
             for f, first in struct.asked():
@@ -98,7 +92,7 @@ class Planner:
         elif p["role"] == "array":
             self.argue(name, "array", p, required=not p["optional"])
             self.do("array", var=name + "_", name=name, item=p)
-            self.values[name] = ("var", name + "_")
+            self.values[name] = ("ref_if", name + "_", name) if p["view"] else ("var", name + "_")
         else:
             self.argue(name, p["role"], p, required=not (p["zero"] or p["role"] in ("enum", "flag")))
             self.values[name] = ("number", name, p)
@@ -115,12 +109,12 @@ class Planner:
         """Outputs among the fields of a desc."""
         for f in self.desc.filled if self.desc else []:
             main = not self.results and not self.m.outputs_are_arrays()
-            name, twin = "out" if main else bare(f["name"]), self.desc.twins.get(f["name"])
+            name, twin = "out" if main else bare(f["name"]), f.get("twin") if main else None
             self.argue(name, "out" if main else "fill", f, first=main)
             if main and twin:
                 self.argue("dtype", "type", f, first=False, doc="")
             self.do("out" if main else "fill", var=name, item=f, twin=twin, given=True)
-            self.do("point", var=name, field=f, twin=twin, stride=self.desc.strides.get(f["name"]), optional=not main)
+            self.do("point", var=name, field=f, twin=twin, optional=not main)
             if main:
                 self.results.append(Result("array", "out", f))
 
@@ -154,26 +148,23 @@ class Planner:
             self.results.append(Result("figure", name, p))
 
     def give_array(self, p, name):
-        m = self.m
-        stride, twin = m.strides.get(p["name"]), named(m.twin["parameters"], p["name"]) if m.twin else None
-        twin = twin if twin and twin["type"] != p["type"] else None
+        m, twin = self.m, p.get("twin")
         if any(r.name == "out" for r in self.results):
             self.argue(name, "fill", p, first=False)
             self.do("fill", var=name, item=p, twin=None, given=True)
             self.values[p["name"]] = ("address", name)
             return
-        main = bool(stride) and not self.results
+        main = bool(p["view"]) and not self.results
         variable = "out" if main else self.free(name)
         if main:
             self.argue("out", "out", p)
             if twin:
                 self.argue("dtype", "type", p, first=False, doc="")
-        self.do("out", var=variable, item=p, twin=twin if main else None, given=main, stride=stride)
+        self.do("out", var=variable, item=p, twin=twin if main else None, given=main)
         self.values[p["name"]] = ("address", variable)
-        if stride:
-            self.values[stride] = ("stride",)
-        if twin:
-            self.chosen = (m.twin["name"], variable)
+        if p["view"]:
+            self.do("view", var=variable + "_view", name=variable, item=p)
+            self.values[p["name"]] = ("ref", variable + "_view")
         self.results.append(Result("array", variable, p))
 
     def give_both(self, p, name):
@@ -222,7 +213,7 @@ class Planner:
         elif self.grown or self.grown_struct:
             self.grow()
         else:
-            self.do("call", function=m.name, chosen=self.chosen, values=self.ordered())
+            self.do("call", function=m.name, values=self.ordered())
 
     def ordered(self, keep=lambda p: True):
         return [self.values[p["name"]] for p in self.m.function["parameters"] if keep(p)]

@@ -20,7 +20,7 @@ class Words:
             for m in methods:
                 self.table[m.name] = camel(handle["name"]) + ("" if m.function["verb"] == "create" else "." + language.method(m))
         for function in api["functions"]:
-            long = function["short_of"] or function["double_of"]
+            long = function["short_of"]
             if long in self.table:
                 self.table[function["name"]] = self.table[long]
         self.table.update({c["name"]: language.error(c["name"]) for c in api["constants"] if c["name"].startswith("HF_ERROR_")})
@@ -28,7 +28,6 @@ class Words:
         self.table.update({"HF_NO_INDEX": language.no_index, "NULL": language.null})
 
     def say(self, text):
-        text = re.sub(r",?(?: rows)?\s+\w+_stride bytes apart(?: \(0 = packed\))?", "", text)
         text = re.sub(r"(?:\b(?:float|double|u?int\d+_t|hf_\w+))?((?:\[[\w. +()]+\])+)", lambda m: self.shape(m.group(1)), text)
         text = re.sub(r"\b(?:in)?out_(\w+)->", r"\1.", text).replace("->", ".")
         text = re.sub(r"\b(?:in)?out_(?=[a-z])", "", text)

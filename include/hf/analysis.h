@@ -1,7 +1,9 @@
 /* hf/analysis.h - trace iso-lines, find critical points, measure geodesic distances, find the tips of a shape.
  *
- * Iso-lines, levels and critical points work on any field with one value per vertex. Distances and tips use the
- * harmonic factor of the surface. */
+ * Iso-lines, levels and critical points work on any field with one value per vertex. NaN marks a vertex without a
+ * value: functions leave out the triangles and edges at that vertex. They refuse infinity. Where vertices were welded,
+ * the value of the first copy counts. Functions ignore vertices that lie in no usable triangle. Distances and tips use
+ * the harmonic factor of the surface. */
 #ifndef HF_ANALYSIS_H
 #define HF_ANALYSIS_H
 
@@ -10,17 +12,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* This struct passes a field with one value per vertex of your mesh. Set either values or values_f64. NaN marks a
- * vertex without a value: functions leave out the triangles and edges at that vertex. They refuse infinity. Where
- * vertices were welded, the value of the first copy counts. Functions ignore vertices that lie in no usable triangle.
- */
-typedef struct hf_scalars {
-  uint32_t struct_size;
-  uint32_t value_stride;    /* bytes between rows of values; 0 = packed */
-  const float* values;      /* [vertex_count] */
-  const double* values_f64; /* [vertex_count], instead of values */
-} hf_scalars;
 
 /* ---- levels and iso-lines ---- */
 
@@ -31,11 +22,10 @@ enum hf_levels {
   HF_LEVELS_LENGTH = 2 /* equal mean widths: the width of a strip is its area over the mean length of its lines */
 };
 
-/* Writes levels, ascending. level_count: 1 to 1,000,000. spacing: HF_LEVELS_*. out_levels: double[level_count].
- * HF_LEVELS_AREA makes all strips equal in area.
- * HF_LEVELS_LENGTH makes the mean widths of the strips equal. So iso-lines around point sites are evenly spaced, where
- * equal steps of the value would crowd them. HF_LEVELS_LENGTH leaves out the parts where the field is flat to 1e-9 of
- * its range.
+/* Writes levels, ascending. field: [vertex_count] of float or double. level_count: 1 to 1,000,000. spacing:
+ * HF_LEVELS_*. out_levels: double[level_count]. HF_LEVELS_AREA makes all strips equal in area. HF_LEVELS_LENGTH makes
+ * the mean widths of the strips equal. So iso-lines around point sites are evenly spaced, where equal steps of the
+ * value would crowd them. HF_LEVELS_LENGTH leaves out the parts where the field is flat to 1e-9 of its range.
  *
  * In formulas, A(c) is the area where the field is below c, and L(c) is the length of the iso-line of level c. Both are
  * exact for the piecewise linear field. HF_LEVELS_AREA takes equal steps of A. HF_LEVELS_LENGTH takes equal steps of
@@ -44,7 +34,7 @@ enum hf_levels {
  *
  * Errors: HF_ERROR_INVALID_ARGUMENT (spacing, level_count, a constant field), HF_ERROR_NON_FINITE (index = vertex),
  * HF_ERROR_EMPTY (no triangle has three values). Thread safety: reads `surface`. Since 0.1. */
-HF_API hf_result hf_surface_space_levels(hf_surface surface, const hf_scalars* field, int32_t spacing,
+HF_API hf_result hf_surface_space_levels(hf_surface surface, const hf_array* field, int32_t spacing,
                                          uint32_t level_count, double* out_levels);
 
 /* Iso-lines as polylines. Each point lies on a mesh edge with the end vertices a and b, at the position (1 - parameter)
@@ -65,14 +55,15 @@ typedef struct hf_isolines {
   int32_t* line_closed;    /* [line_capacity] 1: closed, the first point is not repeated; 0: ends at borders */
 } hf_isolines;
 
-/* Traces the iso-lines of levels. levels: double[level_count]. The levels must be finite and can have any order; the
- * lines come in the order of the levels. A vertex whose value equals a level counts as just above it, so lines have no
- * gaps. A line either closes or ends. It ends at a border or at a triangle without values. At an edge of three or more
- * triangles (non-manifold), these are taken in pairs. A line continues inside a pair, and ends at a triangle without a
- * partner. The function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is
- * higher on the left of a line. Cost: O(edges log levels + points). Errors: HF_ERROR_NON_FINITE (index = vertex, or
- * position in levels), HF_ERROR_TOO_LARGE (2^32 points). Thread safety: reads `surface`. Since 0.1. */
-HF_API hf_result hf_surface_trace_isolines(hf_surface surface, const hf_scalars* field, uint32_t level_count,
+/* Traces the iso-lines of levels. field: [vertex_count] of float or double. levels: double[level_count]. The levels
+ * must be finite and can have any order; the lines come in the order of the levels. A vertex whose value equals a level
+ * counts as just above it, so lines have no gaps. A line either closes or ends. It ends at a border or at a triangle
+ * without values. At an edge of three or more triangles (non-manifold), these are taken in pairs. A line continues
+ * inside a pair, and ends at a triangle without a partner. The function leaves out lines of length zero. Seen from
+ * outside a consistently oriented mesh, the field is higher on the left of a line. Cost: O(edges log levels + points).
+ * Errors: HF_ERROR_NON_FINITE (index = vertex, or position in levels), HF_ERROR_TOO_LARGE (2^32 points). Thread safety:
+ * reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_trace_isolines(hf_surface surface, const hf_array* field, uint32_t level_count,
                                            const double* levels, hf_isolines* inout_lines);
 
 /* ---- critical points ---- */
@@ -103,10 +94,10 @@ typedef struct hf_critical_info {
  * the edges between them. The vertex number breaks ties, so a flat area has critical points too. The indices sum to the
  * Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field can show an extremum away
  * from its sites, because the default operator uses other edges than the mesh. HF_OPERATOR_CLAMPED uses the edges of
- * the mesh and avoids this. out_points: NULL, or hf_critical_point[capacity],
+ * the mesh and avoids this. field: [vertex_count] of float or double. out_points: NULL, or hf_critical_point[capacity],
  * out_info->point_count of them, ordered by welded vertex. out_info: NULL,
  * or receives the counts. Errors: HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
-HF_API hf_result hf_surface_find_critical_points(hf_surface surface, const hf_scalars* field, uint32_t capacity,
+HF_API hf_result hf_surface_find_critical_points(hf_surface surface, const hf_array* field, uint32_t capacity,
                                                  hf_critical_point* out_points, hf_critical_info* out_info);
 
 /* ---- geodesic distance ---- */
@@ -140,7 +131,7 @@ HF_API hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc
 HF_API void hf_geodesics_destroy(hf_geodesics geodesics);
 
 /* Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
- * out_distances: float[vertex_count], value_stride bytes apart (0 = packed). The distance is 0 at the sources, and -1
+ * out_distances: [vertex_count] of float or double. The distance is 0 at the sources, and -1
  * at vertices that no source can reach. sources: uint32_t[source_count] vertices of your mesh; repeats are allowed.
  * Paths follow the triangles and ignore links. Triangles with the same corners count once: a two-sided sheet measures
  * as a single one. No distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up
@@ -150,11 +141,7 @@ HF_API void hf_geodesics_destroy(hf_geodesics geodesics);
  * EXACT: more windows than 20 t^1.5 + 10^6 for t triangles), HF_ERROR_CANCELLED (nothing is written). Thread safety:
  * reads `geodesics`; calls on several threads share its progress. Since 0.1. */
 HF_API hf_result hf_geodesics_solve(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
-                                    float* out_distances, uint32_t value_stride);
-
-/* Does the same as hf_geodesics_solve, in double. Thread safety: reads `geodesics`. Since 0.1. */
-HF_API hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
-                                        double* out_distances, uint32_t value_stride);
+                                    const hf_array_out* out_distances);
 
 /* A point of the surface in the form of hf_hit: three corners of a triangle and their weights. */
 typedef struct hf_surface_point {

@@ -116,19 +116,20 @@ inline void need(size_t size, size_t wanted, const std::string& name) {
 class Reals {
  public:
   Reals() noexcept = default;
-  Reals(const std::vector<float>& values) noexcept : floats_(values.data()), size_(values.size()), given_(true) {}
-  Reals(const std::vector<double>& values) noexcept : doubles_(values.data()), size_(values.size()), given_(true) {}
-  Reals(const float* values, size_t size) noexcept : floats_(values), size_(size), given_(true) {}
-  Reals(const double* values, size_t size) noexcept : doubles_(values), size_(size), given_(true) {}
-  const float* first() const noexcept { return floats_; }
-  const double* second() const noexcept { return doubles_; }
+  Reals(const std::vector<float>& values) noexcept : Reals(values.data(), values.size()) {}
+  Reals(const std::vector<double>& values) noexcept : Reals(values.data(), values.size()) {}
+  Reals(const float* values, size_t size) noexcept : data_(values), size_(size), given_(true) {}
+  Reals(const double* values, size_t size) noexcept
+      : data_(values), size_(size), type_(HF_TYPE_DOUBLE), given_(true) {}
+  const void* data() const noexcept { return data_; }
+  int32_t type() const noexcept { return type_; }
   size_t size() const noexcept { return size_; }
   bool given() const noexcept { return given_; }
 
  private:
-  const float* floats_ = nullptr;
-  const double* doubles_ = nullptr;
+  const void* data_ = nullptr;
   size_t size_ = 0;
+  int32_t type_ = HF_TYPE_PLAIN;
   bool given_ = false;
 };
 
@@ -136,17 +137,18 @@ class Reals {
 class Indices {
  public:
   Indices() noexcept = default;
-  Indices(const std::vector<uint32_t>& values) noexcept : words_(values.data()), size_(values.size()), given_(true) {}
-  Indices(const std::vector<uint16_t>& values) noexcept : halves_(values.data()), size_(values.size()), given_(true) {}
-  const uint32_t* first() const noexcept { return words_; }
-  const uint16_t* second() const noexcept { return halves_; }
+  Indices(const std::vector<uint32_t>& values) noexcept : data_(values.data()), size_(values.size()), given_(true) {}
+  Indices(const std::vector<uint16_t>& values) noexcept
+      : data_(values.data()), size_(values.size()), type_(HF_TYPE_UINT16), given_(true) {}
+  const void* data() const noexcept { return data_; }
+  int32_t type() const noexcept { return type_; }
   size_t size() const noexcept { return size_; }
   bool given() const noexcept { return given_; }
 
  private:
-  const uint32_t* words_ = nullptr;
-  const uint16_t* halves_ = nullptr;
+  const void* data_ = nullptr;
   size_t size_ = 0;
+  int32_t type_ = HF_TYPE_PLAIN;
   bool given_ = false;
 };
 
@@ -214,13 +216,28 @@ class Call {
     fit(values.size(), name, dims);
     return values.empty() ? nullptr : values.data();
   }
-  template <class View, class First, class Second>
-  void either(const View& values, bool required, First* first, Second* second, const std::string& name,
-              const Dims& dims) {
+  template <class View>
+  hf_array view(const View& values, bool required, const std::string& name, const Dims& dims) {
+    hf_array array{};
     if (values.given() && (values.size() > 0 || required)) fit(values.size(), name, dims);
-    if (values.size() == 0) return;
-    *first = values.first();
-    *second = values.second();
+    if (values.size() == 0) return array;
+    array.data = values.data();
+    array.count = static_cast<uint32_t>(size(dims[0]));
+    array.type = values.type();
+    return array;
+  }
+  hf_array view(const std::vector<uint32_t>& values, bool required, const std::string& name, const Dims& dims) {
+    return view(Indices(values), required, name, dims);
+  }
+  // An array for the library to fill; none where it has no place.
+  template <class T>
+  hf_array_out out(T* place, const std::string& rows) const {
+    hf_array_out array{};
+    if (!place) return array;
+    array.data = place;
+    array.count = static_cast<uint32_t>(size(rows));
+    array.type = sizeof(T) == sizeof(double) ? HF_TYPE_DOUBLE : HF_TYPE_PLAIN;
+    return array;
   }
   // Lists of different lengths, one after the other.
   void lists(const std::vector<std::vector<uint32_t>>& lists, bool required, const uint32_t** counts,

@@ -84,16 +84,12 @@ HF_API uint32_t hf_direction_get_site_count(hf_direction direction);
 HF_API hf_result hf_direction_get_sites(hf_direction direction, uint32_t capacity, uint32_t* out_sites,
                                         uint32_t* out_vertices, double* out_vectors, uint32_t* out_count);
 
-/* Writes the field as vectors in space. out_vectors: float[vertex_count][3]. The vectors are tangent to the surface up
- * to 1e-12 of their length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices
- * hold their vectors; vertices that no constraint reaches get 0. vector_stride: bytes between vertices, 0 = packed.
- * out_info: NULL, or receives what the constraints did not reach. Cost: a small dense solve and one backward sweep over
- * the factor. Errors: HF_ERROR_EMPTY. Thread safety: reads `direction`. Since 0.1. */
-HF_API hf_result hf_direction_solve(hf_direction direction, float* out_vectors, uint32_t vector_stride,
-                                    hf_solve_info* out_info);
-/* Does the same as hf_direction_solve, in double. Thread safety: reads `direction`. Since 0.1. */
-HF_API hf_result hf_direction_solve_f64(hf_direction direction, double* out_vectors, uint32_t vector_stride,
-                                        hf_solve_info* out_info);
+/* Writes the field as vectors in space. out_vectors: [vertex_count][3] of float or double. The vectors are tangent to
+ * the surface up to 1e-12 of their length. For degree 2 or 4 the function writes one of the 2 or 4 directions.
+ * Constrained vertices hold their vectors; vertices that no constraint reaches get 0. out_info: NULL, or receives what
+ * the constraints did not reach. Cost: a small dense solve and one backward sweep over the factor. Errors:
+ * HF_ERROR_EMPTY. Thread safety: reads `direction`. Since 0.1. */
+HF_API hf_result hf_direction_solve(hf_direction direction, const hf_array_out* out_vectors, hf_solve_info* out_info);
 
 /* A singularity is a triangle, or a face, around which the field makes extra turns. They are counted in parts of 1 /
  * degree of a full turn. */

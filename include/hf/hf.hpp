@@ -70,27 +70,31 @@ struct Links {
   hf_links_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// The mesh and the options of a surface. Set positions or positions_f64, and triangles, triangles_u16 or faces. Strides
-// are in bytes; 0 means packed.
-//
-// Faces have any number of corners. Set face_count, corner_count, corners, and what your host stores: face_sizes (Maya,
-// USD), face_starts and face_sizes (Blender's loops), or face_starts as offsets (newer Blender). No field depends on
-// how you would cut a face into triangles. HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both cuts of a bent quad,
-// and moves it towards the polygon Laplacian of Bunge and others 2020 until a weight would become negative.
-// docs/studies/polygons.md compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian,
-// HF_OPERATOR_UNIFORM the sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a cut of
-// the library. It does not depend on the order of the corners. Where this interface names a triangle, it names the face
-// then. Normals of poses are sums of the area vectors of faces.
-struct SurfaceOptions {
-  // `[face_count]` first corner of each face. none: the faces follow one another. Without face_sizes `[face_count +
-  // 1]`: the corners of face f end where those of f + 1 start
-  std::vector<uint32_t> face_starts{};
-  // `[face_count]` corners of each face, 3 to 65,535. none: face_starts is enough
-  std::vector<uint32_t> face_sizes{};
-  // `[corner_count]` vertices, counter-clockwise seen from outside
+// Faces of any number of corners. Set corners, and what your host stores: sizes (Maya, USD), starts and sizes
+// (Blender's loops), or starts as offsets (newer Blender). No field depends on how you would cut a face into triangles.
+// HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both cuts of a bent quad, and moves it towards the polygon Laplacian
+// of Bunge and others 2020 until a weight would become negative. docs/studies/polygons.md compares errors.
+// HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian, HF_OPERATOR_UNIFORM the sides of the
+// faces. Directions, distances, iso-lines, streamlines and quads work on a cut of the library. It does not depend on
+// the order of the corners. Where this interface names a triangle, it names the face then. Normals of poses are sums of
+// the area vectors of faces.
+struct Faces {
+  // `[corner_count]` of uint32_t: vertices, counter-clockwise seen from outside
   std::vector<uint32_t> corners{};
+  // none, or `[faces]` of uint32_t: corners of each face, 3 to 65,535. none: starts are enough
+  std::vector<uint32_t> sizes{};
+  // none, or `[faces]` of uint32_t: first corner of each face. none: the faces follow one another. Without sizes
+  // `[faces + 1]`: the corners of face f end where those of f + 1 start
+  std::vector<uint32_t> starts{};
+  hf_faces_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
+};
+
+// The mesh and the options of a surface. Set triangles or faces.
+struct SurfaceOptions {
   // HF_WELD_*
   int32_t weld = 0;
+  // none, or faces instead of triangles
+  std::optional<Faces> faces{};
   // for HF_WELD_TOLERANCE, in the unit of the positions, > 0
   double weld_tolerance = 0;
   // HF_OPERATOR_*
@@ -124,9 +128,9 @@ struct SurfaceOptions {
 // A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
 // the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of SurfaceOptions.
 struct GraphOptions {
-  // `[vertex_count]` M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none: all 1. A mass below 1e-4 of the
-  // mean of its component counts as that
-  std::vector<double> masses{};
+  // none, or `[vertex_count]` of float or double: M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none:
+  // all 1. A mass below 1e-4 of the mean of its component counts as that
+  Reals masses{};
   // >= 1, also without masses
   uint32_t vertex_count = 0;
   // 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of tetrahedra do. A field can
@@ -150,18 +154,14 @@ struct GraphOptions {
   const Progress* progress = nullptr;
   // none, or the saved factor of this graph; ordering is then 0 or the factor's
   std::optional<Factor> saved_factor{};
-  hf_graph_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
-      const std::vector<uint32_t>& edges, const std::vector<double>& weights) const;
-};
-
-// Posed positions of the mesh, of which gaps are measured. Set one of the two.
-struct Gaps {
-  hf_gaps_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix, const Reals& positions) const;
+  hf_graph_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix, const Indices& edges,
+      const Reals& weights) const;
 };
 
 // Options of picking: posed positions, if the surface is not at rest, and which triangles count.
 struct PickOptions {
-  // `[vertex_count x 3]` posed positions (Pose.deform writes them), or none
+  // none, or `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). none: the rest
+  // positions
   Reals positions{};
   // 1: a ray passes triangles seen from behind
   bool front_only = false;
@@ -294,7 +294,7 @@ struct HandlesOptions {
       const std::vector<std::vector<uint32_t>>& region_vertices) const;
 };
 
-// The options of Pose::deform are outputs, strides and a range of vertices. Set at least one output.
+// The options of Pose::deform are outputs and a range of vertices. Set at least one output.
 struct DeformOptions {
   // 1 to 1000; 0 = the pose's
   uint32_t iteration_count = 0;
@@ -370,8 +370,8 @@ struct QuadsOptions {
 };
 
 struct RegionOptions {
-  // `[vertex_count x 3]` the surface of weight 0, bit for bit: the positions of the mesh or any pose of them. none: the
-  // mesh's own to 1e-15 of the box. Copied
+  // none, or `[vertex_count x 3]` of float or double: the surface of weight 0, bit for bit, as the positions of the
+  // mesh or any pose of them. none: the mesh's own to 1e-15 of the box. Copied
   Reals positions{};
   // HF_BASE_*. If the surface has no factor for it yet, it is made now
   int32_t base = 0;
@@ -496,12 +496,12 @@ struct SkeletonOptions {
 
 // most pairs of a transfer
 struct TransferOptions {
-  // `[source.vertex_count x 3]`, or none Poses in which the two bodies correspond, in each surface's unit, read by the
-  // call, or none for the positions of the surface. A character bound in a crouch gets a standing pose here. Motion
-  // counts from these poses; the fields stay those of the surfaces.
-  std::vector<float> source_rest{};
-  // `[target.vertex_count x 3]`, or none
-  std::vector<float> target_rest{};
+  // none, or `[source.vertex_count x 3]` of float or double Poses in which the two bodies correspond, in each surface's
+  // unit, read by the call, or none for the positions of the surface. A character bound in a crouch gets a standing
+  // pose here. Motion counts from these poses; the fields stay those of the surfaces.
+  Reals source_rest{};
+  // none, or `[target.vertex_count x 3]` of float or double
+  Reals target_rest{};
   // HF_TRANSFER_*
   int32_t mode = 0;
   // 1 to 512; 0 = 80, or 5 for each pair if that is more
@@ -555,10 +555,11 @@ struct TransferDials {
   hf_transfer_dials fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Describes one frame: the input is the posed source, the output the posed target. Set source_positions or
-// source_positions_f64, and at least one output. Strides are in bytes; 0 = packed.
+// Describes one frame: the input is the posed source, the output the posed target. Set at least one output.
 struct TransferFrame {
-  // `[hold_count]` each pair at most once
+  // `[hold_count]` each pair at most once A hold puts the target region of a pair exactly at a position of yours, such
+  // as a foot on a step or a hand on a rail. The mean of the region's vertices lands there; welded copies count once.
+  // The rest of the surface follows.
   std::vector<uint32_t> hold_pairs{};
   // `[hold_count x 3]` in the target's unit and frame
   std::vector<double> hold_positions{};
@@ -821,13 +822,10 @@ class Surface {
   // cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
   // second side alone get opposite normals from poses, and a ray with front_only hits both sides.
   //
-  // positions: `[vertex_count x 3]`, any unit, any offset
-  // triangles: `[triangle_count x 3]`, counter-clockwise seen from outside
-  // face_starts: `[face_count]` first corner of each face. none: the faces follow one another. Without face_sizes
-  // `[face_count + 1]`: the corners of face f end where those of f + 1 start
-  // face_sizes: `[face_count]` corners of each face, 3 to 65,535. none: face_starts is enough
-  // corners: `[corner_count]` vertices, counter-clockwise seen from outside
+  // positions: `[vertex_count x 3]` of float or double, any unit, any offset
+  // triangles: `[triangle_count x 3]` of uint32_t or uint16_t, counter-clockwise seen from outside
   // weld: HF_WELD_*
+  // faces: faces instead of triangles
   // weld_tolerance: for HF_WELD_TOLERANCE, in the unit of the positions, > 0
   // operator_kind: HF_OPERATOR_*
   // field_kind: HF_FIELD_*: the factor made now. Others are made when a solver or region asks
@@ -864,11 +862,11 @@ class Surface {
   // median of their component are limited; hf_surface_report counts their vertices as changed. Bi-harmonic fields limit
   // weights to 1e3 times the median.
   //
-  // edges: `[edge_count x 2]` vertices, in any order. The weights of parallel edges are added up. Self loops are
-  // ignored
-  // weights: `[edge_count]` any unit, up to 1e100 in size. An edge of weight 0 is left out
-  // masses: `[vertex_count]` M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none: all 1. A mass below
-  // 1e-4 of the mean of its component counts as that
+  // edges: `[edge_count x 2]` of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are added
+  // up. Self loops are ignored
+  // weights: `[edge_count]` of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left out
+  // masses: `[vertex_count]` of float or double: M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none: all
+  // 1. A mass below 1e-4 of the mean of its component counts as that
   // vertex_count: >= 1, also without masses
   // allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of tetrahedra
   // do. A field can then leave the range of its sites. 0: they are refused
@@ -884,8 +882,7 @@ class Surface {
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
-  static Surface from_graph(const std::vector<uint32_t>& edges, const std::vector<double>& weights,
-      const GraphOptions& options = {}) {
+  static Surface from_graph(const Indices& edges, const Reals& weights, const GraphOptions& options = {}) {
     Call c;
     const hf_graph_desc desc = options.fill(c, "", edges, weights);
     hf_surface raw = nullptr;
@@ -964,13 +961,14 @@ class Surface {
   // Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends
   // are apart than at rest, and 0 if they are nearer.
   //
-  // positions: `[vertex_count x 3]`: of a pose, a frame of a transfer, or any other deformation
+  // positions: `[vertex_count x 3]` of float or double: those of a pose, a frame of a transfer, or any other
+  // deformation.
   // info: filled in when given
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
   std::vector<double> measure_gaps(const Reals& positions, hf_gaps_info* info = nullptr) const {
     Call c(counts_);
-    const hf_gaps_desc desc = Gaps().fill(c, "", positions);
+    const hf_array positions_ = c.view(positions, true, "positions", {"vertex_count", "3"});
     auto info_ = make<hf_gaps_info>();
     if (!info) info = &info_;
     Room room({{"capacity", -1}});
@@ -978,7 +976,7 @@ class Surface {
     do {
       room.begin(c, {{"capacity"}});
       room.resize(c, gaps, {"capacity"});
-      room.code = hf_surface_measure_gaps(get(), &desc, room.get("capacity"), room.at(gaps), info);
+      room.code = hf_surface_measure_gaps(get(), &positions_, room.get("capacity"), room.at(gaps), info);
     } while (!room.enough(c, {{"capacity", info->link_count}}));
     gaps.resize(c.product({"capacity"}));
     return gaps;
@@ -1040,7 +1038,8 @@ class Surface {
   //
   // origin: `[3]` in the frame of the positions; the direction can have any length above 0.
   // direction: `[3]` in the frame of the positions; the direction can have any length above 0.
-  // positions: `[vertex_count x 3]` posed positions (Pose.deform writes them), or none
+  // positions: `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). none: the rest
+  // positions
   // front_only: 1: a ray passes triangles seen from behind
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
@@ -1058,7 +1057,8 @@ class Surface {
   // Finds the vertex nearest to a point.
   //
   // point: `[3]` in the frame of the positions.
-  // positions: `[vertex_count x 3]` posed positions (Pose.deform writes them), or none
+  // positions: `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). none: the rest
+  // positions
   // front_only: 1: a ray passes triangles seen from behind
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -1081,14 +1081,14 @@ class Surface {
   // of the integral of A'(c) / L(c) dc. That integral is the height on a cylinder and the distance from the pole on a
   // sphere.
   //
+  // field: `[vertex_count]` of float or double.
   // spacing: HF_LEVELS_*.
   // level_count: 1 to 1,000,000.
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
   std::vector<double> space_levels(const Reals& field, uint32_t level_count, int32_t spacing = 0) const {
     Call c(counts_);
-    auto field_ = make<hf_scalars>();
-    c.either(field, true, &field_.values, &field_.values_f64, "field", {"vertex_count"});
+    const hf_array field_ = c.view(field, true, "field", {"vertex_count"});
     c.known("level_count", level_count);
     std::vector<double> levels(c.product({"level_count"}));
     check(hf_surface_space_levels(get(), &field_, spacing, level_count, levels.data()));
@@ -1102,13 +1102,13 @@ class Surface {
   // function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is higher on
   // the left of a line.
   //
+  // field: `[vertex_count]` of float or double.
   // levels: `[level_count]`.
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
   Isolines trace_isolines(const Reals& field, const std::vector<double>& levels) const {
     Call c(counts_);
-    auto field_ = make<hf_scalars>();
-    c.either(field, true, &field_.values, &field_.values_f64, "field", {"vertex_count"});
+    const hf_array field_ = c.view(field, true, "field", {"vertex_count"});
     const double* levels_ = c.array(levels, true, "levels", {"level_count"});
     auto lines = make<hf_isolines>();
     Room room({{"point_capacity", -1}, {"line_capacity", -1}});
@@ -1148,13 +1148,13 @@ class Surface {
   // show an extremum away from its sites, because the default operator uses other edges than the mesh.
   // HF_OPERATOR_CLAMPED uses the edges of the mesh and avoids this.
   //
+  // field: `[vertex_count]` of float or double.
   // info: filled in when given
   //
   // Fails with HF_ERROR_NON_FINITE.
   std::vector<hf_critical_point> find_critical_points(const Reals& field, hf_critical_info* info = nullptr) const {
     Call c(counts_);
-    auto field_ = make<hf_scalars>();
-    c.either(field, true, &field_.values, &field_.values_f64, "field", {"vertex_count"});
+    const hf_array field_ = c.view(field, true, "field", {"vertex_count"});
     auto info_ = make<hf_critical_info>();
     if (!info) info = &info_;
     Room room({{"capacity", -1}});
@@ -1230,7 +1230,7 @@ class Surface {
   // With the struct of C.
   explicit Surface(const hf_surface_desc& desc) {
     Call c;
-    c.known("vertex_count", desc.vertex_count);
+    c.known("vertex_count", desc.positions.count);
     hf_surface raw = nullptr;
     check(hf_surface_create(&desc, &raw));
     own(raw, c.counts({"vertex_count"}));
@@ -1453,10 +1453,10 @@ class Solver {
     check(hf_solver_set_screening(get(), screening_, targets_));
   }
 
-  // Solves for the field at every vertex of your mesh.
+  // Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their values
+  // exactly. The field is 0 on components without a site.
   //
-  // out: `[vertex_count x channel_count]`. Hard sites hold their values exactly. The field is 0 on components without a
-  // site.
+  // out: `[vertex_count x channel_count]` of float or double.
   // info: filled in when given
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.
@@ -1479,21 +1479,23 @@ class Solver {
   void solve_into(float* out, size_t size, hf_solve_info* info = nullptr) const {
     Call c(counts_);
     need(size, c.product({"vertex_count", "channel_count"}), "out");
-    check(hf_solve(get(), out, 0, info));
+    const hf_array_out out_view = c.out(out, "vertex_count");
+    check(hf_solver_solve(get(), &out_view, info));
   }
 
   // As solve, into memory of yours.
   void solve_into(double* out, size_t size, hf_solve_info* info = nullptr) const {
     Call c(counts_);
     need(size, c.product({"vertex_count", "channel_count"}), "out");
-    check(hf_solver_solve_f64(get(), out, 0, info));
+    const hf_array_out out_view = c.out(out, "vertex_count");
+    check(hf_solver_solve(get(), &out_view, info));
   }
 
-  // Solves for the field at chosen vertices only, with the same bits as Solver.solve. The call reads only those columns
-  // of the factor on which these vertices depend (elimination paths), on the calling thread. One path is up to a sixth
-  // of the factor, but the paths of many vertices share most of their columns. The call costs a whole solve for bi-
-  // harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of a component
-  // without a site gets 0.
+  // Solves for the field at chosen vertices only, with the same bits as Solver::solve in double. The call reads only
+  // those columns of the factor on which these vertices depend (elimination paths), on the calling thread. One path is
+  // up to a sixth of the factor, but the paths of many vertices share most of their columns. The call costs a whole
+  // solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of a
+  // component without a site gets 0.
   //
   // vertices: `[vertex_count]`.
   //
@@ -1511,7 +1513,7 @@ class Solver {
   // The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects
   // the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
   //
-  // out: `[vertex_count x 3]`, not normalised.
+  // out: `[vertex_count x 3]` of float or double, not normalised.
   // normals: `[vertex_count x 3]`, packed: the normals used.
   // info: filled in when given
   //
@@ -1536,9 +1538,10 @@ class Solver {
       hf_solve_info* info = nullptr) const {
     Call c(counts_);
     need(size, c.product({"vertex_count", "3"}), "out");
+    const hf_array_out out_view = c.out(out, "vertex_count");
     if (normals) normals->resize(c.product({"vertex_count", "3"}));
     double* normals_at = normals ? normals->data() : nullptr;
-    check(hf_solver_solve_vectors(get(), out, 0, normals_at, info));
+    check(hf_solver_solve_vectors(get(), &out_view, normals_at, info));
   }
 
   // As solve_vectors, into memory of yours.
@@ -1546,24 +1549,25 @@ class Solver {
       hf_solve_info* info = nullptr) const {
     Call c(counts_);
     need(size, c.product({"vertex_count", "3"}), "out");
+    const hf_array_out out_view = c.out(out, "vertex_count");
     if (normals) normals->resize(c.product({"vertex_count", "3"}));
     double* normals_at = normals ? normals->data() : nullptr;
-    check(hf_solver_solve_vectors_f64(get(), out, 0, normals_at, info));
+    check(hf_solver_solve_vectors(get(), &out_view, normals_at, info));
   }
 
-  // Solves with a single-precision copy of the factor. This reads half the bytes of Solver::solve; use it while the
-  // user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic fields,
-  // long shapes and crowded sites can have an error of any size: ask for corrections there and read error_estimate.
-  // Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a harmonic field takes
-  // the error below 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of
-  // Solver::solve.
+  // Solves with a single-precision copy of the factor. This reads half the bytes of Solver.solve; use it while the user
+  // drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic fields, long
+  // shapes and crowded sites can have an error of any size: ask for corrections there and read error_estimate. Hard
+  // sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a harmonic field takes the
+  // error below 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of Solver.solve.
   //
   // The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on the
   // surface share the copy. It is freed with the last of these solvers, or by Solver::release_preview. Engines other
   // than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites. info.exact is then 1.
   //
   // correction_count: 0 to 8.
-  // out: `[vertex_count x channel_count]`, as Solver::solve.
+  // out: `[vertex_count x channel_count]` of float or double, as Solver::solve. Single precision rounds most
+  // corrections away.
   // info: filled in when given
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.
@@ -1587,7 +1591,8 @@ class Solver {
       hf_preview_info* info = nullptr) const {
     Call c(counts_);
     need(size, c.product({"vertex_count", "channel_count"}), "out");
-    check(hf_solver_solve_preview(get(), out, 0, correction_count, info));
+    const hf_array_out out_view = c.out(out, "vertex_count");
+    check(hf_solver_solve_preview(get(), &out_view, correction_count, info));
   }
 
   // As solve_preview, into memory of yours.
@@ -1595,7 +1600,8 @@ class Solver {
       hf_preview_info* info = nullptr) const {
     Call c(counts_);
     need(size, c.product({"vertex_count", "channel_count"}), "out");
-    check(hf_solver_solve_preview_f64(get(), out, 0, correction_count, info));
+    const hf_array_out out_view = c.out(out, "vertex_count");
+    check(hf_solver_solve_preview(get(), &out_view, correction_count, info));
   }
 
   // Frees the single-precision copy for all solvers that share it, as soon as no running call uses it. The next preview
@@ -1733,13 +1739,14 @@ class Geodesics {
     own(raw, c.counts({"vertex_count"}));
   }
 
-  // Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+  // Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh. The
+  // distance is 0 at the sources, and -1 at vertices that no source can reach.
   //
   // sources: `[source_count]` vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore links.
   // Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance of EXACT
   // and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The error of FRONT
   // falls with the edge length. HEAT rounds the distance off at corners and where two shortest paths meet.
-  // out: `[vertex_count]`. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+  // out: `[vertex_count]` of float or double.
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
   std::vector<float> solve(const std::vector<uint32_t>& sources) const {
@@ -1762,7 +1769,8 @@ class Geodesics {
     Call c(counts_);
     const uint32_t* sources_ = c.array(sources, true, "sources", {"source_count"});
     need(size, c.product({"vertex_count"}), "out");
-    check(hf_geodesics_solve(get(), c.count("source_count", 1), sources_, out, 0));
+    const hf_array_out out_view = c.out(out, "vertex_count");
+    check(hf_geodesics_solve(get(), c.count("source_count", 1), sources_, &out_view));
   }
 
   // As solve, into memory of yours.
@@ -1770,7 +1778,8 @@ class Geodesics {
     Call c(counts_);
     const uint32_t* sources_ = c.array(sources, true, "sources", {"source_count"});
     need(size, c.product({"vertex_count"}), "out");
-    check(hf_geodesics_solve_f64(get(), c.count("source_count", 1), sources_, out, 0));
+    const hf_array_out out_view = c.out(out, "vertex_count");
+    check(hf_geodesics_solve(get(), c.count("source_count", 1), sources_, &out_view));
   }
 
   // Finds the shortest path between two points, exact up to rounding, whatever the method of the object. If several are
@@ -1970,7 +1979,7 @@ class Direction {
   // degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors; vertices
   // that no constraint reaches get 0.
   //
-  // out: `[vertex_count x 3]`.
+  // out: `[vertex_count x 3]` of float or double.
   // info: filled in when given
   //
   // Fails with HF_ERROR_EMPTY.
@@ -1993,14 +2002,16 @@ class Direction {
   void solve_into(float* out, size_t size, hf_solve_info* info = nullptr) const {
     Call c(counts_);
     need(size, c.product({"vertex_count", "3"}), "out");
-    check(hf_direction_solve(get(), out, 0, info));
+    const hf_array_out out_view = c.out(out, "vertex_count");
+    check(hf_direction_solve(get(), &out_view, info));
   }
 
   // As solve, into memory of yours.
   void solve_into(double* out, size_t size, hf_solve_info* info = nullptr) const {
     Call c(counts_);
     need(size, c.product({"vertex_count", "3"}), "out");
-    check(hf_direction_solve_f64(get(), out, 0, info));
+    const hf_array_out out_view = c.out(out, "vertex_count");
+    check(hf_direction_solve(get(), &out_view, info));
   }
 
   // Lists the singularities of the field, ordered by triangle (Crane, Desbrun and Schroeder 2010, Section 5). On a
@@ -2238,7 +2249,7 @@ class Pose {
   // Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
   // reaches, the fields of all handles sum to 1.
   //
-  // out: `[vertex_count]`.
+  // out: `[vertex_count]` of float or double.
   //
   // Fails with HF_ERROR_NOT_FOUND.
   std::vector<float> field(uint32_t handle) const {
@@ -2248,11 +2259,28 @@ class Pose {
     return out;
   }
 
+  // The same in double.
+  std::vector<double> field_f64(uint32_t handle) const {
+    Call c(counts_);
+    std::vector<double> out(c.product({"vertex_count"}));
+    field_into(handle, out.data(), out.size());
+    return out;
+  }
+
   // As field, into memory of yours.
   void field_into(uint32_t handle, float* out, size_t size) const {
     Call c(counts_);
     need(size, c.product({"vertex_count"}), "out");
-    check(hf_pose_get_field(get(), handle, out, 0));
+    const hf_array_out out_view = c.out(out, "vertex_count");
+    check(hf_pose_get_field(get(), handle, &out_view));
+  }
+
+  // As field, into memory of yours.
+  void field_into(uint32_t handle, double* out, size_t size) const {
+    Call c(counts_);
+    need(size, c.product({"vertex_count"}), "out");
+    const hf_array_out out_view = c.out(out, "vertex_count");
+    check(hf_pose_get_field(get(), handle, &out_view));
   }
 
   // Does the same as Pose.deform, with the options of a desc.
@@ -2269,8 +2297,8 @@ class Pose {
   // Higher layers start at the smooth pose. Memory: 72 bytes a vertex
   // first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
   // vertex_count: positions of a range cost only the range, without higher layers, refine and normals
-  // out: `[vertex_count x 3]` posed positions, or none
-  // normals: `[vertex_count x 3]` unit normals of the posed surface, shared across seams, or none
+  // out: `[vertex_count x 3]` of float or double: posed positions
+  // normals: `[vertex_count x 3]` of float or double: unit normals of the posed surface, shared across seams
   // info: filled in when given
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
@@ -2299,10 +2327,10 @@ class Pose {
     Call c(counts_);
     hf_deform_desc desc = options.fill(c, "");
     need(size, c.product({"vertex_count", "3"}), "out");
-    desc.positions = out;
+    desc.positions = c.out(out, "vertex_count");
     if (normals) normals->resize(c.product({"vertex_count", "3"}));
     float* normals_at = normals ? normals->data() : nullptr;
-    desc.normals = normals_at;
+    desc.normals = c.out(normals_at, "vertex_count");
     check(hf_pose_deform(get(), &desc, info));
   }
 
@@ -2312,10 +2340,10 @@ class Pose {
     Call c(counts_);
     hf_deform_desc desc = options.fill(c, "");
     need(size, c.product({"vertex_count", "3"}), "out");
-    desc.positions_f64 = out;
+    desc.positions = c.out(out, "vertex_count");
     if (normals) normals->resize(c.product({"vertex_count", "3"}));
     float* normals_at = normals ? normals->data() : nullptr;
-    desc.normals = normals_at;
+    desc.normals = c.out(normals_at, "vertex_count");
     check(hf_pose_deform(get(), &desc, info));
   }
 
@@ -2578,14 +2606,14 @@ class Flow {
   // HF_OPERATOR_CLAMPED the lines are denser where the field is steeper. Surface::trace_isolines gives the lines that
   // cross the streamlines.
   //
+  // field: `[vertex_count]` of float or double.
   // seeds: `[seed_count]` vertices as given
   // wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
   Streamlines trace(const Reals& field, const std::vector<uint32_t>& seeds = {}, uint32_t wanted_count = 0) const {
     Call c(counts_);
-    auto field_ = make<hf_scalars>();
-    c.either(field, true, &field_.values, &field_.values_f64, "field", {"vertex_count"});
+    const hf_array field_ = c.view(field, true, "field", {"vertex_count"});
     auto lines = make<hf_streamlines>();
     lines.wanted_count = wanted_count;
     lines.seeds = c.array(seeds, false, "seeds", {"seed_count"});
@@ -2632,8 +2660,8 @@ class Region {
  public:
   // Creates a region without vertices.
   //
-  // positions: `[vertex_count x 3]` the surface of weight 0, bit for bit: the positions of the mesh or any pose of
-  // them. none: the mesh's own to 1e-15 of the box. Copied
+  // positions: `[vertex_count x 3]` of float or double: the surface of weight 0, bit for bit, as the positions of the
+  // mesh or any pose of them. none: the mesh's own to 1e-15 of the box. Copied
   // base: HF_BASE_*. If the surface has no factor for it yet, it is made now
   // progress: an object to poll and cancel through
   //
@@ -2725,10 +2753,10 @@ class Region {
   // nothing.
   //
   // weight: any finite number
-  // out: `[vertex_count x 3]` in the unit and frame of the mesh as given, or none
-  // normals: `[vertex_count x 3]` unit normals of the morphed surface, shared across seams, or none
+  // out: `[vertex_count x 3]` of float or double, in the unit and frame of the mesh as given
+  // normals: `[vertex_count x 3]` of float or double: unit normals of the morphed surface, shared across seams
   //
-  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
+  // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
   std::vector<float> morph(double weight, std::vector<float>* normals = nullptr) const {
     Call c(counts_);
     std::vector<float> out(c.product({"vertex_count", "3"}));
@@ -2749,10 +2777,10 @@ class Region {
     Call c(counts_);
     hf_morph_desc desc = MorphOptions().fill(c, "", weight);
     need(size, c.product({"vertex_count", "3"}), "out");
-    desc.positions = out;
+    desc.positions = c.out(out, "vertex_count");
     if (normals) normals->resize(c.product({"vertex_count", "3"}));
     float* normals_at = normals ? normals->data() : nullptr;
-    desc.normals = normals_at;
+    desc.normals = c.out(normals_at, "vertex_count");
     check(hf_region_morph(get(), &desc));
   }
 
@@ -2761,10 +2789,10 @@ class Region {
     Call c(counts_);
     hf_morph_desc desc = MorphOptions().fill(c, "", weight);
     need(size, c.product({"vertex_count", "3"}), "out");
-    desc.positions_f64 = out;
+    desc.positions = c.out(out, "vertex_count");
     if (normals) normals->resize(c.product({"vertex_count", "3"}));
     float* normals_at = normals ? normals->data() : nullptr;
-    desc.normals = normals_at;
+    desc.normals = c.out(normals_at, "vertex_count");
     check(hf_region_morph(get(), &desc));
   }
 
@@ -2772,6 +2800,7 @@ class Region {
   Region(const Surface& surface, const hf_region_desc& desc) {
     Call c;
     c.parent("surface", surface.known_counts());
+    c.known("vertex_count", desc.positions.count);
     hf_region raw = nullptr;
     check(hf_region_create(surface.get(), &desc, &raw));
     own(raw, c.counts({"vertex_count"}));
@@ -2830,10 +2859,10 @@ class Detail {
   // source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
   //
   // weight: any finite number
-  // out: `[vertex_count x 3]` in the unit and frame of the mesh as given, or none
-  // normals: `[vertex_count x 3]` unit normals of the morphed surface, shared across seams, or none
+  // out: `[vertex_count x 3]` of float or double, in the unit and frame of the mesh as given
+  // normals: `[vertex_count x 3]` of float or double: unit normals of the morphed surface, shared across seams
   //
-  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
+  // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
   std::vector<float> morph(double weight, std::vector<float>* normals = nullptr) const {
     Call c(counts_);
     std::vector<float> out(c.product({"vertex_count", "3"}));
@@ -2854,10 +2883,10 @@ class Detail {
     Call c(counts_);
     hf_morph_desc desc = MorphOptions().fill(c, "", weight);
     need(size, c.product({"vertex_count", "3"}), "out");
-    desc.positions = out;
+    desc.positions = c.out(out, "vertex_count");
     if (normals) normals->resize(c.product({"vertex_count", "3"}));
     float* normals_at = normals ? normals->data() : nullptr;
-    desc.normals = normals_at;
+    desc.normals = c.out(normals_at, "vertex_count");
     check(hf_detail_morph(get(), &desc));
   }
 
@@ -2866,10 +2895,10 @@ class Detail {
     Call c(counts_);
     hf_morph_desc desc = MorphOptions().fill(c, "", weight);
     need(size, c.product({"vertex_count", "3"}), "out");
-    desc.positions_f64 = out;
+    desc.positions = c.out(out, "vertex_count");
     if (normals) normals->resize(c.product({"vertex_count", "3"}));
     float* normals_at = normals ? normals->data() : nullptr;
-    desc.normals = normals_at;
+    desc.normals = c.out(normals_at, "vertex_count");
     check(hf_detail_morph(get(), &desc));
   }
 
@@ -3161,10 +3190,10 @@ class Transfer {
  public:
   // Creates a transfer between two surfaces; both may be the same.
   //
-  // source_rest: `[source.vertex_count x 3]`, or none Poses in which the two bodies correspond, in each surface's unit,
-  // read by the call, or none for the positions of the surface. A character bound in a crouch gets a standing pose
-  // here. Motion counts from these poses; the fields stay those of the surfaces.
-  // target_rest: `[target.vertex_count x 3]`, or none
+  // source_rest: `[source.vertex_count x 3]` of float or double Poses in which the two bodies correspond, in each
+  // surface's unit, read by the call, or none for the positions of the surface. A character bound in a crouch gets
+  // a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+  // target_rest: `[target.vertex_count x 3]` of float or double
   // mode: HF_TRANSFER_*
   // cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
   // ground: HF_GROUND_*
@@ -3286,11 +3315,13 @@ class Transfer {
   // on the parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the
   // ground come in continuously. HF_GROUND_OFF switches them off.
   //
-  // source_positions: `[source.vertex_count x 3]` the posed source, its own vertex order
-  // hold_pairs: `[hold_count]` each pair at most once
+  // source_positions: `[source.vertex_count x 3]` of float or double: the posed source, its own vertex order
+  // hold_pairs: `[hold_count]` each pair at most once A hold puts the target region of a pair exactly at a position of
+  // yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices lands there; welded
+  // copies count once. The rest of the surface follows.
   // hold_positions: `[hold_count x 3]` in the target's unit and frame
-  // out: `[target.vertex_count x 3]`, or none
-  // target_normals: `[target.vertex_count x 3]`, or none
+  // out: `[target.vertex_count x 3]` of float or double
+  // target_normals: `[target.vertex_count x 3]` of float or double
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE,
   // HF_ERROR_UNSUPPORTED.
@@ -3317,10 +3348,10 @@ class Transfer {
     Call c(counts_);
     hf_transfer_frame desc = options.fill(c, "", source_positions);
     need(size, c.product({"target.vertex_count", "3"}), "out");
-    desc.target_positions = out;
+    desc.target_positions = c.out(out, "target.vertex_count");
     if (target_normals) target_normals->resize(c.product({"target.vertex_count", "3"}));
     float* target_normals_at = target_normals ? target_normals->data() : nullptr;
-    desc.target_normals = target_normals_at;
+    desc.target_normals = c.out(target_normals_at, "target.vertex_count");
     check(hf_transfer_apply(get(), &desc));
   }
 
@@ -3330,10 +3361,10 @@ class Transfer {
     Call c(counts_);
     hf_transfer_frame desc = options.fill(c, "", source_positions);
     need(size, c.product({"target.vertex_count", "3"}), "out");
-    desc.target_positions_f64 = out;
+    desc.target_positions = c.out(out, "target.vertex_count");
     if (target_normals) target_normals->resize(c.product({"target.vertex_count", "3"}));
     float* target_normals_at = target_normals ? target_normals->data() : nullptr;
-    desc.target_normals = target_normals_at;
+    desc.target_normals = c.out(target_normals_at, "target.vertex_count");
     check(hf_transfer_apply(get(), &desc));
   }
 
@@ -3739,6 +3770,14 @@ inline hf_links_desc Links::fill([[maybe_unused]] Call& c, [[maybe_unused]] cons
   return desc;
 }
 
+inline hf_faces_desc Faces::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
+  auto desc = make<hf_faces_desc>();
+  desc.corners = c.view(corners, false, "corners", {"corner_count"});
+  desc.sizes = c.view(sizes, false, "sizes", {"faces"});
+  desc.starts = c.view(starts, false, "starts", sizes.empty() ? Dims{"faces + 1"} : Dims{"faces"});
+  return desc;
+}
+
 inline hf_surface_desc SurfaceOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
     const Reals& positions, const Indices& triangles) const {
   auto desc = make<hf_surface_desc>();
@@ -3752,24 +3791,17 @@ inline hf_surface_desc SurfaceOptions::fill([[maybe_unused]] Call& c, [[maybe_un
   desc.triangle_limit = triangle_limit;
   desc.memory_limit_mb = memory_limit_mb;
   desc.work_limit_gflop = work_limit_gflop;
-  c.either(positions, true, &desc.positions, &desc.positions_f64, "positions", {prefix + "vertex_count", "3"});
-  c.either(triangles, true, &desc.triangles, &desc.triangles_u16, "triangles", {prefix + "triangle_count", "3"});
-  desc.face_starts = c.array(face_starts, false, "face_starts",
-      face_sizes.empty() ? Dims{prefix + "face_count + 1"} : Dims{prefix + "face_count"});
-  desc.face_sizes = c.array(face_sizes, false, "face_sizes", {prefix + "face_count"});
-  desc.corners = c.array(corners, false, "corners", {prefix + "corner_count"});
+  desc.positions = c.view(positions, true, "positions", {"vertex_count", "3"});
+  desc.triangles = c.view(triangles, true, "triangles", {"triangle_count", "3"});
   desc.progress = progress ? progress->get() : nullptr;
+  if (faces) desc.faces = c.keep(faces->fill(c, "faces."));
   if (saved_factor) desc.saved_factor = c.keep(saved_factor->fill(c, "saved_factor."));
   if (links) desc.links = c.keep(links->fill(c, "links."));
-  desc.vertex_count = c.count(prefix + "vertex_count", 1);
-  desc.triangle_count = c.count(prefix + "triangle_count", 0);
-  desc.face_count = c.count(prefix + "face_count", 0);
-  desc.corner_count = c.count(prefix + "corner_count", 0);
   return desc;
 }
 
 inline hf_graph_desc GraphOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
-    const std::vector<uint32_t>& edges, const std::vector<double>& weights) const {
+    const Indices& edges, const Reals& weights) const {
   auto desc = make<hf_graph_desc>();
   desc.vertex_count = vertex_count;
   desc.allow_negative = allow_negative ? 1 : 0;
@@ -3781,26 +3813,18 @@ inline hf_graph_desc GraphOptions::fill([[maybe_unused]] Call& c, [[maybe_unused
   desc.memory_limit_mb = memory_limit_mb;
   desc.work_limit_gflop = work_limit_gflop;
   c.known("vertex_count", vertex_count);
-  desc.edges = c.array(edges, true, "edges", {prefix + "edge_count", "2"});
-  desc.weights = c.array(weights, true, "weights", {prefix + "edge_count"});
-  desc.masses = c.array(masses, false, "masses", {"vertex_count"});
+  desc.edges = c.view(edges, true, "edges", {"edge_count", "2"});
+  desc.weights = c.view(weights, true, "weights", {"edge_count"});
+  desc.masses = c.view(masses, false, "masses", {"vertex_count"});
   desc.progress = progress ? progress->get() : nullptr;
   if (saved_factor) desc.saved_factor = c.keep(saved_factor->fill(c, "saved_factor."));
-  desc.edge_count = c.count(prefix + "edge_count", 1);
-  return desc;
-}
-
-inline hf_gaps_desc Gaps::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
-    const Reals& positions) const {
-  auto desc = make<hf_gaps_desc>();
-  c.either(positions, true, &desc.positions, &desc.positions_f64, "positions", {"vertex_count", "3"});
   return desc;
 }
 
 inline hf_pick_desc PickOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_pick_desc>();
   desc.front_only = front_only ? 1 : 0;
-  c.either(positions, false, &desc.positions, &desc.positions_f64, "positions", {"vertex_count", "3"});
+  desc.positions = c.view(positions, false, "positions", {"vertex_count", "3"});
   return desc;
 }
 
@@ -3948,7 +3972,7 @@ inline hf_quads_desc QuadsOptions::fill([[maybe_unused]] Call& c, [[maybe_unused
 inline hf_region_desc RegionOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_region_desc>();
   desc.base = base;
-  c.either(positions, false, &desc.positions, &desc.positions_f64, "positions", {"vertex_count", "3"});
+  desc.positions = c.view(positions, false, "positions", {"vertex_count", "3"});
   desc.progress = progress ? progress->get() : nullptr;
   return desc;
 }
@@ -4049,8 +4073,8 @@ inline hf_transfer_desc TransferOptions::fill([[maybe_unused]] Call& c,
   desc.kernel_width = kernel_width;
   desc.scale = scale;
   desc.alignment_angle = alignment_angle;
-  desc.source_rest = c.array(source_rest, false, "source_rest", {"source.vertex_count", "3"});
-  desc.target_rest = c.array(target_rest, false, "target_rest", {"target.vertex_count", "3"});
+  desc.source_rest = c.view(source_rest, false, "source_rest", {"source.vertex_count", "3"});
+  desc.target_rest = c.view(target_rest, false, "target_rest", {"target.vertex_count", "3"});
   if (source_axes) std::copy(source_axes->begin(), source_axes->end(), desc.source_axes);
   if (target_axes) std::copy(target_axes->begin(), target_axes->end(), desc.target_axes);
   return desc;
@@ -4085,8 +4109,7 @@ inline hf_transfer_dials TransferDials::fill([[maybe_unused]] Call& c,
 inline hf_transfer_frame TransferFrame::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix,
     const Reals& source_positions) const {
   auto desc = make<hf_transfer_frame>();
-  c.either(source_positions, true, &desc.source_positions, &desc.source_positions_f64, "source_positions",
-      {"source.vertex_count", "3"});
+  desc.source_positions = c.view(source_positions, true, "source_positions", {"source.vertex_count", "3"});
   desc.hold_pairs = c.array(hold_pairs, false, "hold_pairs", {prefix + "hold_count"});
   desc.hold_positions = c.array(hold_positions, false, "hold_positions", {prefix + "hold_count", "3"});
   desc.hold_count = c.count(prefix + "hold_count", 0);

@@ -184,9 +184,9 @@ HF_API hf_result hf_pose_get_handle(hf_pose pose, uint32_t handle, hf_handle_inf
 HF_API uint32_t hf_pose_get_handle_count(hf_pose pose);
 
 /* Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle reaches,
- * the fields of all handles sum to 1. out_values: float[vertex_count], value_stride bytes apart (0 = packed). Errors:
- * HF_ERROR_NOT_FOUND. Thread safety: reads `pose`. Since 0.1. */
-HF_API hf_result hf_pose_get_field(hf_pose pose, uint32_t handle, float* out_values, uint32_t value_stride);
+ * the fields of all handles sum to 1. out_values: [vertex_count] of float or double. Errors: HF_ERROR_NOT_FOUND. Thread
+ * safety: reads `pose`. Since 0.1. */
+HF_API hf_result hf_pose_get_field(hf_pose pose, uint32_t handle, const hf_array_out* out_values);
 
 /* ---- posing ---- */
 
@@ -209,15 +209,13 @@ typedef struct hf_deform_info {
  * `pose`. Since 0.1. */
 HF_API hf_result hf_deform(hf_pose pose, float* out_positions, hf_deform_info* out_info);
 
-/* The options of hf_pose_deform are outputs, strides and a range of vertices. Set at least one output. */
+/* The options of hf_pose_deform are outputs and a range of vertices. Set at least one output. */
 typedef struct hf_deform_desc {
   uint32_t struct_size;
-  uint32_t position_stride; /* bytes between rows of positions; 0 = packed */
-  float* positions;         /* [vertex_count][3] posed positions, or NULL */
-  double* positions_f64;    /* [vertex_count][3] in double, or NULL; set one of the two at most */
-  float* normals;           /* [vertex_count][3] unit normals of the posed surface, shared across seams, or NULL */
-  uint32_t normal_stride;   /* bytes between rows of normals; 0 = packed */
   uint32_t iteration_count; /* 1 to 1000; 0 = the pose's */
+  hf_array_out positions;   /* NULL, or [vertex_count][3] of float or double: posed positions */
+  hf_array_out normals;     /* NULL, or [vertex_count][3] of float or double: unit normals of the posed surface, shared
+                               across seams */
   int32_t restart;          /* 1: forget the last pose and start from the fields. The frame then has the bits of a fresh
                                pose with the same handles, added in the same order, and the same transforms. Without
                                restart a frame continues from the last one, so it also depends on that */

@@ -161,11 +161,12 @@ typedef struct hf_streamlines {
 } hf_streamlines;
 
 /* Traces streamlines of any field that is finite at every vertex in a triangle. For a harmonic field of
- * HF_OPERATOR_CLAMPED the lines are denser where the field is steeper. hf_surface_trace_isolines gives the lines that
- * cross the streamlines. Cost: O(n log n), and O(degree) for every edge that a line runs along. This is quick enough to
- * redraw the lines while the user drags a site. Errors: HF_ERROR_INVALID_ARGUMENT (wanted_count, isolated seed),
- * HF_ERROR_OUT_OF_RANGE (seed), HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `flow`. Since 0.1. */
-HF_API hf_result hf_flow_trace(hf_flow flow, const hf_scalars* field, hf_streamlines* inout_lines);
+ * HF_OPERATOR_CLAMPED the lines are denser where the field is steeper. hf_surface_trace_isolines gives the lines
+ * that cross the streamlines. field: [vertex_count] of float or double. Cost: O(n log n), and O(degree) for every
+ * edge that a line runs along. This is quick enough to redraw the lines while the user drags a site. Errors:
+ * HF_ERROR_INVALID_ARGUMENT (wanted_count, isolated seed), HF_ERROR_OUT_OF_RANGE (seed), HF_ERROR_NON_FINITE (index
+ * = vertex). Thread safety: reads `flow`. Since 0.1. */
+HF_API hf_result hf_flow_trace(hf_flow flow, const hf_array* field, hf_streamlines* inout_lines);
 
 #ifdef __cplusplus
 }

@@ -29,18 +29,16 @@ enum hf_base {
 
 typedef struct hf_region_desc {
   uint32_t struct_size;
-  int32_t base;           /* HF_BASE_*. If the surface has no factor for it yet, it is made now */
-  const float* positions; /* [vertex_count][3] the surface of weight 0, bit for bit: the positions of the mesh or any
-                             pose of them. NULL: the mesh's own to 1e-15 of the box. Copied */
-  const double* positions_f64; /* [vertex_count][3] in double, or NULL */
-  uint32_t position_stride;    /* bytes between rows of positions; 0 = packed */
-  uint32_t reserved;           /* 0 */
-  hf_progress progress;        /* NULL, or an object to poll and cancel through */
+  int32_t base;         /* HF_BASE_*. If the surface has no factor for it yet, it is made now */
+  hf_array positions;   /* NULL, or [vertex_count][3] of float or double: the surface of weight 0, bit for bit, as the
+                           positions of the mesh or any pose of them. NULL: the mesh's own to 1e-15 of the box.
+                           Copied */
+  hf_progress progress; /* NULL, or an object to poll and cancel through */
 } hf_region_desc;
 
 /* Creates a region without vertices. desc: NULL for defaults. Sets *out_region to NULL first. Cost: O(n), and the
  * factor that may be missing. hf_region_info::field_kind says which base it has. Errors: HF_ERROR_INVALID_ARGUMENT
- * (base, both positions set), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_NOT_POSITIVE_DEFINITE (the matrix of the
+ * (base), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_NOT_POSITIVE_DEFINITE (the matrix of the
  * base does not factorise), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_region_create(hf_surface surface, const hf_region_desc* desc, hf_region* out_region);
 
@@ -153,19 +151,18 @@ HF_API hf_result hf_region_get_curve(hf_region region, uint32_t capacity, double
 /* Gives hf_region_morph and hf_detail_morph their weight and outputs. Set at least one output. */
 typedef struct hf_morph_desc {
   uint32_t struct_size;
-  uint32_t position_stride; /* bytes between rows of positions; 0 = packed */
-  double weight;            /* any finite number */
-  float* positions;         /* [vertex_count][3] in the unit and frame of the mesh as given, or NULL */
-  double* positions_f64;    /* [vertex_count][3] in double, or NULL; set one of the two at most */
-  float* normals;           /* [vertex_count][3] unit normals of the morphed surface, shared across seams, or NULL */
-  uint32_t normal_stride;   /* bytes between rows of normals; 0 = packed */
-  uint32_t reserved;        /* 0 */
+  uint32_t reserved; /* 0 */
+  double weight;     /* any finite number */
+  hf_array_out
+      positions;        /* NULL, or [vertex_count][3] of float or double, in the unit and frame of the mesh as given */
+  hf_array_out normals; /* NULL, or [vertex_count][3] of float or double: unit normals of the morphed surface, shared
+                           across seams */
 } hf_morph_desc;
 
 /* Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
  * hf_region_desc. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A weight
  * below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p. The call solves
- * nothing. Errors: HF_ERROR_INVALID_ARGUMENT (both positions set), HF_ERROR_NON_FINITE (weight), HF_ERROR_TOO_LARGE
+ * nothing. Errors: HF_ERROR_NON_FINITE (weight), HF_ERROR_TOO_LARGE
  * (index = vertex that does not fit the output). Thread safety: reads `region`. Since 0.1. */
 HF_API hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc);
 

@@ -189,7 +189,8 @@ typedef struct hf_solve_info {
   uint32_t unreached_vertex_count;    /* given vertices in them, isolated ones included */
 } hf_solve_info;
 
-/* Solves for the field at every vertex of your mesh. out_values: float[vertex_count][channel_count], rows
+/* Solves for the field at every vertex of your mesh, in single precision. out_values:
+ * float[vertex_count][channel_count], rows
  * value_stride bytes apart (0 = packed). Hard sites hold their values exactly. The field is
  * 0 on components without a site. out_info: NULL, or receives the counts of these components. Cost: one backward sweep
  * through the factor, or three sweeps for bi-harmonic fields; 30 to 700 sweeps for these, by the number of sites, where
@@ -197,11 +198,13 @@ typedef struct hf_solve_info {
  * Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
-/* Does the same as hf_solve, in double. Thread safety: reads `solver`. Since 0.1. */
-HF_API hf_result hf_solver_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride,
-                                     hf_solve_info* out_info);
+/* Solves for the field at every vertex of your mesh, in single or double precision. out_values:
+ * [vertex_count][channel_count] of float or double. Hard sites hold their values exactly. The field is 0 on components
+ * without a site. out_info: NULL, or receives the counts of these components. Cost: as hf_solve. Errors: as hf_solve.
+ * Thread safety: reads `solver`. Since 0.1. */
+HF_API hf_result hf_solver_solve(hf_solver solver, const hf_array_out* out_values, hf_solve_info* out_info);
 
-/* Solves for the field at chosen vertices only, with the same bits as hf_solver_solve_f64. out_values:
+/* Solves for the field at chosen vertices only, with the same bits as hf_solver_solve in double. out_values:
  * double[vertex_count][channel_count]. vertices: uint32_t[vertex_count]. The call reads only those columns of the
  * factor on which these vertices depend (elimination paths), on the calling thread. One path is up to a sixth of the
  * factor, but the paths of many vertices share most of their columns. The call costs a whole solve for bi-harmonic
@@ -214,15 +217,11 @@ HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, con
 /* Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.3). The
  * channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects the
  * vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal. out_vectors:
- * float[vertex_count][3], vector_stride bytes apart (0 = packed), not normalised. out_normals: NULL, or
+ * [vertex_count][3] of float or double, not normalised. out_normals: NULL, or
  * double[vertex_count][3], packed: the normals used. out_info: NULL, or receives what the sites did not reach. Errors:
  * as hf_solve, HF_ERROR_INVALID_ARGUMENT (not 3 channels). Thread safety: reads `solver`. Since 0.1. */
-HF_API hf_result hf_solver_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride,
-                                         double* out_normals, hf_solve_info* out_info);
-
-/* Does the same as hf_solver_solve_vectors, in double. Thread safety: reads `solver`. Since 0.1. */
-HF_API hf_result hf_solver_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride,
-                                             double* out_normals, hf_solve_info* out_info);
+HF_API hf_result hf_solver_solve_vectors(hf_solver solver, const hf_array_out* out_vectors, double* out_normals,
+                                         hf_solve_info* out_info);
 
 /* ---- previews in single precision ---- */
 
@@ -251,15 +250,11 @@ typedef struct hf_preview_info {
  * than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites. out_info->exact is then
  * 1.
  *
- * out_values: float[vertex_count][channel_count], as hf_solve. correction_count: 0 to 8. out_info: NULL, or a struct.
- * Errors: HF_ERROR_INVALID_ARGUMENT (correction_count), HF_ERROR_EMPTY. Thread safety: reads `solver`. Since 0.1. */
-HF_API hf_result hf_solver_solve_preview(hf_solver solver, float* out_values, uint32_t value_stride,
-                                         uint32_t correction_count, hf_preview_info* out_info);
-
-/* Does the same as hf_solver_solve_preview, in double. Single precision would round most corrections away. Thread
- * safety: reads `solver`. Since 0.1. */
-HF_API hf_result hf_solver_solve_preview_f64(hf_solver solver, double* out_values, uint32_t value_stride,
-                                             uint32_t correction_count, hf_preview_info* out_info);
+ * out_values: [vertex_count][channel_count] of float or double, as hf_solver_solve. Single precision rounds most
+ * corrections away. correction_count: 0 to 8. out_info: NULL, or a struct. Errors: HF_ERROR_INVALID_ARGUMENT
+ * (correction_count), HF_ERROR_EMPTY. Thread safety: reads `solver`. Since 0.1. */
+HF_API hf_result hf_solver_solve_preview(hf_solver solver, const hf_array_out* out_values, uint32_t correction_count,
+                                         hf_preview_info* out_info);
 
 /* Frees the single-precision copy for all solvers that share it, as soon as no running call uses it. The next preview
  * makes the copy again. Thread safety: any thread, during any other call. Since 0.1. */

@@ -104,53 +104,47 @@ typedef struct hf_links_desc {
   const uint32_t* heavy_vertices; /* [heavy_count]: their pieces are not, as one that gets a site or handle */
 } hf_links_desc;
 
-/* The mesh and the options of a surface. Set positions or positions_f64, and triangles, triangles_u16 or faces. Strides
- * are in bytes; 0 means packed.
- *
- * Faces have any number of corners. Set face_count, corner_count, corners, and what your host stores: face_sizes (Maya,
- * USD), face_starts and face_sizes (Blender's loops), or face_starts as offsets (newer Blender). No field depends on
- * how you would cut a face into triangles. HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both cuts of a bent quad,
- * and moves it towards the polygon Laplacian of Bunge and others 2020 until a weight would become negative.
- * docs/studies/polygons.md compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian,
- * HF_OPERATOR_UNIFORM the sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a cut of
- * the library. It does not depend on the order of the corners. Where this interface names a triangle, it names the face
- * then. Normals of poses are sums of the area vectors of faces. */
+/* Faces of any number of corners. Set corners, and what your host stores: sizes (Maya, USD), starts and sizes
+ * (Blender's loops), or starts as offsets (newer Blender). No field depends on how you would cut a face into triangles.
+ * HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both cuts of a bent quad, and moves it towards the polygon Laplacian
+ * of Bunge and others 2020 until a weight would become negative. docs/studies/polygons.md compares errors.
+ * HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian, HF_OPERATOR_UNIFORM the sides of the
+ * faces. Directions, distances, iso-lines, streamlines and quads work on a cut of the library. It does not depend on
+ * the order of the corners. Where this interface names a triangle, it names the face then. Normals of poses are sums of
+ * the area vectors of faces. */
+typedef struct hf_faces_desc {
+  uint32_t struct_size;
+  uint32_t reserved; /* 0 */
+  hf_array corners;  /* [corner_count] of uint32_t: vertices, counter-clockwise seen from outside */
+  hf_array sizes;    /* NULL, or [faces] of uint32_t: corners of each face, 3 to 65,535. NULL: starts are enough */
+  hf_array starts;   /* NULL, or [faces] of uint32_t: first corner of each face. NULL: the faces follow one
+                        another. Without sizes [faces + 1]: the corners of face f end where those of f + 1 start */
+} hf_faces_desc;
+
+/* The mesh and the options of a surface. Set triangles or faces. */
 typedef struct hf_surface_desc {
   uint32_t struct_size;
-  uint32_t vertex_count;         /* >= 1 */
-  uint32_t triangle_count;       /* 0 with faces, else >= 1 */
-  uint32_t position_stride;      /* bytes between rows of positions; 0 = packed */
-  const float* positions;        /* [vertex_count][3], any unit, any offset */
-  const double* positions_f64;   /* [vertex_count][3] */
-  const uint32_t* triangles;     /* [triangle_count][3], counter-clockwise seen from outside */
-  const uint16_t* triangles_u16; /* [triangle_count][3] */
-  uint32_t triangle_stride;      /* bytes between rows of triangles */
-  int32_t weld;                  /* HF_WELD_* */
-  double weld_tolerance;         /* for HF_WELD_TOLERANCE, in the unit of the positions, > 0 */
-  int32_t operator_kind;         /* HF_OPERATOR_* */
-  int32_t field_kind;            /* HF_FIELD_*: the factor made now. Others are made when a solver or region asks */
-  int32_t ordering;              /* HF_ORDERING_* */
-  uint32_t thread_count;         /* threads the library may use, yours included, 1 to 256; 0 = 1 */
-  uint32_t vertex_limit;         /* refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941
-                                    vertices, triangles or edges are always refused */
-  uint32_t triangle_limit;       /* refuse more triangles, or faces that would be cut into more; 0 = eight per vertex
-                                    of the vertex limit */
-  uint32_t memory_limit_mb;      /* refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit */
-  uint32_t work_limit_gflop;     /* refuse a factorisation of more than this many 10^9 operations. They are counted
-                                    before it begins; 0 = 100,000, about an hour of one core */
-  hf_allocator allocator;        /* zero = malloc */
-  hf_job_runner job_runner;      /* zero = threads of the library's own */
-  hf_progress progress;          /* NULL, or an object to poll and cancel through */
+  int32_t weld;               /* HF_WELD_* */
+  hf_array positions;         /* [vertex_count][3] of float or double, any unit, any offset */
+  hf_array triangles;         /* [triangle_count][3] of uint32_t or uint16_t, counter-clockwise seen from outside */
+  const hf_faces_desc* faces; /* NULL, or faces instead of triangles */
+  double weld_tolerance;      /* for HF_WELD_TOLERANCE, in the unit of the positions, > 0 */
+  int32_t operator_kind;      /* HF_OPERATOR_* */
+  int32_t field_kind;         /* HF_FIELD_*: the factor made now. Others are made when a solver or region asks */
+  int32_t ordering;           /* HF_ORDERING_* */
+  uint32_t thread_count;      /* threads the library may use, yours included, 1 to 256; 0 = 1 */
+  uint32_t vertex_limit;      /* refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941
+                                 vertices, triangles or edges are always refused */
+  uint32_t triangle_limit;    /* refuse more triangles, or faces that would be cut into more; 0 = eight per vertex
+                                 of the vertex limit */
+  uint32_t memory_limit_mb;   /* refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit */
+  uint32_t work_limit_gflop;  /* refuse a factorisation of more than this many 10^9 operations. They are counted
+                                 before it begins; 0 = 100,000, about an hour of one core */
+  hf_allocator allocator;     /* zero = malloc */
+  hf_job_runner job_runner;   /* zero = threads of the library's own */
+  hf_progress progress;       /* NULL, or an object to poll and cancel through */
   const hf_factor_desc* saved_factor; /* NULL, or the saved factor of this mesh; ordering is then 0 or the factor's */
   const hf_links_desc* links;         /* NULL: HF_LINK_NONE. A saved factor needs the links it was made with */
-  uint32_t face_count;                /* faces instead of triangles; 0 = triangles are set */
-  uint32_t corner_count;              /* entries of corners */
-  const uint32_t* face_starts; /* [face_count] first corner of each face. NULL: the faces follow one another. Without
-                                  face_sizes [face_count + 1]: the corners of face f end where those of f + 1 start */
-  const uint32_t* face_sizes;  /* [face_count] corners of each face, 3 to 65,535. NULL: face_starts is enough */
-  const uint32_t* corners;     /* [corner_count] vertices, counter-clockwise seen from outside */
-  uint32_t face_stride;        /* bytes between entries of face_starts and face_sizes */
-  uint32_t corner_stride;      /* bytes between entries of corners */
 } hf_surface_desc;
 
 /* Makes a surface: welds and checks the mesh, builds the operator, orders and factorises it. The call copies the mesh.
@@ -180,14 +174,14 @@ HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_
 typedef struct hf_graph_desc {
   uint32_t struct_size;
   uint32_t vertex_count;  /* >= 1, also without masses */
-  uint32_t edge_count;    /* >= 1 */
+  hf_array edges;         /* [edge_count][2] of uint32_t or uint16_t: vertices, in any order. The weights of parallel
+                             edges are added up. Self loops are ignored */
+  hf_array weights;       /* [edge_count] of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left
+                             out */
+  hf_array masses;        /* NULL, or [vertex_count] of float or double: M of HF_FIELD_BIHARMONIC, any unit, above 0 and
+                             up to 1e100; NULL: all 1. A mass below 1e-4 of the mean of its component counts as that */
   int32_t allow_negative; /* 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
                              tetrahedra do. A field can then leave the range of its sites. 0: they are refused */
-  const uint32_t* edges;  /* [edge_count][2] vertices, in any order. The weights of parallel edges are added up. Self
-                             loops are ignored */
-  const double* weights;  /* [edge_count] any unit, up to 1e100 in size. An edge of weight 0 is left out */
-  const double* masses;   /* [vertex_count] M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; NULL: all 1. A
-                             mass below 1e-4 of the mean of its component counts as that */
   int32_t field_kind;     /* HF_FIELD_*: the factor made now. Others are made when a solver asks */
   int32_t ordering;       /* HF_ORDERING_* */
   uint32_t thread_count;  /* threads the library may use, yours included, 1 to 256; 0 = 1 */
@@ -195,7 +189,6 @@ typedef struct hf_graph_desc {
   uint32_t edge_limit;    /* refuse more edges; 0 = sixteen per vertex of the vertex limit */
   uint32_t memory_limit_mb;           /* refuse to hold more memory than this, in MiB; 0 = no limit */
   uint32_t work_limit_gflop;          /* refuse a factorisation of more than this many 10^9 operations; 0 = 100,000 */
-  uint32_t reserved;                  /* 0 */
   hf_allocator allocator;             /* zero = malloc */
   hf_job_runner job_runner;           /* zero = threads of the library's own */
   hf_progress progress;               /* NULL, or an object to poll and cancel through */
@@ -311,14 +304,6 @@ HF_API hf_result hf_surface_get_links(hf_surface surface, uint32_t capacity, hf_
 HF_API hf_result hf_surface_get_pieces(hf_surface surface, uint32_t capacity, uint32_t* out_pieces, int32_t* out_light,
                                        uint32_t* out_count);
 
-/* Posed positions of the mesh, of which gaps are measured. Set one of the two. */
-typedef struct hf_gaps_desc {
-  uint32_t struct_size;
-  uint32_t position_stride;    /* bytes between rows of positions; 0 = packed */
-  const float* positions;      /* [vertex_count][3]: of a pose, a frame of a transfer, or any other deformation */
-  const double* positions_f64; /* [vertex_count][3] */
-} hf_gaps_desc;
-
 /* How far linked pieces have opened, in the unit of the positions. */
 typedef struct hf_gaps_info {
   uint32_t struct_size;
@@ -330,10 +315,11 @@ typedef struct hf_gaps_info {
 } hf_gaps_info;
 
 /* Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends are
- * apart than at rest, and 0 if they are nearer. out_gaps: NULL, or double[capacity], out_info->link_count of them, in
+ * apart than at rest, and 0 if they are nearer. positions: [vertex_count][3] of float or double: those of a pose, a
+ * frame of a transfer, or any other deformation. out_gaps: NULL, or double[capacity], out_info->link_count of them, in
  * the order of hf_surface_get_links. out_info: NULL, or a struct. Set one of the two at least. Errors:
  * HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
-HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* desc, uint32_t capacity,
+HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_array* positions, uint32_t capacity,
                                          double* out_gaps, hf_gaps_info* out_info);
 
 /* Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old one where
@@ -384,11 +370,9 @@ HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, hf_prog
 /* Options of picking: posed positions, if the surface is not at rest, and which triangles count. */
 typedef struct hf_pick_desc {
   uint32_t struct_size;
-  uint32_t position_stride;    /* bytes between rows of positions; 0 = packed */
-  const float* positions;      /* [vertex_count][3] posed positions (hf_deform writes them), or NULL */
-  const double* positions_f64; /* [vertex_count][3] in double, or NULL; both NULL: the rest positions */
-  int32_t front_only;          /* 1: a ray passes triangles seen from behind */
-  uint32_t reserved;           /* 0 */
+  int32_t front_only; /* 1: a ray passes triangles seen from behind */
+  hf_array positions; /* NULL, or [vertex_count][3] of float or double: posed positions (hf_deform writes them). NULL:
+                         the rest positions */
 } hf_pick_desc;
 
 /* hf_surface_cast_ray writes the first triangle that a ray hits here. */

@@ -69,8 +69,8 @@ typedef struct hf_transfer_desc {
   /* Poses in which the two bodies correspond, in each surface's unit, read by the call, or NULL
    * for the positions of the surface. A character bound in a crouch gets a standing pose here. Motion counts from these
    * poses; the fields stay those of the surfaces. */
-  const float* source_rest; /* [source.vertex_count][3], or NULL */
-  const float* target_rest; /* [target.vertex_count][3], or NULL */
+  hf_array source_rest; /* NULL, or [source.vertex_count][3] of float or double */
+  hf_array target_rest; /* NULL, or [target.vertex_count][3] of float or double */
 } hf_transfer_desc;
 
 /* Creates a transfer between two surfaces; both may be the same. Sets *out_transfer to NULL first. desc: NULL for
@@ -166,22 +166,15 @@ HF_API hf_result hf_transfer_set_dials(hf_transfer transfer, const hf_transfer_d
 /* Writes the dials; stride is never 0. Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_dials(hf_transfer transfer, hf_transfer_dials* out_dials);
 
-/* Describes one frame: the input is the posed source, the output the posed target. Set source_positions or
- * source_positions_f64, and at least one output. Strides are in bytes; 0 = packed. */
+/* Describes one frame: the input is the posed source, the output the posed target. Set at least one output. */
 typedef struct hf_transfer_frame {
   uint32_t struct_size;
-  uint32_t source_stride;             /* bytes between rows of source_positions */
-  const float* source_positions;      /* [source.vertex_count][3] the posed source, its own vertex order */
-  const double* source_positions_f64; /* [source.vertex_count][3] */
-  uint32_t target_stride;             /* bytes between rows of target_positions */
-  uint32_t normal_stride;             /* bytes between rows of target_normals */
-  float* target_positions;            /* [target.vertex_count][3], or NULL */
-  double* target_positions_f64;       /* [target.vertex_count][3], or NULL */
-  float* target_normals;              /* [target.vertex_count][3], or NULL */
+  uint32_t hold_count;       /* 0: none */
+  hf_array source_positions; /* [source.vertex_count][3] of float or double: the posed source, its own vertex order */
+  hf_array_out target_positions; /* NULL, or [target.vertex_count][3] of float or double */
+  hf_array_out target_normals;   /* NULL, or [target.vertex_count][3] of float or double */
   /* A hold puts the target region of a pair exactly at a position of yours, such as a foot on a step or a hand on a
    * rail. The mean of the region's vertices lands there; welded copies count once. The rest of the surface follows. */
-  uint32_t hold_count;
-  uint32_t reserved;            /* 0 */
   const uint32_t* hold_pairs;   /* [hold_count] each pair at most once */
   const double* hold_positions; /* [hold_count][3] in the target's unit and frame */
 } hf_transfer_frame;

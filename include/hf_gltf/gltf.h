@@ -97,7 +97,7 @@ HF_GLTF_API hf_result hf_gltf_model_get_note(hf_gltf_model model, uint32_t index
 typedef struct hf_gltf_surface {
   uint32_t struct_size;
   uint32_t reserved;
-  double* positions;   /* [vertex_count][3]: for positions_f64 of hf_surface_desc */
+  double* positions;   /* [vertex_count][3]: for positions of hf_surface_desc */
   uint32_t* triangles; /* [triangle_count][3] */
   uint16_t* joints;    /* [vertex_count][8] and */
   float* weights;      /* [vertex_count][8], sum 1: for hf_links_desc. All zero where a mesh has no skin */

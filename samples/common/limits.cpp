@@ -35,16 +35,18 @@ uint32_t whole(double number) { return static_cast<uint32_t>(std::min(std::ceil(
 
 // The n of the limits. Vertices that no triangle names do not raise it.
 double size_of(const hf_surface_desc& desc) {
-  const double vertices = desc.vertex_count, triangles = desc.triangle_count, corners = desc.corner_count;
-  return std::min(vertices, std::max(triangles, corners - 2.0 * desc.face_count));
+  const double vertices = desc.positions.count, triangles = desc.triangles.count;
+  const double cut = desc.faces ? desc.faces->corners.count - 2.0 * desc.faces->sizes.count : 0;
+  return std::min(vertices, std::max(triangles, cut));
 }
 
 // Triangles with the same corners count once.
 double distinct_triangles(const hf_surface_desc& desc) {
-  if (!desc.triangles) return desc.triangle_count;
-  std::vector<std::array<uint32_t, 3>> sorted(desc.triangle_count);
+  if (!desc.triangles.data) return desc.triangles.count;
+  const uint32_t* const corners = static_cast<const uint32_t*>(desc.triangles.data);  // packed, as all programs have them
+  std::vector<std::array<uint32_t, 3>> sorted(desc.triangles.count);
   for (size_t t = 0; t < sorted.size(); ++t) {
-    std::copy_n(desc.triangles + 3 * t, 3, sorted[t].begin());
+    std::copy_n(corners + 3 * t, 3, sorted[t].begin());
     std::sort(sorted[t].begin(), sorted[t].end());
   }
   std::sort(sorted.begin(), sorted.end());
@@ -53,8 +55,8 @@ double distinct_triangles(const hf_surface_desc& desc) {
 
 // Of a closed surface with these counts. Borders, pieces and copies of vertices make it less.
 double genus_of(const hf_surface_desc& desc) {
-  const auto genus = [&](double triangles) { return std::max(0.0, 0.5 * (0.5 * triangles - desc.vertex_count) + 1); };
-  return genus(desc.triangle_count) > 0 ? genus(distinct_triangles(desc)) : 0;
+  const auto genus = [&](double triangles) { return std::max(0.0, 0.5 * (0.5 * triangles - desc.positions.count) + 1); };
+  return genus(desc.triangles.count) > 0 ? genus(distinct_triangles(desc)) : 0;
 }
 
 }  // namespace
@@ -79,7 +81,7 @@ void limit_surface(hf_surface_desc& desc, uint32_t made) {
 }
 
 void limit_quads(hf_surface_desc& desc, uint32_t faces) {
-  limit_surface(desc, faces > 0 ? 2 * desc.vertex_count + faces : 0);
+  limit_surface(desc, faces > 0 ? 2 * desc.positions.count + faces : 0);
   if (given_memory) return;
   const double limit = desc.memory_limit_mb, genus = genus_of(desc);
   desc.memory_limit_mb = whole(limit + std::min(kib_of_genus_square / 1024 * genus * genus, most_for_genus * limit));

@@ -51,8 +51,7 @@ ModelLinks::ModelLinks(const Model* model, const FlatMesh& mesh) {
 namespace {
 
 hf_gaps_info measure(hf_surface surface, const std::vector<double>& positions) {
-  hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
-  posed.positions_f64 = positions.data();
+  const hf_array posed = HF_ARRAY(positions.data(), positions.size() / 3);
   hf_gaps_info info = HF_INIT(hf_gaps_info);
   if (hf_surface_measure_gaps(surface, &posed, 0, nullptr, &info) == HF_OK) return info;
   hf_error_detail detail;

@@ -69,10 +69,8 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
 void Posable::make_surface(const FlatMesh& mesh, const Options& options) {
   const std::vector<double> positions = double_positions(mesh.positions);
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count();
-  desc.triangle_count = mesh.triangle_count();
-  desc.positions_f64 = positions.data();
-  desc.triangles = mesh.triangles.data();
+  desc.positions = HF_ARRAY(positions.data(), mesh.vertex_count());
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangle_count());
   desc.thread_count = options.threads;
   if (options.paper) desc.operator_kind = HF_OPERATOR_COTANGENT;
   const ModelLinks links(options.model, mesh);
@@ -217,8 +215,8 @@ void Posable::deform(Refine refine, std::vector<double>& positions, std::vector<
   positions.resize(3 * mesh_.positions.size());
   normals.resize(positions.size());
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
-  desc.positions_f64 = positions.data();
-  desc.normals = normals.data();
+  desc.positions = HF_ARRAY_OUT(positions.data(), mesh_.positions.size());
+  desc.normals = HF_ARRAY_OUT(normals.data(), mesh_.positions.size());
   desc.refine = refine != Refine::none;
   desc.refine_from_last = refine == Refine::from_last;
   desc.iteration_count = iterations;
@@ -228,7 +226,8 @@ void Posable::deform(Refine refine, std::vector<double>& positions, std::vector<
 std::vector<uint32_t> Posable::region_of(const Live& live) const {
   if (!live.vertices.empty()) return live.vertices;
   std::vector<float> field(mesh_.positions.size());
-  expect_ok(hf_pose_get_field(pose_, live.number, field.data(), 0), "handle \"" + live.name + "\"");
+  const hf_array_out wanted = HF_ARRAY_OUT(field.data(), field.size());
+  expect_ok(hf_pose_get_field(pose_, live.number, &wanted), "handle \"" + live.name + "\"");
   std::vector<uint32_t> out;
   for (uint32_t v = 0; v < field.size(); ++v) {
     if (field[v] == 1.0f) out.push_back(v);

@@ -109,10 +109,8 @@ struct Subject {
   std::optional<hf::Surface> make_surface(bool thin_plate) {
     const auto begin = std::chrono::steady_clock::now();
     auto create = hf::make<hf_surface_desc>();
-    create.vertex_count = static_cast<uint32_t>(mesh.positions.size());
-    create.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
-    create.positions = positions.data();
-    create.triangles = mesh.triangles.data();
+    create.positions = HF_ARRAY(positions.data(), static_cast<uint32_t>(mesh.positions.size()));
+    create.triangles = HF_ARRAY(mesh.triangles.data(), static_cast<uint32_t>(mesh.triangles.size() / 3));
     create.field_kind = thin_plate ? HF_FIELD_BIHARMONIC : HF_FIELD_HARMONIC;
     limit_surface(create);
     std::optional<hf::Surface> made(create);

@@ -45,10 +45,9 @@ int main(int argc, char** argv) {
   }
 
   /* five lines of equal spacing, as polylines on the surface */
-  hf_scalars scalars = HF_INIT(hf_scalars);
+  const hf_array scalars = HF_ARRAY(field, mesh.vertex_count);
   hf_isolines lines = HF_INIT(hf_isolines);
   double levels[5];
-  scalars.values = field;
   ok(hf_surface_space_levels(surface, &scalars, HF_LEVELS_LENGTH, 5, levels));
   ok(hf_surface_trace_isolines(surface, &scalars, 5, levels, &lines)); /* NULL arrays: the counts alone */
   printf("%u lines of %u points\n", lines.line_count, lines.point_count);

@@ -121,10 +121,8 @@ static void mesh_free(Mesh* mesh) {
 static hf_surface mesh_surface(const Mesh* mesh) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   hf_surface surface;
-  desc.vertex_count = mesh->vertex_count;
-  desc.positions = mesh->positions;
-  desc.triangle_count = mesh->triangle_count;
-  desc.triangles = mesh->triangles;
+  desc.positions = HF_ARRAY(mesh->positions, mesh->vertex_count);
+  desc.triangles = HF_ARRAY(mesh->triangles, mesh->triangle_count);
   ok(hf_surface_create(&desc, &surface));
   return surface;
 }

@@ -13,7 +13,7 @@ static hf_region band(hf_surface surface, const Mesh* mesh, double from, double 
   hf_region region;
   hf_region_desc desc = HF_INIT(hf_region_desc);
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
-  desc.positions = mesh->positions; /* weight 0 gives these back, bit for bit */
+  desc.positions = HF_ARRAY(mesh->positions, mesh->vertex_count); /* weight 0 gives these back, bit for bit */
   ok(hf_region_create(surface, &desc, &region));
   edit.add_count = count;
   edit.add_vertices = vertices;
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
   hf_region_info info = HF_INIT(hf_region_info);
   float* out = malloc(sizeof(float) * 3 * mesh.vertex_count);
   hf_morph_desc morph = HF_INIT(hf_morph_desc);
-  morph.positions = out;
+  morph.positions = HF_ARRAY_OUT(out, mesh.vertex_count);
 
   morph.weight = 1; /* the smooth base: a thin plate that leaves its rims smoothly */
   ok(hf_region_morph(region, &morph));

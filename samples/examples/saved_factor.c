@@ -23,10 +23,8 @@ int main(int argc, char** argv) {
   saved.bytes = read;
   saved.byte_count = size; /* copied; borrow = 1 reads a mapped file in place */
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count;
-  desc.positions = mesh.positions;
-  desc.triangle_count = mesh.triangle_count;
-  desc.triangles = mesh.triangles;
+  desc.positions = HF_ARRAY(mesh.positions, mesh.vertex_count);
+  desc.triangles = HF_ARRAY(mesh.triangles, mesh.triangle_count);
   desc.saved_factor = &saved;
   hf_surface loaded;
   ok(hf_surface_create(&desc, &loaded)); /* refuses bytes of another mesh */

@@ -53,8 +53,8 @@ int main(int argc, char** argv) {
   float* posed = malloc(sizeof(float) * 3 * source.vertex_count);
   float* played = malloc(sizeof(float) * 3 * target.vertex_count);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed;
-  frame.target_positions = played;
+  frame.source_positions = HF_ARRAY(posed, source.vertex_count);
+  frame.target_positions = HF_ARRAY_OUT(played, target.vertex_count);
   for (int f = 0; f <= 20; ++f) {
     bend(&source, 0.02f * (float)f, posed);
     ok(hf_transfer_apply(transfer, &frame));

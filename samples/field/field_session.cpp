@@ -49,12 +49,6 @@ struct Batch {
   std::vector<double> barycentrics, values, stiffness;
 };
 
-hf_scalars scalars(const std::vector<double>& field) {
-  hf_scalars desc = HF_INIT(hf_scalars);
-  desc.values_f64 = field.data();
-  return desc;
-}
-
 // The area-weighted normal of every given vertex, not normalised.
 std::vector<glm::dvec3> normals_of(const SurfaceMesh& mesh) {
   std::vector<glm::dvec3> normals(mesh.positions.size(), glm::dvec3(0));
@@ -94,16 +88,14 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
     : vertex_count_(static_cast<uint32_t>(mesh.positions.size())),
       components_(options.kind == FieldType::vector || options.kind == FieldType::direction ? 3 : 1) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = vertex_count_;
-  desc.positions_f64 = mesh.positions.empty() ? nullptr : &mesh.positions[0].x;
+  desc.positions = HF_ARRAY(mesh.positions.empty() ? nullptr : &mesh.positions[0].x, vertex_count_);
+  hf_faces_desc faces = HF_INIT(hf_faces_desc);
   if (mesh.face_sizes.empty()) {
-    desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
-    desc.triangles = mesh.triangles.data();
+    desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangles.size() / 3);
   } else {
-    desc.face_count = static_cast<uint32_t>(mesh.face_sizes.size());
-    desc.face_sizes = mesh.face_sizes.data();
-    desc.corner_count = static_cast<uint32_t>(mesh.face_vertices.size());
-    desc.corners = mesh.face_vertices.data();
+    faces.sizes = HF_ARRAY(mesh.face_sizes.data(), mesh.face_sizes.size());
+    faces.corners = HF_ARRAY(mesh.face_vertices.data(), mesh.face_vertices.size());
+    desc.faces = &faces;
     triangles_ = mesh.triangles;
   }
   desc.operator_kind = options.operator_kind;
@@ -211,12 +203,13 @@ void Session::apply(const Edit& edit) {
 std::vector<double> Session::solve(hf_solve_info& info) const {
   std::vector<double> field(vertex_count_ * components_);
   info = HF_INIT(hf_solve_info);
+  const hf_array_out out = HF_ARRAY_OUT(field.data(), vertex_count_);
   if (direction_) {
-    check(hf_direction_solve_f64(direction_, field.data(), 0, &info));
+    check(hf_direction_solve(direction_, &out, &info));
   } else if (components_ == 3) {
-    check(hf_solver_solve_vectors_f64(solver_, field.data(), 0, nullptr, &info));
+    check(hf_solver_solve_vectors(solver_, &out, nullptr, &info));
   } else {
-    check(hf_solver_solve_f64(solver_, field.data(), 0, &info));
+    check(hf_solver_solve(solver_, &out, &info));
   }
   return field;
 }
@@ -325,22 +318,23 @@ std::vector<double> Session::distance(const std::vector<uint32_t>& sources) cons
   const std::unique_ptr<std::remove_pointer_t<hf_geodesics>, void (*)(hf_geodesics)> geodesics(raw,
                                                                                                hf_geodesics_destroy);
   std::vector<double> distance(vertex_count_);
-  check(hf_geodesics_solve_f64(raw, static_cast<uint32_t>(sources.size()), sources.data(), distance.data(), 0));
+  const hf_array_out out = HF_ARRAY_OUT(distance.data(), distance.size());
+  check(hf_geodesics_solve(raw, static_cast<uint32_t>(sources.size()), sources.data(), &out));
   return distance;
 }
 
 std::vector<double> Session::levels(const std::vector<double>& field, int spacing, int count) const {
   std::vector<double> levels(static_cast<size_t>(count));
-  const hf_scalars desc = scalars(field);
-  check(hf_surface_space_levels(surface_, &desc, spacing, static_cast<uint32_t>(count), levels.data()));
+  const hf_array values = HF_ARRAY(field.data(), field.size());
+  check(hf_surface_space_levels(surface_, &values, spacing, static_cast<uint32_t>(count), levels.data()));
   return levels;
 }
 
 std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const std::vector<double>& levels) const {
   hf_isolines lines = HF_INIT(hf_isolines);
-  const hf_scalars desc = scalars(field);
+  const hf_array values = HF_ARRAY(field.data(), field.size());
   const uint32_t level_count = static_cast<uint32_t>(levels.size());
-  check(hf_surface_trace_isolines(surface_, &desc, level_count, levels.data(), &lines));
+  check(hf_surface_trace_isolines(surface_, &values, level_count, levels.data(), &lines));
   std::vector<double> positions(3 * size_t(lines.point_count));
   std::vector<uint32_t> starts(size_t(lines.line_count) + 1), of_level(lines.line_count);
   std::vector<int32_t> closed(lines.line_count);
@@ -351,7 +345,7 @@ std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const s
   lines.line_starts = starts.data();
   lines.line_levels = of_level.data();
   lines.line_closed = closed.data();
-  check(hf_surface_trace_isolines(surface_, &desc, level_count, levels.data(), &lines));
+  check(hf_surface_trace_isolines(surface_, &values, level_count, levels.data(), &lines));
   std::vector<IsoLine> found(lines.line_count);
   for (size_t l = 0; l < found.size(); ++l) {
     found[l].level = of_level[l];
@@ -365,10 +359,10 @@ std::vector<IsoLine> Session::isolines(const std::vector<double>& field, const s
 std::vector<hf_critical_point> Session::critical_points(const std::vector<double>& field,
                                                         hf_critical_info& info) const {
   info = HF_INIT(hf_critical_info);
-  const hf_scalars desc = scalars(field);
-  check(hf_surface_find_critical_points(surface_, &desc, 0, nullptr, &info));
+  const hf_array values = HF_ARRAY(field.data(), field.size());
+  check(hf_surface_find_critical_points(surface_, &values, 0, nullptr, &info));
   std::vector<hf_critical_point> points(info.point_count);
-  check(hf_surface_find_critical_points(surface_, &desc, info.point_count, points.data(), &info));
+  check(hf_surface_find_critical_points(surface_, &values, info.point_count, points.data(), &info));
   return points;
 }
 

@@ -52,9 +52,8 @@ void graph_field(const Graph* graph, uint32_t vertex_count, int allow_negative, 
                  const uint32_t* sites, const double* values, double* out_field) {
   hf_graph_desc desc = HF_INIT(hf_graph_desc);
   desc.vertex_count = vertex_count;
-  desc.edge_count = graph->edge_count;
-  desc.edges = graph->edges;
-  desc.weights = graph->weights;
+  desc.edges = HF_ARRAY(graph->edges, graph->edge_count);
+  desc.weights = HF_ARRAY(graph->weights, graph->edge_count);
   desc.allow_negative = allow_negative;
   hf_surface surface;
   ok(hf_surface_create_graph(&desc, &surface));
@@ -66,7 +65,7 @@ void graph_field(const Graph* graph, uint32_t vertex_count, int allow_negative, 
   held.values = values;
   ok(hf_create(surface, NULL, &solver));
   ok(hf_add_sites(solver, &held, NULL));
-  ok(hf_solver_solve_f64(solver, out_field, 0, NULL));
+  ok(hf_solver_solve(solver, &HF_ARRAY_OUT(out_field, vertex_count), NULL));
 
   hf_certificate certificate = HF_INIT(hf_certificate);
   ok(hf_solver_certify(solver, &certificate));

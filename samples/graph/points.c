@@ -41,10 +41,8 @@ static void leg(float* positions, uint32_t* triangles) {
 /* The field of the mesh: x at the lower end, 1 at the upper end. */
 static void mesh_field(const float* positions, const uint32_t* triangles, double* out_field) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = AROUND * RINGS;
-  desc.triangle_count = 2 * AROUND * (RINGS - 1);
-  desc.positions = positions;
-  desc.triangles = triangles;
+  desc.positions = HF_ARRAY(positions, AROUND * RINGS);
+  desc.triangles = HF_ARRAY(triangles, 2 * AROUND * (RINGS - 1));
   hf_surface surface;
   hf_solver solver;
   ok(hf_surface_create(&desc, &surface));
@@ -54,7 +52,7 @@ static void mesh_field(const float* positions, const uint32_t* triangles, double
     ok(hf_solver_add_site(solver, i, &low, NULL));
     ok(hf_solver_add_site(solver, AROUND * (RINGS - 1) + i, &high, NULL));
   }
-  ok(hf_solver_solve_f64(solver, out_field, 0, NULL));
+  ok(hf_solver_solve(solver, &HF_ARRAY_OUT(out_field, AROUND * RINGS), NULL));
   hf_solver_destroy(solver);
   hf_surface_destroy(surface);
 }

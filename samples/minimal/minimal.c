@@ -12,10 +12,8 @@ int main(void) {
   hf_solver solver;
 
   hf_surface_desc mesh = HF_INIT(hf_surface_desc);
-  mesh.vertex_count = 6;
-  mesh.triangle_count = 4;
-  mesh.positions = positions;
-  mesh.triangles = triangles;
+  mesh.positions = HF_ARRAY(positions, 6);
+  mesh.triangles = HF_ARRAY(triangles, 4);
   if (hf_surface_create(&mesh, &surface) != HF_OK) return 1;
   if (hf_create(surface, NULL, &solver) != HF_OK) return 1;
 

@@ -293,17 +293,15 @@ void run(const Command& options) {
   const SurfaceMesh input = model ? to_surface_mesh(flatten(*model)) : read_mesh_file(options.mesh);
   const std::vector<double> positions = double_positions(input.positions);
   auto create = hf::make<hf_surface_desc>();
-  create.vertex_count = static_cast<uint32_t>(input.positions.size());
-  create.triangle_count = static_cast<uint32_t>(input.triangles.size() / 3);
-  create.positions_f64 = positions.data();
-  create.triangles = input.triangles.data();
+  create.positions = HF_ARRAY(positions.data(), input.positions.size());
+  create.triangles = HF_ARRAY(input.triangles.data(), input.triangles.size() / 3);
   const double wanted = wanted_faces(options, input);
   const bool paid = wanted > 0 && wanted <= (options.faces > 0 ? most_faces : most_by_edge);
   limit_quads(create, paid ? static_cast<uint32_t>(wanted) : 0);
   const hf::Surface surface(create);
   const double diagonal = surface.report().bounding_box_diagonal;
-  std::printf("mesh        %u vertices, %u triangles, box diagonal %.6g\n", create.vertex_count, create.triangle_count,
-              diagonal);
+  std::printf("mesh        %u vertices, %u triangles, box diagonal %.6g\n", create.positions.count,
+              create.triangles.count, diagonal);
   if (!options.measured.empty()) return measure(options, input, diagonal);
 
   auto desc = hf::make<hf_quads_desc>();

@@ -35,10 +35,8 @@ FlatSurface::FlatSurface(const FlatMesh& mesh, const std::string& name, uint32_t
   const SurfaceBox box(mesh);
   const glm::dvec3 extent = box.high - box.low;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count();
-  desc.triangle_count = mesh.triangle_count();
-  desc.positions_f64 = positions.data();
-  desc.triangles = mesh.triangles.data();
+  desc.positions = HF_ARRAY(positions.data(), mesh.vertex_count());
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangle_count());
   desc.weld = HF_WELD_TOLERANCE;
   desc.weld_tolerance = 1e-5 * std::max({extent.x, extent.y, extent.z, 1e-20});
   desc.thread_count = threads;

@@ -36,10 +36,8 @@ static hf_surface surface_of(const float* positions) {
       *t++ = b + AROUND;
     }
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = VERTICES;
-  desc.triangle_count = TRIANGLES;
-  desc.positions = positions;
-  desc.triangles = triangles;
+  desc.positions = HF_ARRAY(positions, VERTICES);
+  desc.triangles = HF_ARRAY(triangles, TRIANGLES);
   hf_surface surface;
   return ok(hf_surface_create(&desc, &surface)), surface;
 }
@@ -67,8 +65,8 @@ int main(void) {
     if (f == 30) add_ring(transfer, RINGS / 2, 0); /* no factorisation on either side */
     tube(posed, 1, 0.1f, 0.4f * sinf(0.2f * (float)f));
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions = posed;
-    frame.target_positions = out;
+    frame.source_positions = HF_ARRAY(posed, VERTICES);
+    frame.target_positions = HF_ARRAY_OUT(out, VERTICES);
     ok(hf_transfer_apply(transfer, &frame));
     if (f % 10 == 5)
       printf("frame %2d: the tip of the source is at x %6.3f, that of the target at x %6.3f\n", f,

@@ -184,8 +184,8 @@ void Session::prepare() {
 void Session::apply(const std::vector<double>& posed, std::vector<double>& out) {
   out.resize(3 * target_flat_.positions.size());
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed.data();
-  frame.target_positions_f64 = out.data();
+  frame.source_positions = HF_ARRAY(posed.data(), posed.size() / 3);
+  frame.target_positions = HF_ARRAY_OUT(out.data(), out.size() / 3);
   check(hf_transfer_apply(transfer_, &frame), "a frame");
 }
 
@@ -382,8 +382,7 @@ std::vector<LimbMotion> Session::limbs_of(const PlayedClip& played) const {
 double Session::largest_gap(const std::vector<std::vector<double>>& frames) const {
   double out = 0;
   for (const std::vector<double>& frame : frames) {
-    hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
-    posed.positions_f64 = frame.data();
+    const hf_array posed = HF_ARRAY(frame.data(), frame.size() / 3);
     hf_gaps_info info = HF_INIT(hf_gaps_info);
     if (hf_surface_measure_gaps(target_surface(), &posed, 0, nullptr, &info) != HF_OK || info.link_count == 0) return 0;
     out = std::max(out, info.worst / target_mesh().bounding_box_diagonal);

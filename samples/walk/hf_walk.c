@@ -71,10 +71,8 @@ static Body body_of(const char* file) {
     links.weights = shape.weights;
   }
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = body.info.vertex_count;
-  desc.triangle_count = body.info.triangle_count;
-  desc.positions_f64 = body.rest;
-  desc.triangles = shape.triangles;
+  desc.positions = HF_ARRAY(body.rest, body.info.vertex_count);
+  desc.triangles = HF_ARRAY(shape.triangles, body.info.triangle_count);
   desc.links = &links;
   desc.weld = HF_WELD_TOLERANCE;
   desc.weld_tolerance = (float)(1e-6 * body.diagonal);
@@ -151,8 +149,8 @@ int main(int argc, char** argv) {
     times[f] = clip.duration * (double)f / (double)(frames - 1);
     good(hf_gltf_model_pose(source.model, 0, times[f], posed));
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions_f64 = posed;
-    frame.target_positions_f64 = played + row * f;
+    frame.source_positions = HF_ARRAY(posed, source.info.vertex_count);
+    frame.target_positions = HF_ARRAY_OUT(played + row * f, target.info.vertex_count);
     ok(hf_transfer_apply(transfer, &frame));
   }
   hf_gltf_frames_desc motion = HF_INIT(hf_gltf_frames_desc);

@@ -25,10 +25,8 @@ const char* const plane_names[] = {"given", "joints", "surface"};
 hf::Surface surface_of(const Rig& rig, const std::vector<glm::dvec3>& points) {
   const std::vector<double> positions = double_positions(points);
   auto desc = hf::make<hf_surface_desc>();
-  desc.vertex_count = static_cast<uint32_t>(points.size());
-  desc.triangle_count = static_cast<uint32_t>(rig.triangles.size() / 3);
-  desc.positions_f64 = positions.data();
-  desc.triangles = rig.triangles.data();
+  desc.positions = HF_ARRAY(positions.data(), static_cast<uint32_t>(points.size()));
+  desc.triangles = HF_ARRAY(rig.triangles.data(), static_cast<uint32_t>(rig.triangles.size() / 3));
   limit_surface(desc);
   return hf::Surface(desc);
 }

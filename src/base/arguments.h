@@ -71,21 +71,83 @@ inline std::size_t stride_of(std::uint32_t stride, std::size_t row, const char* 
   return stride;
 }
 
-// check_one refuses two arrays at once. rows_of views the array that is given as rows of `width` numbers, or returns
-// null rows when none is given.
-inline void check_one(const void* f32, const void* f64, const char* name) {
-  if (f32 && f64) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s and %s_f64 are both set; set one", name, name);
+// ---- arrays of the caller: hf_array and hf_array_out ----
+
+// Checks an array of rows of `width` numbers, which are plain or of the type `other`, and returns its stride in bytes.
+template <class Array>
+std::size_t check_array(const Array& array, std::int32_t other, std::size_t width, const char* name) {
+  if (array.reserved != 0)
+    fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "%s.reserved is %u; set it to 0", name, array.reserved);
+  if (!array.data) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s.data is NULL, but its count is %u", name, array.count);
+  if (array.type != HF_TYPE_PLAIN && array.type != other) {
+    const char* const allowed = other == HF_TYPE_DOUBLE   ? "0 for float or HF_TYPE_DOUBLE"
+                                : other == HF_TYPE_UINT16 ? "0 for uint32_t or HF_TYPE_UINT16"
+                                                          : "0 for uint32_t";
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s.type is %d; it must be %s", name, array.type, allowed);
+  }
+  const std::size_t number = array.type == HF_TYPE_DOUBLE ? 8 : array.type == HF_TYPE_UINT16 ? 2 : 4;
+  const std::size_t row = width * number;
+  if (array.stride != 0 && array.stride < row)
+    fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s.stride is %u bytes; a row has %zu", name, array.stride, row);
+  return array.stride == 0 ? row : array.stride;
 }
-inline ConstRows rows_of(const float* f32, const double* f64, std::size_t width, std::uint32_t stride,
-                         const char* stride_name) {
-  if (f64) return {f64, stride_of(stride, width * sizeof(double), stride_name)};
-  if (f32) return {f32, stride_of(stride, width * sizeof(float), stride_name)};
-  return {};
+
+template <class Array>
+bool is_given(const Array& array) noexcept {
+  return array.data || array.count > 0;
 }
-inline Rows rows_of(float* f32, double* f64, std::size_t width, std::uint32_t stride, const char* stride_name) {
-  if (f64) return {f64, stride_of(stride, width * sizeof(double), stride_name)};
-  if (f32) return {f32, stride_of(stride, width * sizeof(float), stride_name)};
-  return {};
+
+// The rows of an array that belong to something of the library, such as "vertices of the mesh".
+template <class Array>
+void check_rows(const Array& array, std::size_t rows, const char* noun, const char* name) {
+  if (array.count != rows)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s.count is %u, but there are %zu %s", name, array.count, rows, noun);
+}
+
+// An array to write has as many rows as will be written, or more.
+template <class Array>
+void check_room(const Array& array, std::size_t rows, const char* noun, const char* name) {
+  if (array.count < rows)
+    fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s.count is %u, but there are %zu %s", name, array.count, rows, noun);
+}
+
+// View an array of float or double; null rows where there is none. The second forms check the number of rows, too.
+inline ConstRows read_reals(const hf_array& array, std::size_t width, const char* name) {
+  if (!is_given(array)) return {};
+  return {array.data, check_array(array, HF_TYPE_DOUBLE, width, name), array.type == HF_TYPE_DOUBLE};
+}
+inline ConstRows read_reals(const hf_array& array, std::size_t width, std::size_t rows, const char* noun,
+                            const char* name) {
+  const ConstRows view = read_reals(array, width, name);
+  if (view) check_rows(array, rows, noun, name);
+  return view;
+}
+inline Rows write_reals(const hf_array_out& array, std::size_t width, std::size_t rows, const char* noun,
+                        const char* name) {
+  if (!is_given(array)) return {};
+  const Rows view(array.data, check_array(array, HF_TYPE_DOUBLE, width, name), array.type == HF_TYPE_DOUBLE);
+  check_room(array, rows, noun, name);
+  return view;
+}
+// The same of an array that a call cannot do without, given by its address.
+inline ConstRows need_reals(const hf_array* array, std::size_t width, std::size_t rows, const char* noun,
+                            const char* name) {
+  require(array, name);
+  const ConstRows view = read_reals(*array, width, rows, noun, name);
+  if (!view) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s.data is NULL", name);
+  return view;
+}
+inline Rows need_reals(const hf_array_out* array, std::size_t width, std::size_t rows, const char* noun,
+                       const char* name) {
+  require(array, name);
+  const Rows view = write_reals(*array, width, rows, noun, name);
+  if (!view) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s.data is NULL", name);
+  return view;
+}
+// Views an array of indices.
+inline IndexRows read_indices(const hf_array& array, std::int32_t other, std::size_t width, const char* name) {
+  if (!is_given(array)) return {};
+  return {array.data, check_array(array, other, width, name), array.type == HF_TYPE_UINT16};
 }
 
 // Returns the weights of a vertex that a caller asks for: 4 or 8; 0 stands for 4.

@@ -44,6 +44,8 @@ class ConstRows {
       : bytes_(reinterpret_cast<const char*>(data)), stride_(stride), is_double_(false) {}
   ConstRows(const double* data, std::size_t stride) noexcept
       : bytes_(reinterpret_cast<const char*>(data)), stride_(stride), is_double_(true) {}
+  ConstRows(const void* data, std::size_t stride, bool is_double) noexcept
+      : bytes_(static_cast<const char*>(data)), stride_(stride), is_double_(is_double) {}
   explicit operator bool() const noexcept { return bytes_ != nullptr; }
   double get(std::size_t row, std::size_t column) const noexcept {
     const char* p = bytes_ + row * stride_;
@@ -63,6 +65,33 @@ class ConstRows {
   bool is_double_ = false;
 };
 
+// Rows of indices in 32 or 16 bits, `stride` bytes apart and possibly unaligned.
+class IndexRows {
+ public:
+  IndexRows() noexcept = default;
+  IndexRows(const std::uint32_t* packed, std::size_t width) noexcept
+      : IndexRows(packed, width * sizeof(std::uint32_t), false) {}
+  IndexRows(const void* data, std::size_t stride, bool narrow) noexcept
+      : bytes_(static_cast<const char*>(data)), stride_(stride), narrow_(narrow) {}
+  explicit operator bool() const noexcept { return bytes_ != nullptr; }
+  std::uint32_t get(std::size_t row, std::size_t column) const noexcept {
+    const char* p = bytes_ + row * stride_;
+    if (narrow_) {
+      std::uint16_t v;
+      std::memcpy(&v, p + column * sizeof v, sizeof v);
+      return v;
+    }
+    std::uint32_t v;
+    std::memcpy(&v, p + column * sizeof v, sizeof v);
+    return v;
+  }
+
+ private:
+  const char* bytes_ = nullptr;
+  std::size_t stride_ = 0;
+  bool narrow_ = false;
+};
+
 class Rows {
  public:
   Rows() noexcept = default;
@@ -70,7 +99,13 @@ class Rows {
       : bytes_(reinterpret_cast<char*>(data)), stride_(stride), is_double_(false) {}
   Rows(double* data, std::size_t stride) noexcept
       : bytes_(reinterpret_cast<char*>(data)), stride_(stride), is_double_(true) {}
+  Rows(void* data, std::size_t stride, bool is_double) noexcept
+      : bytes_(static_cast<char*>(data)), stride_(stride), is_double_(is_double) {}
   explicit operator bool() const noexcept { return bytes_ != nullptr; }
+  bool is_double() const noexcept { return is_double_; }
+  // As they were given, for code that writes whole rows.
+  char* bytes() const noexcept { return bytes_; }
+  std::size_t stride() const noexcept { return stride_; }
   void set(std::size_t row, std::size_t column, double value) const noexcept {
     char* p = bytes_ + row * stride_;
     if (is_double_) {

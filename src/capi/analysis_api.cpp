@@ -27,14 +27,14 @@ struct GeodesicsObject final : Object {
   Distances distances;
 };
 
-void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* vertices, float* f32, double* f64,
-              std::uint32_t value_stride) {
+void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* vertices,
+              const hf_array_out* out_distances) {
   const auto object = get<GeodesicsObject>(handle, "geodesics");
-  require(f32 ? static_cast<const void*>(f32) : f64, "out_distances");
+  require(out_distances, "out_distances");
   require_list(count, vertices, "source_count", "sources");
   const Reading reading(*object);
   const Geometry& shape = object->distances.geometry();
-  const Rows out = rows_of(f32, f64, 1, value_stride, "value_stride");
+  const Rows out = need_reals(out_distances, 1, shape.mesh.report.vertex_count, "vertices", "out_distances");
   const Vector<std::int32_t> sources = read_source_vertices(shape.mesh, count, vertices, *shape.memory);
   Workspace field(shape.workspaces, static_cast<std::size_t>(shape.mesh.vertex_count()));
   with_progress(object->progress, [&] { object->distances.solve(sources, field.data()); });
@@ -123,21 +123,21 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_surface_space_levels(hf_surface handle, const hf_scalars* field, int32_t spacing, uint32_t level_count,
+hf_result hf_surface_space_levels(hf_surface handle, const hf_array* field, int32_t spacing, uint32_t level_count,
                                   double* out_levels) {
   return guarded("hf_surface_space_levels", [&] {
     const auto surface = mesh_surface(handle, "levels");
     const LevelSpacing steps = read_spacing(spacing, level_count);
     require(out_levels, "out_levels");
     const Geometry& shape = surface->surface.geometry().unlinked();
-    const Vector<double> values = read_scalars(shape, read_struct(field, "field"));
+    const Vector<double> values = read_scalars(shape, field);
     Vector<double> levels(level_count, shape.memory.get());
     space_levels(shape.mesh, values, steps, levels, *shape.memory);
     std::copy(levels.begin(), levels.end(), out_levels);
   });
 }
 
-hf_result hf_surface_trace_isolines(hf_surface handle, const hf_scalars* given, uint32_t level_count,
+hf_result hf_surface_trace_isolines(hf_surface handle, const hf_array* given, uint32_t level_count,
                                     const double* levels, hf_isolines* inout_lines) {
   return guarded("hf_surface_trace_isolines", [&] {
     const auto surface = mesh_surface(handle, "iso-lines");
@@ -145,7 +145,7 @@ hf_result hf_surface_trace_isolines(hf_surface handle, const hf_scalars* given, 
     require_zero(out.reserved);
     require_list(level_count, levels, "level_count", "levels");
     const Geometry& shape = surface->surface.geometry().unlinked();
-    const Vector<double> field = read_scalars(shape, read_struct(given, "field"));
+    const Vector<double> field = read_scalars(shape, given);
     const Isolines lines =
         trace_isolines(shape.mesh, shape.topology, field, Span<const double>(levels, level_count), *shape.memory);
     out.point_count = static_cast<std::uint32_t>(lines.points.size());
@@ -175,14 +175,14 @@ hf_result hf_surface_trace_isolines(hf_surface handle, const hf_scalars* given, 
   });
 }
 
-hf_result hf_surface_find_critical_points(hf_surface handle, const hf_scalars* given, uint32_t capacity,
+hf_result hf_surface_find_critical_points(hf_surface handle, const hf_array* given, uint32_t capacity,
                                           hf_critical_point* out_points, hf_critical_info* out_info) {
   return guarded("hf_surface_find_critical_points", [&] {
     const auto surface = mesh_surface(handle, "critical points");
     require_either(out_points, out_info, "out_points and out_info");
     if (out_info) check_struct(out_info, "out_info");
     const Geometry& shape = surface->surface.geometry().unlinked();
-    const Vector<double> field = read_scalars(shape, read_struct(given, "field"));
+    const Vector<double> field = read_scalars(shape, given);
     const CriticalPoints found = find_critical_points(shape.mesh, shape.topology, field, *shape.memory);
     hf_critical_info info{};
     info.point_count = static_cast<std::uint32_t>(found.points.size());
@@ -219,15 +219,8 @@ hf_result hf_geodesics_create(hf_surface surface, const hf_geodesics_desc* given
 void hf_geodesics_destroy(hf_geodesics geodesics) { destroy<GeodesicsObject>(geodesics); }
 
 hf_result hf_geodesics_solve(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
-                             float* out_distances, uint32_t value_stride) {
-  return guarded("hf_geodesics_solve",
-                 [&] { distance(geodesics, source_count, sources, out_distances, nullptr, value_stride); });
-}
-
-hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
-                                 double* out_distances, uint32_t value_stride) {
-  return guarded("hf_geodesics_solve_f64",
-                 [&] { distance(geodesics, source_count, sources, nullptr, out_distances, value_stride); });
+                             const hf_array_out* out_distances) {
+  return guarded("hf_geodesics_solve", [&] { distance(geodesics, source_count, sources, out_distances); });
 }
 
 hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_surface_point* from, const hf_surface_point* to,

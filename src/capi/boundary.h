@@ -102,12 +102,11 @@ struct PointsOut {
   Rows positions, normals;
 };
 template <class Desc>
-PointsOut read_points_out(const Desc& desc) {
-  check_one(desc.positions, desc.positions_f64, "positions");
-  if (!desc.positions && !desc.positions_f64 && !desc.normals)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions, positions_f64 and normals are all NULL; nothing to write");
-  return {rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride"),
-          rows_of(desc.normals, nullptr, 3, desc.normal_stride, "normal_stride")};
+PointsOut read_points_out(const Desc& desc, std::size_t rows) {
+  if (!is_given(desc.positions) && !is_given(desc.normals))
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "positions.data and normals.data are both NULL; nothing to write");
+  return {write_reals(desc.positions, 3, rows, "vertices to write", "positions"),
+          write_reals(desc.normals, 3, rows, "vertices to write", "normals")};
 }
 
 }  // namespace hf_inner::capi

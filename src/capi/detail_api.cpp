@@ -42,9 +42,9 @@ void hf_detail_destroy(hf_detail detail) { destroy<DetailObject>(detail); }
 hf_result hf_detail_morph(hf_detail handle, const hf_morph_desc* given) {
   return guarded("hf_detail_morph", [&] {
     const auto object = get<DetailObject>(handle, "detail");
-    const MorphOut out = read_morph(given);
     const Reading reading(*object);
     const CarriedDetail& carried = object->detail;
+    const MorphOut out = read_morph(given, carried.surface->core->mesh.report.vertex_count);
     write_morph(*carried.surface, *carried.state, out,
                 [&](std::size_t, std::size_t i) { return carried.position(i, out.weight); });
   });

@@ -46,14 +46,14 @@ hf_result edit(const char* function, hf_direction handle, std::uint32_t count, c
   });
 }
 
-void solve(hf_direction handle, float* f32, double* f64, std::uint32_t stride, hf_solve_info* out_info) {
+void solve(hf_direction handle, const hf_array_out* out_vectors, hf_solve_info* out_info) {
   const auto direction = object_of(handle);
-  require(f32 ? static_cast<const void*>(f32) : f64, "out_vectors");
+  require(out_vectors, "out_vectors");
   if (out_info) check_struct(out_info, "out_info");
-  const Rows out = rows_of(f32, f64, 3, stride, "vector_stride");
   const Reading reading(*direction);
   const DirectionSolver& solver = direction->field.solver();
   const Core& core = solver.core();
+  const Rows out = need_reals(out_vectors, 3, core.mesh.report.vertex_count, "vertices", "out_vectors");
   Vector<Vec3> field(static_cast<std::size_t>(core.size()), direction->memory.get());
   direction->field.solve(field.data());
   write_vertices(core, 3, out, nullptr, [&](std::size_t v, double* values) { put(field[v], values); });
@@ -143,14 +143,8 @@ hf_result hf_direction_get_sites(hf_direction handle, uint32_t capacity, uint32_
   });
 }
 
-hf_result hf_direction_solve(hf_direction direction, float* out_vectors, uint32_t vector_stride,
-                             hf_solve_info* out_info) {
-  return guarded("hf_direction_solve", [&] { solve(direction, out_vectors, nullptr, vector_stride, out_info); });
-}
-
-hf_result hf_direction_solve_f64(hf_direction direction, double* out_vectors, uint32_t vector_stride,
-                                 hf_solve_info* out_info) {
-  return guarded("hf_direction_solve_f64", [&] { solve(direction, nullptr, out_vectors, vector_stride, out_info); });
+hf_result hf_direction_solve(hf_direction direction, const hf_array_out* out_vectors, hf_solve_info* out_info) {
+  return guarded("hf_direction_solve", [&] { solve(direction, out_vectors, out_info); });
 }
 
 hf_result hf_direction_get_singularities(hf_direction handle, uint32_t capacity, hf_singularity* out_singularities,

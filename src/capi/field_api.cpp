@@ -20,8 +20,8 @@ hf_solve_info unreached(const SolverObject& solver) {
 }
 
 // Writes a field of `width` numbers a vertex. Throws as Overflow.
-void write_checked(const Core& core, std::size_t width, const Rows& out, bool is_double, const double* field) {
-  Overflow overflow(is_double);
+void write_checked(const Core& core, std::size_t width, const Rows& out, const double* field) {
+  Overflow overflow(out.is_double());
   write_vertices(core, width, out, nullptr, [&](std::size_t v, double* values) {
     std::copy_n(field + v * width, width, values);
     const std::size_t given = given_vertex(core.mesh, static_cast<std::int32_t>(v));
@@ -30,52 +30,52 @@ void write_checked(const Core& core, std::size_t width, const Rows& out, bool is
   overflow.check();
 }
 
-void solve(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride, hf_solve_info* out_info) {
+// read_out(width, rows) returns the caller's array.
+template <class ReadOut>
+void solve(hf_solver handle, hf_solve_info* out_info, ReadOut&& read_out) {
   const auto solver = get<SolverObject>(handle, "solver");
-  require(f32 ? static_cast<const void*>(f32) : f64, "out_values");
   if (out_info) check_struct(out_info, "out_info");
   const Reading reading(*solver);
-  const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
-  const std::size_t stride = stride_of(value_stride, m * (f64 ? sizeof(double) : sizeof(float)), "value_stride");
-  FieldWriter writer(solver->field.core(), f64 ? static_cast<void*>(f64) : f32, f64 != nullptr, stride);
+  const Core& core = solver->field.core();
+  const Rows out = read_out(static_cast<std::size_t>(solver->field.sites().channels()), core.mesh.report.vertex_count);
+  FieldWriter writer(core, out);
   solver->field.solve_into(writer);
   writer.check();
   if (out_info) write_struct(out_info, unreached(*solver));
 }
 
-void solve_vectors(hf_solver handle, float* f32, double* f64, std::uint32_t stride, double* out_normals,
-                   hf_solve_info* out_info) {
+void solve_vectors(hf_solver handle, const hf_array_out* out_vectors, double* out_normals, hf_solve_info* out_info) {
   const auto solver = get<SolverObject>(handle, "solver");
-  require(f32 ? static_cast<const void*>(f32) : f64, "out_vectors");
+  require(out_vectors, "out_vectors");
   if (out_info) check_struct(out_info, "out_info");
   const Reading reading(*solver);
   const Core& core = solver->field.core();
   require_vectors(solver->field);
-  const Rows out = rows_of(f32, f64, 3, stride, "vector_stride");
+  const Rows out = need_reals(out_vectors, 3, core.mesh.report.vertex_count, "vertices", "out_vectors");
   Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * 3);
   solver->field.solve(field.data());
   const Vector<Vec3> normals = vertex_normals(core.mesh, *solver->memory);
   project_on_tangent_planes(normals, field.data());
-  write_checked(core, 3, out, f64 != nullptr, field.data());
+  write_checked(core, 3, out, field.data());
   if (out_normals)
     write_vertices(core, 3, Rows(out_normals, 3 * sizeof(double)), nullptr,
                    [&](std::size_t v, double* values) { put(normals[v], values); });
   if (out_info) write_struct(out_info, unreached(*solver));
 }
 
-void solve_preview(hf_solver handle, float* f32, double* f64, std::uint32_t value_stride,
-                   std::uint32_t correction_count, hf_preview_info* out_info) {
+void solve_preview(hf_solver handle, const hf_array_out* out_values, std::uint32_t correction_count,
+                   hf_preview_info* out_info) {
   const auto solver = get<SolverObject>(handle, "solver");
-  require(f32 ? static_cast<const void*>(f32) : f64, "out_values");
+  require(out_values, "out_values");
   if (out_info) check_struct(out_info, "out_info");
   const std::int32_t corrections = read_correction_count(correction_count);
   const Reading reading(*solver);
   const Core& core = solver->field.core();
   const std::size_t m = static_cast<std::size_t>(solver->field.sites().channels());
-  const Rows out = rows_of(f32, f64, m, value_stride, "value_stride");
+  const Rows out = need_reals(out_values, m, core.mesh.report.vertex_count, "vertices", "out_values");
   Workspace field(core.workspaces, static_cast<std::size_t>(core.size()) * m);
   const PreviewInfo found = solver->field.solve_preview(corrections, field.data());
-  write_checked(core, m, out, f64 != nullptr, field.data());
+  write_checked(core, m, out, field.data());
   if (!out_info) return;
   hf_preview_info info{};
   info.exact = found.exact;
@@ -97,11 +97,20 @@ using namespace hf_inner::capi;
 extern "C" {
 
 hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info) {
-  return guarded("hf_solve", [&] { solve(solver, out_values, nullptr, value_stride, out_info); });
+  return guarded("hf_solve", [&] {
+    solve(solver, out_info, [&](std::size_t width, std::size_t) {
+      require(out_values, "out_values");
+      return Rows(out_values, stride_of(value_stride, width * sizeof(float), "value_stride"));
+    });
+  });
 }
 
-hf_result hf_solver_solve_f64(hf_solver solver, double* out_values, uint32_t value_stride, hf_solve_info* out_info) {
-  return guarded("hf_solver_solve_f64", [&] { solve(solver, nullptr, out_values, value_stride, out_info); });
+hf_result hf_solver_solve(hf_solver solver, const hf_array_out* out_values, hf_solve_info* out_info) {
+  return guarded("hf_solver_solve", [&] {
+    solve(solver, out_info, [&](std::size_t width, std::size_t rows) {
+      return need_reals(out_values, width, rows, "vertices", "out_values");
+    });
+  });
 }
 
 hf_result hf_solver_solve_at(hf_solver handle, uint32_t count, const uint32_t* vertices, double* out_values) {
@@ -126,28 +135,14 @@ hf_result hf_solver_solve_at(hf_solver handle, uint32_t count, const uint32_t* v
   });
 }
 
-hf_result hf_solver_solve_vectors(hf_solver solver, float* out_vectors, uint32_t vector_stride, double* out_normals,
+hf_result hf_solver_solve_vectors(hf_solver solver, const hf_array_out* out_vectors, double* out_normals,
                                   hf_solve_info* out_info) {
-  return guarded("hf_solver_solve_vectors",
-                 [&] { solve_vectors(solver, out_vectors, nullptr, vector_stride, out_normals, out_info); });
+  return guarded("hf_solver_solve_vectors", [&] { solve_vectors(solver, out_vectors, out_normals, out_info); });
 }
 
-hf_result hf_solver_solve_vectors_f64(hf_solver solver, double* out_vectors, uint32_t vector_stride,
-                                      double* out_normals, hf_solve_info* out_info) {
-  return guarded("hf_solver_solve_vectors_f64",
-                 [&] { solve_vectors(solver, nullptr, out_vectors, vector_stride, out_normals, out_info); });
-}
-
-hf_result hf_solver_solve_preview(hf_solver solver, float* out_values, uint32_t value_stride, uint32_t correction_count,
+hf_result hf_solver_solve_preview(hf_solver solver, const hf_array_out* out_values, uint32_t correction_count,
                                   hf_preview_info* out_info) {
-  return guarded("hf_solver_solve_preview",
-                 [&] { solve_preview(solver, out_values, nullptr, value_stride, correction_count, out_info); });
-}
-
-hf_result hf_solver_solve_preview_f64(hf_solver solver, double* out_values, uint32_t value_stride,
-                                      uint32_t correction_count, hf_preview_info* out_info) {
-  return guarded("hf_solver_solve_preview_f64",
-                 [&] { solve_preview(solver, nullptr, out_values, value_stride, correction_count, out_info); });
+  return guarded("hf_solver_solve_preview", [&] { solve_preview(solver, out_values, correction_count, out_info); });
 }
 
 hf_result hf_solver_release_preview(hf_solver solver) {

@@ -12,7 +12,7 @@ hf_result hf_surface_create_graph(const hf_graph_desc* given, hf_surface* out_su
     const hf_surface_desc common = options_of(desc);
     hf_surface_info info = read_info(common);
     info.operator_kind = HF_OPERATOR_GRAPH;
-    info.edge_count = desc.edge_count;
+    info.edge_count = desc.edges.count;
     info.edge_limit = desc.edge_limit;
     check_graph_limits(info);
     const GraphInput input = read_graph(desc);

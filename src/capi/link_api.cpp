@@ -59,15 +59,14 @@ hf_result hf_surface_get_pieces(hf_surface surface, uint32_t capacity, uint32_t*
   });
 }
 
-hf_result hf_surface_measure_gaps(hf_surface surface, const hf_gaps_desc* given, uint32_t capacity, double* out_gaps,
+hf_result hf_surface_measure_gaps(hf_surface surface, const hf_array* positions, uint32_t capacity, double* out_gaps,
                                   hf_gaps_info* out_info) {
   return guarded("hf_surface_measure_gaps", [&] {
     const auto object = get<SurfaceObject>(surface, "surface");
-    const hf_gaps_desc desc = read_struct(given, "desc");
     require_either(out_gaps, out_info, "out_gaps and out_info");
     if (out_info) check_struct(out_info, "out_info");
-    const ConstRows posed = read_posed(desc);
     const Geometry& shape = object->surface.geometry();
+    const ConstRows posed = need_reals(positions, 3, shape.mesh.report.vertex_count, "vertices", "positions");
     const std::size_t count = shape.links ? shape.links->links.size() : 0;
     hf_gaps_info info{};
     info.link_count = static_cast<std::uint32_t>(count);

@@ -10,13 +10,12 @@ namespace hf_inner::capi {
 
 struct MorphOut : PointsOut {
   double weight;
-  bool is_double;  // positions_f64
 };
 
-inline MorphOut read_morph(const hf_morph_desc* given) {
+inline MorphOut read_morph(const hf_morph_desc* given, std::size_t vertex_count) {
   const hf_morph_desc desc = read_struct(given, "desc");
   const double weight = read_morph_weight(desc);
-  return {read_points_out(desc), weight, desc.positions_f64 != nullptr};
+  return {read_points_out(desc, vertex_count), weight};
 }
 
 // moved(given, i) returns the morphed position of the i-th vertex inside the region; `given` is its number in the mesh
@@ -36,7 +35,7 @@ void write_morph(const RegionSurface& surface, const RegionState& state, const M
     for (const std::int32_t v : shape.rim) local.push_back(surface.scaled_position(v));
     normal_sums = local_normal_sums(state, local, *core.memory);
   }
-  Overflow overflow(out.is_double);
+  Overflow overflow(out.positions.is_double());
   for_each_given(core, 0, surface.positions.size(), [&](std::size_t v, std::int32_t inner) {
     double row[3];
     const std::int32_t local = inner == Mesh::none ? -1 : shape.local[static_cast<std::size_t>(inner)];

@@ -57,26 +57,39 @@ void place_handles(hf_pose handle, std::uint32_t count, const std::uint32_t* han
   pose->pose->set_transforms({handles, count}, {placed, count});
 }
 
+template <class Real>
+void negate(char* row) {
+  Real normal[3];
+  std::memcpy(normal, row, sizeof normal);
+  for (Real& x : normal) x = -x;
+  std::memcpy(row, normal, sizeof normal);
+}
+
 // Turns the normals of vertices on the second side of a two-sided sheet round.
-void turn_normals(const Mesh& mesh, const VertexRange& range, const hf_deform_desc& desc) {
-  if (!desc.normals) return;
-  const std::size_t stride = desc.normal_stride ? desc.normal_stride : 3 * sizeof(float);
+void turn_normals(const Mesh& mesh, const VertexRange& range, const Rows& normals) {
+  if (!normals) return;
   for (const std::int32_t v : mesh.turned) {
     const std::size_t row = static_cast<std::size_t>(v) - range.first;
     if (static_cast<std::size_t>(v) < range.first || row >= range.count) continue;
-    char* const place = reinterpret_cast<char*>(desc.normals) + row * stride;
-    float normal[3];
-    std::memcpy(normal, place, sizeof normal);
-    for (float& x : normal) x = -x;
-    std::memcpy(place, normal, sizeof normal);
+    char* const place = normals.bytes() + row * normals.stride();
+    if (normals.is_double())
+      negate<double>(place);
+    else
+      negate<float>(place);
   }
 }
 
-// Writes the vertices of `range` to the arrays of the desc. straight_normals: the pose has written the normals.
-void write_deformed(const PoseObject& object, const VertexRange& range, const hf_deform_desc& desc, bool surface,
+// Rows that the pose can write itself: packed floats.
+float* packed_floats(const Rows& rows) noexcept {
+  const bool aligned = reinterpret_cast<std::uintptr_t>(rows.bytes()) % alignof(float) == 0;
+  const bool plain = aligned && !rows.is_double() && rows.stride() == 3 * sizeof(float);
+  return plain ? reinterpret_cast<float*>(rows.bytes()) : nullptr;
+}
+
+// Writes the vertices of `range`. straight_normals: the pose has written the normals.
+void write_deformed(const PoseObject& object, const VertexRange& range, const PointsOut& out, bool surface,
                     bool straight_normals, const DeformReport& report) {
   const Core& core = object.pose->core();
-  const PointsOut out = read_points_out(desc);
   if (!range.whole) {
     const auto put_position = [&](std::size_t v, double* values) {
       put(surface ? report.positions[v] : object.pose->base().blended(static_cast<std::int32_t>(v)), values);
@@ -86,34 +99,31 @@ void write_deformed(const PoseObject& object, const VertexRange& range, const hf
     if (out.normals) write_range(core, range.first, range.count, 3, out.normals, put_up, put_normal);
     return;
   }
-  const auto write = [&](const auto& points, auto* to, std::uint32_t stride, IsolatedRow isolated) {
-    write_points(core, object.keeps_order, points, to, stride ? stride : 3 * sizeof *to, isolated);
-  };
-  if (desc.positions && !report.packed_positions)
-    write(report.positions, desc.positions, desc.position_stride, put_rest);
-  if (desc.positions_f64) write(report.positions, desc.positions_f64, desc.position_stride, put_rest);
-  if (desc.normals && !straight_normals) write(report.normals, desc.normals, desc.normal_stride, put_up);
+  if (out.positions && !report.packed_positions)
+    write_points(core, object.keeps_order, report.positions, out.positions, put_rest);
+  if (out.normals && !straight_normals) write_points(core, object.keeps_order, report.normals, out.normals, put_up);
 }
 
 void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info) {
   const auto pose = get<PoseObject>(handle, "pose");
   if (out_info) check_struct(out_info, "out_info");
   DeformRequest request = read_request(desc);
-  read_points_out(desc);
   const Changing changing(*pose);
   const Core& core = pose->pose->core();
-  if (desc.positions) require_float_positions(core.mesh);
   const VertexRange range = read_range(desc, core.mesh.report.vertex_count);
+  const PointsOut out = read_points_out(desc, range.count);
+  if (out.positions && !out.positions.is_double()) require_float_positions(core.mesh);
   request.surface = range.whole || request.normals || request.refine > 0 || pose->pose->has_layers();
   // The library's and the caller's vertices have the same order.
   const bool straight = range.whole && pose->keeps_order;
-  const auto packed = [](std::uint32_t stride) { return stride == 0 || stride == 3 * sizeof(float); };
-  if (straight && packed(desc.position_stride)) request.packed_positions = desc.positions;
-  const bool straight_normals = straight && desc.normals && packed(desc.normal_stride);
-  if (straight_normals) request.packed_normals = reinterpret_cast<Normal*>(desc.normals);
+  if (straight) {
+    request.packed_positions = packed_floats(out.positions);
+    request.packed_normals = reinterpret_cast<Normal*>(packed_floats(out.normals));
+  }
+  const bool straight_normals = request.packed_normals != nullptr;
   const DeformReport report = pose->pose->deform(request);
-  write_deformed(*pose, range, desc, request.surface, straight_normals, report);
-  turn_normals(core.mesh, range, desc);
+  write_deformed(*pose, range, out, request.surface, straight_normals, report);
+  turn_normals(core.mesh, range, out.normals);
   if (!out_info) return;
   hf_deform_info info{};
   info.iteration_count = report.iteration_count;
@@ -263,11 +273,11 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
 
 uint32_t hf_pose_get_handle_count(hf_pose pose) { return count_at(pose, &PoseObject::handle_count); }
 
-hf_result hf_pose_get_field(hf_pose handle, uint32_t number, float* out_values, uint32_t value_stride) {
+hf_result hf_pose_get_field(hf_pose handle, uint32_t number, const hf_array_out* out_values) {
   return guarded("hf_pose_get_field", [&] {
     const auto pose = get<PoseObject>(handle, "pose");
-    require(out_values, "out_values");
-    const Rows out(out_values, stride_of(value_stride, sizeof(float), "value_stride"));
+    const std::uint32_t vertices = pose->pose->core().mesh.report.vertex_count;
+    const Rows out = need_reals(out_values, 1, vertices, "vertices", "out_values");
     const Reading reading(*pose);
     const FieldColumn<const double> field = pose->pose->field(number);
     write_vertices(pose->pose->core(), 1, out, nullptr,
@@ -277,10 +287,10 @@ hf_result hf_pose_get_field(hf_pose handle, uint32_t number, float* out_values, 
 
 hf_result hf_deform(hf_pose pose, float* out_positions, hf_deform_info* out_info) {
   return guarded("hf_deform", [&] {
-    get<PoseObject>(pose, "pose");
+    const auto object = get<PoseObject>(pose, "pose");
     require(out_positions, "out_positions");
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
-    desc.positions = out_positions;
+    desc.positions = HF_ARRAY_OUT(out_positions, object->pose->core().mesh.report.vertex_count);
     deform(pose, desc, out_info);
   });
 }

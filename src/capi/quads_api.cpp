@@ -112,7 +112,7 @@ hf_result hf_flow_create(hf_surface surface, hf_flow* out_flow) {
 
 void hf_flow_destroy(hf_flow flow) { destroy<FlowObject>(flow); }
 
-hf_result hf_flow_trace(hf_flow handle, const hf_scalars* given, hf_streamlines* inout_lines) {
+hf_result hf_flow_trace(hf_flow handle, const hf_array* given, hf_streamlines* inout_lines) {
   return guarded("hf_flow_trace", [&] {
     const auto object = get<FlowObject>(handle, "flow");
     hf_streamlines out = read_struct(inout_lines, "inout_lines");
@@ -120,7 +120,7 @@ hf_result hf_flow_trace(hf_flow handle, const hf_scalars* given, hf_streamlines*
     const Reading reading(*object);
     const Core& core = object->tracer.core();
     const Vector<std::int32_t> seeds = read_seeds(core.mesh, out, *core.memory);
-    const Vector<double> field = read_scalars(*core.geometry, read_struct(given, "field"));
+    const Vector<double> field = read_scalars(*core.geometry, given);
     require_values(core.mesh, field);
     const StreamlineSet lines = object->tracer.trace(field, out.wanted_count, seeds);
     out.point_count = static_cast<std::uint32_t>(lines.point.size());

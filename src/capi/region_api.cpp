@@ -29,7 +29,7 @@ hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_re
   return create("hf_region_create", out_region, "out_region", [&] {
     const auto surface = mesh_surface(handle, "a region");
     const hf_region_desc desc = read_optional(given, "desc");
-    const RegionOptions options = read_region_options(desc);
+    const RegionOptions options = read_region_options(desc, surface->surface.geometry().mesh.report.vertex_count);
     return with_progress(desc.progress, [&] {
       const auto core = surface->surface.core(options.field_kind);
       return make_owner_in<RegionObject>(
@@ -118,7 +118,7 @@ hf_result hf_region_get_curve(hf_region handle, uint32_t capacity, double* out_p
 hf_result hf_region_morph(hf_region handle, const hf_morph_desc* given) {
   return guarded("hf_region_morph", [&] {
     const auto object = get<RegionObject>(handle, "region");
-    const MorphOut out = read_morph(given);
+    const MorphOut out = read_morph(given, object->region.core().mesh.report.vertex_count);
     const Reading reading(*object);
     const RegionSurface& surface = *object->region.surface();
     const RegionState& state = *object->region.state();

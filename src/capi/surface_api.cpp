@@ -16,9 +16,16 @@ extern "C" {
 
 hf_result hf_surface_create(const hf_surface_desc* given, hf_surface* out_surface) {
   return create("hf_surface_create", out_surface, "out_surface", [&] {
-    const hf_surface_desc desc = read_struct(given, "desc");
+    hf_surface_desc desc = read_struct(given, "desc");
+    hf_faces_desc polygons{};
+    if (desc.faces) {
+      polygons = read_struct(desc.faces, "faces");
+      desc.faces = &polygons;
+    }
     hf_surface_info info = read_info(desc);
     const FaceRows faces = read_faces(desc);
+    info.face_count = faces.face_count;
+    info.corner_count = faces.corner_count;
     if (faces.face_count > 0) info.triangle_count = cut_size(faces);
     check_mesh_limits(info);
     const MeshInput input = read_mesh(desc, faces);

@@ -53,8 +53,8 @@ hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_tran
     TransferOptions options = read_transfer_options(given);
     const auto from = harmonic_core(source, "a transfer", "source", 0),
                to = harmonic_core(target, "a transfer", "target", 1);
-    const Vector<Vec3> source_rest = read_rest(given.source_rest, *from),
-                       target_rest = read_rest(given.target_rest, *to);
+    const Vector<Vec3> source_rest = read_rest(given.source_rest, *from, "source_rest"),
+                       target_rest = read_rest(given.target_rest, *to, "target_rest");
     options.source_rest = {source_rest.data(), source_rest.size()};
     options.target_rest = {target_rest.data(), target_rest.size()};
     return make_owner_in<TransferObject>(to->memory, from, to, options);
@@ -155,11 +155,12 @@ hf_result hf_transfer_apply(hf_transfer handle, const hf_transfer_frame* given) 
   return guarded("hf_transfer_apply", [&] {
     const auto object = get<TransferObject>(handle, "transfer");
     const hf_transfer_frame frame = read_struct(given, "frame");
-    const FrameRows rows = read_rows(frame);
+    const FrameRows rows = read_rows(frame, object->transfer.source().mesh.report.vertex_count,
+                                     object->transfer.target().mesh.report.vertex_count);
     PairHold holds[HF_PAIR_LIMIT];
     const Span<const PairHold> held = read_holds(frame, holds);
     const Changing changing(*object);
-    if (frame.target_positions) require_float_positions(object->transfer.target().mesh);
+    if (rows.positions && !rows.positions.is_double()) require_float_positions(object->transfer.target().mesh);
     const Mesh& source = object->transfer.source().mesh;
     for (std::size_t v = 0; v < source.given_of_inner.size(); ++v) {
       const std::size_t row = static_cast<std::size_t>(source.given_of_inner[v]);

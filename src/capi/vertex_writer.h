@@ -119,21 +119,24 @@ void write_vertices(const Shape& core, std::size_t width, const Rows& out, Isola
 
 // Writes the points of all vertices. It is faster than write_vertices, because it makes no call per number. With
 // keeps_order, the welded vertices are the caller's vertices in the same order, and a plain loop suffices.
-template <class Point, class Real>
-void write_points(const Core& core, bool keeps_order, Span<const Point> points, Real* out, std::size_t stride,
-                  IsolatedRow isolated) {
-  char* bytes = reinterpret_cast<char*>(out);
+template <class Real, class Point>
+void write_points_as(const Core& core, bool keeps_order, Span<const Point> points, const Rows& out,
+                     IsolatedRow isolated) {
+  char* const bytes = out.bytes();
+  const std::size_t stride = out.stride();
   const auto write_row = [&](std::size_t v, const double x, const double y, const double z) {
     const Real row[3] = {static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z)};
     std::memcpy(bytes + v * stride, row, sizeof row);
   };
-  if (keeps_order && stride == 3 * sizeof(Real)) {
+  const bool aligned = reinterpret_cast<std::uintptr_t>(bytes) % alignof(Real) == 0;
+  if (keeps_order && aligned && stride == 3 * sizeof(Real)) {
+    Real* const numbers = reinterpret_cast<Real*>(bytes);
     constexpr std::size_t piece = points_piece;
     const std::size_t count = core.mesh.report.vertex_count;
     core.jobs->for_each(static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t p) {
       const auto* from = &points.data()->x;
       for (std::size_t i = 3 * p * piece; i < 3 * std::min(count, (p + std::size_t{1}) * piece); ++i)
-        out[i] = static_cast<Real>(from[i]);
+        numbers[i] = static_cast<Real>(from[i]);
     });
     return;
   }
@@ -148,12 +151,17 @@ void write_points(const Core& core, bool keeps_order, Span<const Point> points, 
     write_row(static_cast<std::size_t>(entry.given), values[0], values[1], values[2]);
   }
 }
+template <class Point>
+void write_points(const Core& core, bool keeps_order, Span<const Point> points, const Rows& out, IsolatedRow isolated) {
+  if (out.is_double()) return write_points_as<double>(core, keeps_order, points, out, isolated);
+  write_points_as<float>(core, keeps_order, points, out, isolated);
+}
 
 // Receives the field of a solver from the engine and writes it to the caller's array. Call check() at the end.
 class FieldWriter final : public FieldSink {
  public:
-  FieldWriter(const Core& core, void* out, bool is_double, std::size_t stride) noexcept
-      : core_(core), out_(static_cast<char*>(out)), is_double_(is_double), stride_(stride) {}
+  FieldWriter(const Core& core, const Rows& out) noexcept
+      : core_(core), out_(out.bytes()), is_double_(out.is_double()), stride_(out.stride()) {}
   void take(std::int32_t first, std::int32_t count, const double* z, const std::int32_t* row) override {
     if (is_double_) return write<double>(first, count, z, row);
     write<float>(first, count, z, row);

@@ -111,7 +111,7 @@ DeformRequest read_request(const hf_deform_desc& desc) {
   if (desc.refine_from_last && desc.refine == 0)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "refine_from_last needs steps; set refine to 1 or more");
   DeformRequest request;
-  request.normals = desc.normals != nullptr;
+  request.normals = is_given(desc.normals);
   request.iteration_count = desc.iteration_count;
   request.restart = desc.restart != 0;
   request.refine = static_cast<std::uint32_t>(desc.refine);

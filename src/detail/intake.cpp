@@ -14,14 +14,12 @@ constexpr std::uint32_t least_points = 3;
 
 }  // namespace
 
-RegionOptions read_region_options(const hf_region_desc& desc) {
+RegionOptions read_region_options(const hf_region_desc& desc, std::size_t vertex_count) {
   check_choice(desc.base, 4, "base");
-  require_zero(desc.reserved);
-  check_one(desc.positions, desc.positions_f64, "positions");
   const FieldKind kind = desc.base == HF_BASE_MEMBRANE           ? FieldKind::harmonic
                          : desc.base == HF_BASE_THIN_PLATE_GRAPH ? FieldKind::biharmonic_graph
                                                                  : FieldKind::biharmonic;
-  return {kind, rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride")};
+  return {kind, read_reals(desc.positions, 3, vertex_count, "vertices", "positions")};
 }
 
 double read_morph_weight(const hf_morph_desc& desc) {

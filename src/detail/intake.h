@@ -11,7 +11,7 @@ struct RegionOptions {
   ConstRows positions;  // null: those of the surface
 };
 // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC or HF_ERROR_TOO_SMALL (stride).
-RegionOptions read_region_options(const hf_region_desc& desc);
+RegionOptions read_region_options(const hf_region_desc& desc, std::size_t vertex_count);
 
 // Returns the weight of a morph. Throws HF_ERROR_NON_FINITE or HF_ERROR_INVALID_DESC.
 double read_morph_weight(const hf_morph_desc& desc);

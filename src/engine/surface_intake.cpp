@@ -28,9 +28,8 @@ void check_limit(std::uint32_t count, std::uint32_t limit, const char* noun, con
 }  // namespace
 
 hf_surface_desc options_of(const hf_graph_desc& desc) {
-  require_zero(desc.reserved);
   hf_surface_desc out{};
-  out.vertex_count = desc.vertex_count;
+  out.positions.count = desc.vertex_count;
   out.weld = HF_WELD_NONE;
   out.field_kind = desc.field_kind;
   out.ordering = desc.ordering;
@@ -57,8 +56,8 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   read_field_kind(desc.field_kind);
   check_choice(desc.ordering, 3, "ordering");
   require_ordering(ordering_of(desc.ordering));
-  info.vertex_count = desc.vertex_count;
-  info.triangle_count = desc.triangle_count;
+  info.vertex_count = desc.positions.count;
+  info.triangle_count = desc.triangles.count;
   info.weld = desc.weld;
   info.weld_tolerance = desc.weld_tolerance;
   info.operator_kind = desc.operator_kind;
@@ -69,8 +68,6 @@ hf_surface_info read_info(const hf_surface_desc& desc) {
   info.triangle_limit = desc.triangle_limit;
   info.memory_limit_mb = desc.memory_limit_mb;
   info.work_limit_gflop = desc.work_limit_gflop ? desc.work_limit_gflop : default_work_limit_gflop;
-  info.face_count = desc.face_count;
-  info.corner_count = desc.corner_count;
   check_allocator(desc.allocator);
   return info;
 }

@@ -1,4 +1,4 @@
-// Reads a field of the caller, which hf_scalars describes.
+// Reads a field of the caller: one value per vertex.
 #pragma once
 #include <cmath>
 
@@ -10,10 +10,8 @@
 namespace hf_inner {
 
 // Returns one value per welded vertex. Throws HF_ERROR_NON_FINITE for an infinite value; NaN stays NaN.
-inline Vector<double> read_scalars(const Geometry& shape, const hf_scalars& desc) {
-  check_one(desc.values, desc.values_f64, "values");
-  require_either(desc.values, desc.values_f64, "values and values_f64");
-  const ConstRows rows = rows_of(desc.values, desc.values_f64, 1, desc.value_stride, "value_stride");
+inline Vector<double> read_scalars(const Geometry& shape, const hf_array* given) {
+  const ConstRows rows = need_reals(given, 1, shape.mesh.report.vertex_count, "vertices", "field");
   Vector<double> field(static_cast<std::size_t>(shape.mesh.vertex_count()), shape.memory.get());
   for (std::size_t v = 0; v < field.size(); ++v) {
     const std::uint32_t vertex = static_cast<std::uint32_t>(shape.mesh.given_of_inner[v]);

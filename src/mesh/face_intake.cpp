@@ -32,7 +32,7 @@ std::uint64_t count_cut_triangles(const FaceRows& faces) {
       fail(HF_ERROR_TOO_LARGE, f, "face %u has %lld corners; at most %lld are supported", f,
            static_cast<long long>(size), static_cast<long long>(most_corners));
     if (start + size > faces.corner_count)
-      fail(HF_ERROR_OUT_OF_RANGE, f, "face %u: its last corner is entry %lld, but corner_count is %u", f,
+      fail(HF_ERROR_OUT_OF_RANGE, f, "face %u: its last corner is entry %lld, but corners.count is %u", f,
            static_cast<long long>(start + size - 1), faces.corner_count);
     triangles += static_cast<std::uint64_t>(size) - 2;
   });

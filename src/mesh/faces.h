@@ -4,7 +4,6 @@
 // operators of mesh/face_operator.h do not depend on it. Cost: O(corners).
 #pragma once
 #include <cstdint>
-#include <cstring>
 
 #include "base/memory.h"
 #include "base/span.h"
@@ -15,10 +14,7 @@ namespace hf_inner {
 // (the faces follow one another), from one of starts (n + 1 offsets), or from one of each.
 class FaceRows {
  public:
-  const std::uint32_t* starts = nullptr;
-  const std::uint32_t* sizes = nullptr;
-  const std::uint32_t* corners = nullptr;
-  std::size_t face_stride = sizeof(std::uint32_t), corner_stride = sizeof(std::uint32_t);
+  IndexRows starts, sizes, corners;  // rows of one
   std::uint32_t face_count = 0, corner_count = 0;
 
   // Calls visit(face, start, size) for every face, in order. Sizes of descending offsets are below 0.
@@ -26,23 +22,14 @@ class FaceRows {
   void each(Visit&& visit) const {
     std::int64_t next = 0;
     for (std::uint32_t f = 0; f < face_count; ++f) {
-      const std::int64_t start = starts ? entry(starts, f, face_stride) : next;
+      const std::int64_t start = starts ? starts.get(f, 0) : next;
       const std::int64_t size =
-          sizes ? std::int64_t{entry(sizes, f, face_stride)} : entry(starts, f + std::size_t{1}, face_stride) - start;
+          sizes ? std::int64_t{sizes.get(f, 0)} : std::int64_t{starts.get(f + std::size_t{1}, 0)} - start;
       visit(f, start, size);
       next = start + size;
     }
   }
-  std::uint32_t corner(std::int64_t c) const noexcept {
-    return entry(corners, static_cast<std::size_t>(c), corner_stride);
-  }
-
- private:
-  static std::uint32_t entry(const std::uint32_t* list, std::size_t row, std::size_t stride) noexcept {
-    std::uint32_t v;
-    std::memcpy(&v, reinterpret_cast<const char*>(list) + row * stride, sizeof v);
-    return v;
-  }
+  std::uint32_t corner(std::int64_t c) const noexcept { return corners.get(static_cast<std::size_t>(c), 0); }
 };
 
 // The usable faces of a mesh. Empty where the caller gave triangles.

@@ -32,7 +32,7 @@ struct Arc {
 
 void check_counts(const GraphInput& input) {
   if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
-  if (input.edge_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "edge_count is 0");
+  if (input.edge_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "edges.count is 0");
   if (input.vertex_count > most_elements)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, most_elements);
   if (input.edge_count > most_elements)
@@ -42,12 +42,12 @@ void check_counts(const GraphInput& input) {
 void check_edges(const GraphInput& input) {
   for (std::uint32_t e = 0; e < input.edge_count; ++e) {
     for (std::size_t k = 0; k < 2; ++k) {
-      const std::uint32_t v = input.edges[std::size_t{2} * e + k];
+      const std::uint32_t v = input.edges.get(e, k);
       if (v >= input.vertex_count)
         fail(HF_ERROR_OUT_OF_RANGE, e, "edge %u: end %zu is vertex %u, but there are %u vertices", e, k, v,
              input.vertex_count);
     }
-    const double w = input.weights[e];
+    const double w = input.weights.get(e, 0);
     if (!std::isfinite(w)) fail(HF_ERROR_NON_FINITE, e, "edge %u: the weight is not a finite number", e);
     if (std::fabs(w) > largest_weight)
       fail(HF_ERROR_TOO_LARGE, e, "edge %u: the weight is %g; scale the weights below 1e100", e, w);
@@ -58,7 +58,7 @@ void check_edges(const GraphInput& input) {
 
 void check_masses(const GraphInput& input) {
   for (std::uint32_t v = 0; input.masses && v < input.vertex_count; ++v) {
-    const double mass = input.masses[v];
+    const double mass = input.masses.get(v, 0);
     if (!std::isfinite(mass)) fail(HF_ERROR_NON_FINITE, v, "vertex %u: the mass is not a finite number", v);
     if (!(mass > 0)) fail(HF_ERROR_INVALID_ARGUMENT, v, "vertex %u: the mass is %g; it must be above 0", v, mass);
     if (mass > largest_weight)
@@ -72,8 +72,8 @@ void sum_edges(const GraphInput& input, Memory& memory, WeightedGraph& graph) {
   Vector<Index> start(std::size_t{input.vertex_count} + 1, 0, &memory);
   const auto each_edge = [&](auto&& work) {
     for (std::size_t e = 0; e < input.edge_count; ++e) {
-      const std::uint32_t a = input.edges[2 * e], b = input.edges[2 * e + 1];
-      if (a != b) work(std::min(a, b), Arc{static_cast<Index>(std::max(a, b)), input.weights[e]});
+      const std::uint32_t a = input.edges.get(e, 0), b = input.edges.get(e, 1);
+      if (a != b) work(std::min(a, b), Arc{static_cast<Index>(std::max(a, b)), input.weights.get(e, 0)});
     }
   };
   each_edge([&](std::uint32_t from, const Arc&) { ++start[std::size_t{from} + 1]; });
@@ -114,7 +114,7 @@ void number_vertices(const GraphInput& input, Memory& memory, WeightedGraph& gra
     }
     mesh.inner_of_given[v] = static_cast<Index>(mesh.given_of_inner.size());
     mesh.given_of_inner.push_back(static_cast<Index>(v));
-    graph.masses.push_back(input.masses ? input.masses[v] : 1.0);
+    graph.masses.push_back(input.masses ? input.masses.get(v, 0) : 1.0);
   }
   for (Index& v : graph.topology.edges) v = mesh.inner_of_given[at(v)];
   mesh.positions.resize(mesh.given_of_inner.size());
@@ -189,16 +189,13 @@ void scale_weights(Memory& memory, WeightedGraph& graph) {
 
 GraphInput read_graph(const hf_graph_desc& desc) {
   check_flag(desc.allow_negative, "allow_negative");
-  if (desc.edge_count > 0) {
-    require(desc.edges, "edges");
-    require(desc.weights, "weights");
-  }
   GraphInput input;
   input.vertex_count = desc.vertex_count;
-  input.edge_count = desc.edge_count;
-  input.edges = desc.edges;
-  input.weights = desc.weights;
-  input.masses = desc.masses;
+  input.edge_count = desc.edges.count;
+  input.edges = read_indices(desc.edges, HF_TYPE_UINT16, 2, "edges");
+  if (input.edges && !is_given(desc.weights)) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "weights.data is NULL");
+  input.weights = read_reals(desc.weights, 1, input.edge_count, "edges", "weights");
+  input.masses = read_reals(desc.masses, 1, input.vertex_count, "vertices", "masses");
   input.allow_negative = desc.allow_negative == 1;
   return input;
 }

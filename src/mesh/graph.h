@@ -15,9 +15,9 @@ namespace hf_inner {
 struct GraphInput {
   std::uint32_t vertex_count = 0;
   std::uint32_t edge_count = 0;
-  const std::uint32_t* edges = nullptr;  // edge_count x 2
-  const double* weights = nullptr;       // edge_count
-  const double* masses = nullptr;        // vertex_count, or null for ones
+  IndexRows edges;    // edge_count x 2
+  ConstRows weights;  // edge_count
+  ConstRows masses;   // vertex_count, or null for ones
   bool allow_negative = false;
 };
 

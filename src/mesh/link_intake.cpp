@@ -101,10 +101,4 @@ void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out) {
   options.list = out.list;
 }
 
-ConstRows read_posed(const hf_gaps_desc& desc) {
-  check_one(desc.positions, desc.positions_f64, "positions");
-  require_either(desc.positions, desc.positions_f64, "positions and positions_f64");
-  return rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
-}
-
 }  // namespace hf_inner

@@ -18,7 +18,4 @@ struct LinksIn {
 // Throws HF_ERROR_OUT_OF_RANGE, _NON_FINITE and _INVALID_ARGUMENT as hf_surface_create says.
 void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out);
 
-// Returns the posed positions. Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NULL_POINTER or HF_ERROR_TOO_SMALL (stride).
-ConstRows read_posed(const hf_gaps_desc& desc);
-
 }  // namespace hf_inner

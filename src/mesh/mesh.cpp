@@ -32,9 +32,9 @@ constexpr std::size_t report_piece = 65536;
 
 // Returns the number of triangles, of faces those of their cut.
 std::uint32_t check_sizes(const MeshInput& input) {
-  if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "vertex_count is 0");
+  if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "there are no vertices: positions.count is 0");
   if (input.triangle_count == 0 && input.faces.face_count == 0)
-    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "triangle_count is 0");
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "there are no triangles: triangles.count is 0");
   if (input.vertex_count > most_elements)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u vertices; at most %u are supported", input.vertex_count, most_elements);
   const std::uint64_t triangles =

@@ -43,38 +43,12 @@ using Triangle = std::int32_t[3];
 
 enum class Weld : std::int32_t { exact = 0, none = 1, tolerance = 2 };
 
-// The corner numbers of the caller's triangles: 16 or 32 bits wide, in rows of three, at a byte stride.
-class CornerRows {
- public:
-  CornerRows() noexcept = default;
-  CornerRows(const std::uint32_t* corners, std::size_t stride = 3 * sizeof(std::uint32_t)) noexcept
-      : data_(reinterpret_cast<const char*>(corners)), stride_(stride) {}
-  CornerRows(const std::uint16_t* corners, std::size_t stride) noexcept
-      : data_(reinterpret_cast<const char*>(corners)), stride_(stride), narrow_(true) {}
-  std::uint32_t get(std::size_t triangle, std::size_t corner) const noexcept {
-    const char* row = data_ + triangle * stride_;
-    if (narrow_) {
-      std::uint16_t v;
-      std::memcpy(&v, row + corner * sizeof v, sizeof v);
-      return v;
-    }
-    std::uint32_t v;
-    std::memcpy(&v, row + corner * sizeof v, sizeof v);
-    return v;
-  }
-
- private:
-  const char* data_ = nullptr;
-  std::size_t stride_ = 0;
-  bool narrow_ = false;
-};
-
 struct MeshInput {
   std::uint32_t vertex_count = 0;
   std::uint32_t triangle_count = 0;
-  ConstRows positions;   // vertex_count x 3
-  CornerRows triangles;  // triangle_count x 3
-  FaceRows faces;        // instead of triangles, if it has any; triangle_count is then 0
+  ConstRows positions;  // vertex_count x 3
+  IndexRows triangles;  // triangle_count x 3
+  FaceRows faces;       // instead of triangles, if it has any; triangle_count is then 0
   Weld weld = Weld::exact;
   double weld_tolerance = 0;
 };

@@ -29,22 +29,20 @@ void check_width(const MeshInput& input, std::uint32_t most, const char* name, c
 
 FaceRows read_faces(const hf_surface_desc& desc) {
   FaceRows faces;
-  if (desc.face_count == 0) {
-    if (desc.face_starts || desc.face_sizes || desc.corners || desc.corner_count)
-      fail(HF_ERROR_EMPTY, HF_NO_INDEX, "face_count is 0, but face_starts, face_sizes, corners or corner_count is set");
-    return faces;
-  }
-  if (desc.triangles || desc.triangles_u16 || desc.triangle_count)
+  if (!desc.faces) return faces;
+  const hf_faces_desc& given = *desc.faces;
+  require_zero(given.reserved);
+  if (is_given(desc.triangles))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "triangles and faces are both set; set one");
-  require_either(desc.face_starts, desc.face_sizes, "face_starts and face_sizes");
-  require(desc.corners, "corners");
-  faces.face_count = desc.face_count;
-  faces.corner_count = desc.corner_count;
-  faces.starts = desc.face_starts;
-  faces.sizes = desc.face_sizes;
-  faces.corners = desc.corners;
-  faces.face_stride = stride_of(desc.face_stride, sizeof(std::uint32_t), "face_stride");
-  faces.corner_stride = stride_of(desc.corner_stride, sizeof(std::uint32_t), "corner_stride");
+  if (!is_given(given.corners)) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "faces->corners.data is NULL");
+  if (!is_given(given.starts) && !is_given(given.sizes))
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "faces->starts.data and faces->sizes.data are both NULL");
+  faces.corners = read_indices(given.corners, HF_TYPE_PLAIN, 1, "faces->corners");
+  faces.starts = read_indices(given.starts, HF_TYPE_PLAIN, 1, "faces->starts");
+  faces.sizes = read_indices(given.sizes, HF_TYPE_PLAIN, 1, "faces->sizes");
+  faces.corner_count = given.corners.count;
+  if (faces.starts && faces.sizes) check_rows(given.starts, given.sizes.count, "faces->sizes", "faces->starts");
+  faces.face_count = faces.sizes ? given.sizes.count : given.starts.count - 1;  // the last offset is an end
   return faces;
 }
 
@@ -54,27 +52,20 @@ std::uint32_t cut_size(const FaceRows& faces) {
 }
 
 MeshInput read_mesh(const hf_surface_desc& desc, const FaceRows& faces) {
-  check_one(desc.positions, desc.positions_f64, "positions");
-  // An empty mesh is refused as such, by Mesh::make.
-  if (desc.vertex_count > 0) require_either(desc.positions, desc.positions_f64, "positions and positions_f64");
-  if (desc.triangles && desc.triangles_u16)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "triangles and triangles_u16 are both set; set one");
-  if (desc.triangle_count > 0) require_either(desc.triangles, desc.triangles_u16, "triangles and triangles_u16");
+  const ConstRows positions = read_reals(desc.positions, 3, "positions");
+  const IndexRows triangles = read_indices(desc.triangles, HF_TYPE_UINT16, 3, "triangles");
   MeshInput input;
   input.faces = faces;
-  input.vertex_count = desc.vertex_count;
-  input.triangle_count = desc.triangle_count;
-  input.positions = rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride");
-  if (desc.triangles)
-    input.triangles = {desc.triangles, stride_of(desc.triangle_stride, 3 * sizeof(std::uint32_t), "triangle_stride")};
-  else
-    input.triangles = {desc.triangles_u16,
-                       stride_of(desc.triangle_stride, 3 * sizeof(std::uint16_t), "triangle_stride")};
-  const std::uint32_t stride = desc.triangle_stride;
-  if (desc.triangles_u16 && desc.vertex_count > 0 && (stride == 0 || stride == 3 * sizeof(std::uint16_t)))
-    check_width(input, (desc.vertex_count - 1) >> 16, "triangles_u16", "give 32-bit indices as triangles");
-  if (desc.triangles && (stride == 0 || stride == 3 * sizeof(std::uint32_t)))
-    check_width(input, 0, "triangles", "64-bit indices are not taken, copy them to 32 bits");
+  input.vertex_count = desc.positions.count;
+  input.triangle_count = desc.triangles.count;
+  input.positions = positions;
+  input.triangles = triangles;
+  const bool narrow = desc.triangles.type == HF_TYPE_UINT16;
+  const std::uint32_t stride = desc.triangles.stride;
+  const bool packed = stride == 0 || stride == 3 * (narrow ? sizeof(std::uint16_t) : sizeof(std::uint32_t));
+  if (narrow && packed && input.vertex_count > 0)
+    check_width(input, (input.vertex_count - 1) >> 16, "triangles", "its type is HF_TYPE_UINT16, give 0 for 32 bits");
+  if (!narrow && packed) check_width(input, 0, "triangles", "64-bit indices are not taken, copy them to 32 bits");
   input.weld = static_cast<Weld>(desc.weld);
   input.weld_tolerance = desc.weld_tolerance;
   return input;

@@ -104,11 +104,8 @@ std::uint32_t given_of(const Mesh& mesh, Index t, bool along) noexcept {
 }  // namespace
 
 PickTarget read_target(const Mesh& mesh, const hf_pick_desc& desc) {
-  require_zero(desc.reserved);
   check_flag(desc.front_only, "front_only");
-  check_one(desc.positions, desc.positions_f64, "positions");
-  return {mesh, rows_of(desc.positions, desc.positions_f64, 3, desc.position_stride, "position_stride"),
-          desc.front_only == 1};
+  return {mesh, read_reals(desc.positions, 3, mesh.report.vertex_count, "vertices", "positions"), desc.front_only == 1};
 }
 
 Vec3 read_direction(const double* direction) {

@@ -10,7 +10,7 @@ std::shared_ptr<const Core> core_like(const Core& whole, Span<const Vec3> positi
   input.vertex_count = static_cast<std::uint32_t>(position.size());
   input.triangle_count = static_cast<std::uint32_t>(corners.size() / 3);
   input.positions = {&position[0].x, sizeof(Vec3)};
-  input.triangles = CornerRows(corners.data());
+  input.triangles = IndexRows(corners.data(), 3);
   input.weld = Weld::none;
   CoreOptions options;
   options.operator_kind = whole.geometry->operator_kind;

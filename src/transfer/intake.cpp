@@ -32,12 +32,13 @@ Dials read_dials(const hf_transfer_dials& desc) {
   return out;
 }
 
-Vector<Vec3> read_rest(const float* given, const Core& core) {
+Vector<Vec3> read_rest(const hf_array& given, const Core& core, const char* name) {
   Vector<Vec3> out(core.memory.get());
-  if (!given) return out;
+  const ConstRows rows = read_reals(given, 3, core.mesh.report.vertex_count, "vertices", name);
+  if (!rows) return out;
   for (const std::int32_t v : core.mesh.given_of_inner) {
-    const float* row = given + std::size_t{3} * static_cast<std::size_t>(v);
-    out.push_back({static_cast<double>(row[0]), static_cast<double>(row[1]), static_cast<double>(row[2])});
+    const std::size_t row = static_cast<std::size_t>(v);
+    out.push_back({rows.get(row, 0), rows.get(row, 1), rows.get(row, 2)});
   }
   return out;
 }
@@ -58,14 +59,10 @@ PairsInput read_pairs(const Transfer& transfer, const hf_pairs_desc& desc, Memor
   return input;
 }
 
-FrameRows read_rows(const hf_transfer_frame& frame) {
-  check_one(frame.source_positions, frame.source_positions_f64, "source_positions");
-  require_either(frame.source_positions, frame.source_positions_f64, "source_positions and source_positions_f64");
-  check_one(frame.target_positions, frame.target_positions_f64, "target_positions");
-  require_zero(frame.reserved);
-  return {rows_of(frame.source_positions, frame.source_positions_f64, 3, frame.source_stride, "source_stride"),
-          rows_of(frame.target_positions, frame.target_positions_f64, 3, frame.target_stride, "target_stride"),
-          rows_of(frame.target_normals, nullptr, 3, frame.normal_stride, "normal_stride")};
+FrameRows read_rows(const hf_transfer_frame& frame, std::size_t source_vertices, std::size_t target_vertices) {
+  return {need_reals(&frame.source_positions, 3, source_vertices, "vertices of the source", "source_positions"),
+          write_reals(frame.target_positions, 3, target_vertices, "vertices of the target", "target_positions"),
+          write_reals(frame.target_normals, 3, target_vertices, "vertices of the target", "target_normals")};
 }
 
 Span<const PairHold> read_holds(const hf_transfer_frame& frame, PairHold* room) {

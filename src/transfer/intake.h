@@ -8,8 +8,8 @@ namespace hf_inner {
 // The constructor of Transfer checks the options.
 TransferOptions read_transfer_options(const hf_transfer_desc& desc);
 
-// Returns a rest pose by inner vertex; empty where none is given. given: float[vertex_count][3] of the core's mesh.
-Vector<Vec3> read_rest(const float* given, const Core& core);
+// Returns a rest pose by inner vertex; empty where none is given. name: of the array, for errors.
+Vector<Vec3> read_rest(const hf_array& given, const Core& core, const char* name);
 
 Dials read_dials(const hf_transfer_dials& desc);  // Transfer::set_dials checks them
 
@@ -30,7 +30,7 @@ struct FrameRows {
   Rows positions, normals;
 };
 // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC or HF_ERROR_TOO_SMALL (stride).
-FrameRows read_rows(const hf_transfer_frame& frame);
+FrameRows read_rows(const hf_transfer_frame& frame, std::size_t source_vertices, std::size_t target_vertices);
 
 // Returns the holds of a frame, which it writes to `room`: HF_PAIR_LIMIT entries. Throws HF_ERROR_TOO_LARGE or
 // HF_ERROR_NULL_POINTER.

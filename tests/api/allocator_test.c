@@ -1,5 +1,6 @@
-/* The host's allocator: every byte through it, every byte back, none while a pose is dragged, and no call from inside it.
- * Refused allocations: reliability_refuse refuses each of them, reliability_unchanged looks at the objects after it. */
+/* The host's allocator: every byte through it, every byte back, none while a pose is dragged, and no call from inside
+ * it. Refused allocations: reliability_refuse refuses each of them, reliability_unchanged looks at the objects after
+ * it. */
 #include "api_support.h"
 
 enum { AROUND = 8, RINGS = 10, VERTICES = AROUND * RINGS };
@@ -42,8 +43,8 @@ static void dragging_allocates_nothing(void** state) {
   create_world(&world);
   float normals[3 * VERTICES];
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
-  desc.positions = world.posed;
-  desc.normals = normals;
+  desc.positions = ROWS_OUT(world.posed);
+  desc.normals = ROWS_OUT(normals);
   assert_ok(hf_pose_deform(world.pose, &desc, NULL));
   world.memory.calls = 0;
   for (int i = 0; i < 20; ++i) {
@@ -59,13 +60,13 @@ static void repeated_fields_hold_no_more_memory(void** state) {
   (void)state;
   World world;
   create_world(&world);
-  assert_ok(hf_solver_solve_f64(world.solver, world.field, 0, NULL));
+  assert_ok(hf_solver_solve(world.solver, OUT(world.field), NULL));
   const size_t blocks = world.memory.live_blocks;
   for (int i = 0; i < 200; ++i) {
     const uint32_t site = add_site(world.solver, 40, i);
-    assert_ok(hf_solver_solve_f64(world.solver, world.field, 0, NULL));
+    assert_ok(hf_solver_solve(world.solver, OUT(world.field), NULL));
     assert_ok(hf_remove_sites(world.solver, 1, &site));
-    assert_ok(hf_solver_solve_f64(world.solver, world.field, 0, NULL));
+    assert_ok(hf_solver_solve(world.solver, OUT(world.field), NULL));
   }
   assert_true(world.memory.live_blocks <= blocks + 8);
   destroy_world(&world);

@@ -4,11 +4,6 @@
 
 #define assert_near(a, b, tolerance) assert_true(fabs((a) - (b)) <= (tolerance))
 
-static hf_scalars scalars_f64(const double* values) {
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = values;
-  return field;
-}
 static hf_isolines no_lines(void) {
   hf_isolines lines = HF_INIT(hf_isolines);
   return lines;
@@ -20,13 +15,13 @@ typedef struct Tube {
   Surface mesh;
   hf_surface surface;
   double height[COUNT];
-  hf_scalars field;
+  hf_array field;
 } Tube;
 static void tube_create(Tube* tube) {
   tube->mesh = surface_tube(AROUND, RINGS);
   tube->surface = surface_on(&tube->mesh);
   for (uint32_t v = 0; v < COUNT; ++v) tube->height[v] = (double)tube->mesh.positions[3 * v + 1];
-  tube->field = scalars_f64(tube->height);
+  tube->field = HF_ARRAY(tube->height, COUNT);
 }
 static void tube_destroy(Tube* tube) {
   hf_surface_destroy(tube->surface);
@@ -96,7 +91,7 @@ static void levels_of_equal_area_and_length_are_even_on_a_tube(void** state) {
   tube_create(&tube);
   double squared[COUNT], levels[4];
   for (int v = 0; v < COUNT; ++v) squared[v] = tube.height[v] * tube.height[v];
-  const hf_scalars field = scalars_f64(squared);
+  const hf_array field = HF_ARRAY(squared, COUNT);
   for (int32_t spacing = HF_LEVELS_AREA; spacing <= HF_LEVELS_LENGTH; ++spacing) {
     assert_ok(hf_surface_space_levels(tube.surface, &field, spacing, 4, levels));
     for (int k = 0; k < 4; ++k) assert_near(sqrt(levels[k]), 4.0 * (k + 1), 0.05);
@@ -144,8 +139,8 @@ static void distances_are_along_the_surface_and_minus_one_where_nothing_is_reach
     float distance[CUT_VERTICES];
     double precise[CUT_VERTICES];
     const uint32_t sources[2] = {CUT_LEFT, CUT_LEFT};
-    assert_ok(hf_geodesics_solve(geodesics, 2, sources, distance, 0));
-    assert_ok(hf_geodesics_solve_f64(geodesics, 1, sources, precise, 0));
+    assert_ok(hf_geodesics_solve(geodesics, 2, sources, OUT(distance)));
+    assert_ok(hf_geodesics_solve(geodesics, 1, sources, OUT(precise)));
     assert_true(distance[CUT_LEFT] == 0.0f);
     assert_true(distance[CUT_SEAM_LEFT] == distance[CUT_SEAM_RIGHT]);
     assert_true(distance[CUT_ISLAND] == -1.0f && distance[CUT_ISOLATED] == -1.0f);
@@ -228,7 +223,7 @@ static void a_surface_of_another_kind_gives_the_same_distances_and_tips(void** s
     const uint32_t source = 5;
     hf_geodesics geodesics = NULL;
     assert_ok(hf_geodesics_create(surfaces[i], NULL, &geodesics));
-    assert_ok(hf_geodesics_solve_f64(geodesics, 1, &source, distances[i], 0));
+    assert_ok(hf_geodesics_solve(geodesics, 1, &source, OUT(distances[i])));
     assert_ok(hf_surface_find_extremities(surfaces[i], NULL, 8, tips[i], &counts[i]));
     hf_geodesics_destroy(geodesics);
   }
@@ -251,7 +246,7 @@ static void paths_and_maps_agree_with_distances(void** state) {
   static double distance[COUNT], map[COUNT][2], positions[COUNT][3], parameters[COUNT], frame[6];
   static uint32_t edges[COUNT][2];
   const uint32_t source = 5;
-  assert_ok(hf_geodesics_solve_f64(geodesics, 1, &source, distance, 0));
+  assert_ok(hf_geodesics_solve(geodesics, 1, &source, OUT(distance)));
   hf_surface_point from = {{5, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
   assert_ok(hf_geodesics_get_map(geodesics, &from, 0, &map[0][0], frame));
   assert_near(frame[0] * frame[3] + frame[1] * frame[4] + frame[2] * frame[5], 0, 1e-12);
@@ -338,14 +333,13 @@ static void bad_input_is_named(void** state) {
   hf_critical_info info = HF_INIT(hf_critical_info);
   hf_surface s = tube.surface;
 
-  hf_scalars f = tube.field;
-  f.values = floats;
-  BAD("both kinds of values", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &f, 0, 2, levels));
-  f.values = NULL;
-  f.values_f64 = NULL;
+  hf_array f = tube.field;
+  f.count = COUNT + 1;
+  BAD("a value too many", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_surface_space_levels(s, &f, 0, 2, levels));
+  f.data = NULL;
   BAD("no values", HF_ERROR_NULL_POINTER, NO_INDEX, hf_surface_trace_isolines(s, &f, 2, levels, &lines));
   f = tube.field;
-  f.value_stride = 4;
+  f.stride = 4;
   BAD("stride 4 for doubles", HF_ERROR_TOO_SMALL, NO_INDEX, hf_surface_find_critical_points(s, &f, 0, NULL, &info));
   tube.height[17] = HUGE_VAL;
   BAD("an infinite value", HF_ERROR_NON_FINITE, 17, hf_surface_space_levels(s, &tube.field, 0, 2, levels));
@@ -389,14 +383,14 @@ static void bad_input_is_named(void** state) {
   g.method = 0;
   BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_create(s, NULL, NULL));
   uint32_t source[2] = {0, COUNT};
-  BAD("no source", HF_ERROR_EMPTY, NO_INDEX, hf_geodesics_solve(geodesics, 0, source, floats, 0));
-  BAD("sources NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_solve(geodesics, 1, NULL, floats, 0));
-  BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_solve_f64(geodesics, 1, source, NULL, 0));
-  BAD("source out of range", HF_ERROR_OUT_OF_RANGE, 1, hf_geodesics_solve_f64(geodesics, 2, source, out, 0));
-  BAD("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, hf_geodesics_solve(geodesics, 1, source, floats, 3));
-  BAD("too many", HF_ERROR_TOO_LARGE, NO_INDEX, hf_geodesics_solve(geodesics, UINT32_MAX, source, floats, 0));
+  BAD("no source", HF_ERROR_EMPTY, NO_INDEX, hf_geodesics_solve(geodesics, 0, source, OUT(floats)));
+  BAD("sources NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_solve(geodesics, 1, NULL, OUT(floats)));
+  BAD("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_geodesics_solve(geodesics, 1, source, NULL));
+  BAD("source out of range", HF_ERROR_OUT_OF_RANGE, 1, hf_geodesics_solve(geodesics, 2, source, OUT(out)));
+  BAD("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, hf_geodesics_solve(geodesics, 1, source, OUT_ROWS(floats, 3)));
+  BAD("too many", HF_ERROR_TOO_LARGE, NO_INDEX, hf_geodesics_solve(geodesics, UINT32_MAX, source, OUT(floats)));
   source[0] = CUT_ISOLATED;
-  BAD("isolated", HF_ERROR_INVALID_ARGUMENT, 0, hf_geodesics_solve(of_other, 1, source, floats, 0));
+  BAD("isolated", HF_ERROR_INVALID_ARGUMENT, 0, hf_geodesics_solve(of_other, 1, source, OUT(floats)));
 
   hf_extremities_desc e;
   uint32_t count = 0;

@@ -99,10 +99,8 @@ void surface_free(Surface* surface) {
 
 Options options_of(const Surface* surface) {
   Options o = {HF_INIT(hf_surface_desc), HF_INIT(hf_solver_desc)};
-  o.surface.vertex_count = surface->vertex_count;
-  o.surface.triangle_count = surface->triangle_count;
-  o.surface.positions = surface->positions;
-  o.surface.triangles = surface->triangles;
+  o.surface.positions = HF_ARRAY(surface->positions, surface->vertex_count);
+  o.surface.triangles = HF_ARRAY(surface->triangles, surface->triangle_count);
   return o;
 }
 
@@ -167,7 +165,7 @@ uint32_t add_site(hf_solver solver, uint32_t vertex, double value) {
 
 double* field_of(hf_solver solver, uint32_t vertex_count) {
   double* field = checked_malloc(sizeof(double) * vertex_count);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(field), NULL));
   return field;
 }
 

@@ -17,6 +17,7 @@
 /* clang-format on */
 
 #include "hf/hf.h"
+#include "support/arrays.h"
 #include "support/peers.h"
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))

@@ -20,10 +20,9 @@ static void good_input(void) {
   for (size_t v = 0; v < VERTICES; ++v) masses[v] = 1 + (double)v;
   desc = HF_INIT(hf_graph_desc);
   desc.vertex_count = VERTICES;
-  desc.edge_count = EDGES;
-  desc.edges = edges;
-  desc.weights = weights;
-  desc.masses = masses;
+  desc.edges = HF_ARRAY(edges, EDGES);
+  desc.weights = HF_ARRAY(weights, EDGES);
+  desc.masses = HF_ARRAY(masses, VERTICES);
   desc.allocator = counting_hooks(&counter);
   out = scene.sheet; /* must become NULL */
 }
@@ -51,16 +50,18 @@ static void hf_surface_create_graph_refuses_bad_graphs(void** state) {
   out = NULL;
   assert_true(nothing_exists());
 
-  CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, desc.vertex_count = 0);
-  CREATE("no edges", HF_ERROR_EMPTY, NO_INDEX, desc.edge_count = 0);
-  CREATE("no edge array", HF_ERROR_NULL_POINTER, NO_INDEX, desc.edges = NULL);
-  CREATE("no weights", HF_ERROR_NULL_POINTER, NO_INDEX, desc.weights = NULL);
+  CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, (desc.vertex_count = 0, desc.masses.count = 0));
+  CREATE("no edges", HF_ERROR_EMPTY, NO_INDEX, (desc.edges.count = 0, desc.weights.count = 0));
+  CREATE("no edge array", HF_ERROR_NULL_POINTER, NO_INDEX, desc.edges.data = NULL);
+  CREATE("no weights", HF_ERROR_NULL_POINTER, NO_INDEX, desc.weights.data = NULL);
   CREATE("self loops alone", HF_ERROR_EMPTY, NO_INDEX, no_edge_is_left());
   CREATE("weights of 0 alone", HF_ERROR_EMPTY, NO_INDEX, no_weight_is_left());
   CREATE("end = vertex_count", HF_ERROR_OUT_OF_RANGE, 0, edges[0] = VERTICES);
   CREATE("end UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 8, edges[17] = UINT32_MAX);
   CREATE("end 2^31", HF_ERROR_OUT_OF_RANGE, 3, edges[6] = 0x80000000u);
-  CREATE("vertex_count one too small", HF_ERROR_OUT_OF_RANGE, 6, desc.vertex_count = 6);
+  CREATE("vertex_count one too small", HF_ERROR_OUT_OF_RANGE, 6, (desc.vertex_count = 6, desc.masses.count = 6));
+  CREATE("a mass too few", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.masses.count -= 1);
+  CREATE("a weight too few", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.weights.count -= 1);
   CREATE("weight NaN", HF_ERROR_NON_FINITE, 2, weights[2] = (double)NAN);
   CREATE("weight infinite", HF_ERROR_NON_FINITE, 0, weights[0] = HUGE_VAL);
   CREATE("weight minus infinity", HF_ERROR_NON_FINITE, 8, weights[8] = -HUGE_VAL);
@@ -78,12 +79,12 @@ static void hf_surface_create_graph_refuses_bad_graphs(void** state) {
 
   CREATE("2^32 - 1 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_count = UINT32_MAX);
   CREATE("2^31 vertices, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
-         (desc.vertex_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
-  CREATE("2^32 - 1 edges", HF_ERROR_TOO_LARGE, NO_INDEX, desc.edge_count = UINT32_MAX);
+         (desc.vertex_count = desc.masses.count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
+  CREATE("2^32 - 1 edges", HF_ERROR_TOO_LARGE, NO_INDEX, desc.edges.count = desc.weights.count = UINT32_MAX);
   CREATE("2^31 edges, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
-         (desc.edge_count = 0x80000000u, desc.edge_limit = UINT32_MAX));
+         (desc.edges.count = desc.weights.count = 0x80000000u, desc.edge_limit = UINT32_MAX));
   CREATE("more edges than sixteen per vertex of the limit", HF_ERROR_TOO_LARGE, NO_INDEX,
-         (desc.vertex_limit = VERTICES, desc.edge_count = 16 * (VERTICES + 1)));
+         (desc.vertex_limit = VERTICES, desc.edges.count = desc.weights.count = 16 * (VERTICES + 1)));
   CREATE("a vertex more than the limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_limit = VERTICES - 1);
   CREATE("an edge more than the limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.edge_limit = EDGES - 1);
   scene_destroy(&scene);
@@ -104,7 +105,6 @@ static void hf_surface_create_graph_refuses_bad_options(void** state) {
   CREATE("field kind 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.field_kind = 3);
   CREATE("ordering 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.ordering = 3);
   CREATE("257 threads", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.thread_count = 257);
-  CREATE("reserved 1", HF_ERROR_INVALID_DESC, NO_INDEX, desc.reserved = 1);
   CREATE("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, desc.struct_size = 0);
   CREATE("allocator without release", HF_ERROR_NULL_POINTER, NO_INDEX, desc.allocator.release = NULL);
   CREATE("allocator that refuses at once", HF_ERROR_OUT_OF_MEMORY, NO_INDEX, counter.refuse_at = counter.calls + 1);
@@ -155,7 +155,7 @@ static double before[VERTICES];
 
 static int field_unchanged(void) {
   double now[VERTICES];
-  return hf_solver_solve_f64(solver, now, 0, NULL) == HF_OK && same_bits(now, before, sizeof now) &&
+  return hf_solver_solve(solver, OUT(now), NULL) == HF_OK && same_bits(now, before, sizeof now) &&
          hf_solver_get_site_count(vectors) == 1;
 }
 static void nothing(void) {}
@@ -185,7 +185,7 @@ static void make_graph_solvers(void) {
   add_site(solver, 0, 1);
   add_site(solver, 2, -1);
   assert_ok(hf_solver_add_site(vectors, 1, up, NULL));
-  assert_ok(hf_solver_solve_f64(solver, before, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(before), NULL));
 }
 
 static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
@@ -194,14 +194,14 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   make_graph_solvers();
   const double point[3] = {0, 0, 0}, ray[3] = {0, 0, 1}, level = 0.5;
   hf_hit hit = HF_INIT(hf_hit);
-  hf_scalars scalars = HF_INIT(hf_scalars);
+  const hf_array scalars = HF_ARRAY(before, VERTICES);
   hf_isolines lines = HF_INIT(hf_isolines);
   hf_critical_info critical = HF_INIT(hf_critical_info);
   uint32_t number = 0;
   double levels[2], distance, xyz[3 * VERTICES];
   float xyz_f32[3 * VERTICES];
   hf_surface relinked = NULL;
-  hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
+  const hf_array posed = HF_ARRAY(xyz, VERTICES);
   hf_gaps_info gaps = HF_INIT(hf_gaps_info);
   hf_pose pose = NULL;
   hf_region region = NULL;
@@ -218,13 +218,11 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   hf_weights_out skin = HF_INIT(hf_weights_out);
   hf_flow flow = NULL;
   hf_transfer transfer = NULL;
-  scalars.values_f64 = before;
 
   assert_ok(hf_surface_get_links(graph, 0, NULL, &number)); /* a graph has no links */
   assert_int_equal(number, 0);
   assert_ok(hf_surface_get_pieces(graph, 0, NULL, NULL, &number));
   assert_int_equal(number, VERTICES);
-  posed.positions_f64 = xyz;
   assert_ok(hf_surface_measure_gaps(graph, &posed, 0, NULL, &gaps));
   assert_int_equal(gaps.link_count, 0);
   NEEDS("a ray", NO_INDEX, hf_surface_cast_ray(graph, point, ray, NULL, &hit));
@@ -272,8 +270,8 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("a disc", 1, hf_add_sites(solver, &disc, NULL));
   NEEDS("a disc in a batch", 1, hf_solver_edit_sites(solver, &edit, NULL));
   NEEDS("a move into a triangle", 0, hf_solver_move_sites(solver, 1, &site, &in_triangle));
-  NEEDS("vectors", NO_INDEX, hf_solver_solve_vectors(vectors, xyz_f32, 0, NULL, NULL));
-  NEEDS("vectors in double", NO_INDEX, hf_solver_solve_vectors_f64(vectors, xyz, 0, NULL, NULL));
+  NEEDS("vectors", NO_INDEX, hf_solver_solve_vectors(vectors, OUT(xyz_f32), NULL, NULL));
+  NEEDS("vectors in double", NO_INDEX, hf_solver_solve_vectors(vectors, OUT(xyz), NULL, NULL));
   NEEDS("vectors that move", NO_INDEX, hf_solver_move_vectors(vectors, 1, &site, vertex));
   NEEDS("vectors that turn", NO_INDEX, hf_solver_rotate_vectors(vectors, 1, &site, &angle));
   ROW("screening", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_solver_set_screening(solver, screening, NULL));
@@ -323,8 +321,8 @@ static void surfaces_of_graphs_do_all_else(void** state) {
   assert_int_equal(solved.unreached_vertex_count, 4); /* the second square and the vertex without an edge */
   assert_ok(hf_solver_solve_at(solver, 2, asked, values));
   assert_true(values[0] == 0 && values[1] == before[1]);
-  assert_ok(hf_solver_solve_preview(solver, field, 0, 1, &preview));
-  assert_ok(hf_solver_solve_preview_f64(solver, field_f64, 0, 2, &preview));
+  assert_ok(hf_solver_solve_preview(solver, OUT(field), 1, &preview));
+  assert_ok(hf_solver_solve_preview(solver, OUT(field_f64), 2, &preview));
   assert_ok(hf_solver_release_preview(solver));
   assert_ok(hf_solver_certify(solver, &certificate));
   assert_int_equal(certificate.overshoot_checked, 1);
@@ -349,7 +347,7 @@ static void surfaces_of_graphs_do_all_else(void** state) {
   assert_ok(hf_solver_edit_sites(copy, &edit, NULL));
   assert_ok(hf_solver_prepare_rebase(copy));
   assert_ok(hf_remove_sites(copy, 1, &other));
-  assert_ok(hf_solver_solve_f64(solver, field_f64, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(field_f64), NULL));
   assert_true(same_bits(field_f64, before, sizeof before));
   assert_int_equal(hf_solver_get_site_count(solver), 2);
   hf_solver_destroy(copy);

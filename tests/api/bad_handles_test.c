@@ -74,8 +74,7 @@ static hf_result region_create(void* h) {
   hf_region out;
   return hf_region_create(h, NULL, &out);
 }
-static hf_result solve_preview(void* h) { return hf_solver_solve_preview(h, floats, 0, 0, NULL); }
-static hf_result solve_preview_f64(void* h) { return hf_solver_solve_preview_f64(h, doubles, 0, 1, NULL); }
+static hf_result solve_preview(void* h) { return hf_solver_solve_preview(h, OUT(floats), 0, NULL); }
 static hf_result release_preview(void* h) { return hf_solver_release_preview(h); }
 static hf_result add_sites(void* h) {
   const uint32_t vertex = 7;
@@ -105,9 +104,8 @@ static hf_result get_sites(void* h) {
   return hf_solver_get_sites(h, &i);
 }
 static hf_result solve(void* h) { return hf_solve(h, floats, 0, NULL); }
-static hf_result solve_f64(void* h) { return hf_solver_solve_f64(h, doubles, 0, NULL); }
-static hf_result solve_vectors(void* h) { return hf_solver_solve_vectors(h, floats, 0, NULL, NULL); }
-static hf_result solve_vectors_f64(void* h) { return hf_solver_solve_vectors_f64(h, doubles, 0, NULL, NULL); }
+static hf_result solve_f64(void* h) { return hf_solver_solve(h, OUT(doubles), NULL); }
+static hf_result solve_vectors(void* h) { return hf_solver_solve_vectors(h, OUT(floats), NULL, NULL); }
 static hf_result solve_at(void* h) {
   const uint32_t v = 3;
   return hf_solver_solve_at(h, 1, &v, doubles);
@@ -126,24 +124,19 @@ static hf_result transfer_to(void* h) {
   return hf_transfer_create(scene.body, h, NULL, &out);
 }
 
-static hf_scalars scalars(void) {
-  hf_scalars f = HF_INIT(hf_scalars);
-  f.values_f64 = doubles;
-  return f;
-}
 static hf_result space_levels(void* h) {
-  const hf_scalars f = scalars();
+  const hf_array f = HF_ARRAY(doubles, CUT_VERTICES);
   double level;
   return hf_surface_space_levels(h, &f, HF_LEVELS_VALUE, 1, &level);
 }
 static hf_result trace_isolines(void* h) {
-  const hf_scalars f = scalars();
+  const hf_array f = HF_ARRAY(doubles, CUT_VERTICES);
   const double level = 0.5;
   hf_isolines lines = HF_INIT(hf_isolines);
   return hf_surface_trace_isolines(h, &f, 1, &level, &lines);
 }
 static hf_result find_critical_points(void* h) {
-  const hf_scalars f = scalars();
+  const hf_array f = HF_ARRAY(doubles, CUT_VERTICES);
   hf_critical_info info = HF_INIT(hf_critical_info);
   return hf_surface_find_critical_points(h, &f, 0, NULL, &info);
 }
@@ -161,11 +154,7 @@ static hf_result find_extremities(void* h) {
 }
 static hf_result geodesics_distance(void* h) {
   const uint32_t v = 3;
-  return hf_geodesics_solve(h, 1, &v, floats, 0);
-}
-static hf_result geodesics_distance_f64(void* h) {
-  const uint32_t v = 3;
-  return hf_geodesics_solve_f64(h, 1, &v, doubles, 0);
+  return hf_geodesics_solve(h, 1, &v, OUT(floats));
 }
 static const hf_surface_point first_vertex = {{0, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
 static hf_result geodesics_path(void* h) {
@@ -218,8 +207,7 @@ static hf_result direction_clone(void* h) {
   return hf_direction_clone(h, &out);
 }
 static hf_result direction_get_sites(void* h) { return hf_direction_get_sites(h, 2, numbers, NULL, NULL, NULL); }
-static hf_result direction_solve(void* h) { return hf_direction_solve(h, floats, 0, NULL); }
-static hf_result direction_solve_f64(void* h) { return hf_direction_solve_f64(h, doubles, 0, NULL); }
+static hf_result direction_solve(void* h) { return hf_direction_solve(h, OUT(floats), NULL); }
 static hf_result direction_get_singularities(void* h) {
   uint32_t count;
   return hf_direction_get_singularities(h, 0, NULL, &count);
@@ -259,10 +247,10 @@ static hf_result pose_get_handle(void* h) {
   hf_handle_info i = HF_INIT(hf_handle_info);
   return hf_pose_get_handle(h, scene.handles[0], &i);
 }
-static hf_result pose_get_field(void* h) { return hf_pose_get_field(h, scene.handles[0], floats, 0); }
+static hf_result pose_get_field(void* h) { return hf_pose_get_field(h, scene.handles[0], OUT(floats)); }
 static hf_result deform(void* h) {
   hf_deform_desc d = HF_INIT(hf_deform_desc);
-  d.positions = floats;
+  d.positions = ROWS_OUT(floats);
   return hf_pose_deform(h, &d, NULL);
 }
 
@@ -291,8 +279,8 @@ static hf_result transfer_get_dials(void* h) {
 static hf_result transfer_get_sinking(void* h) { return hf_transfer_get_sinking(h, (uint8_t*)numbers); }
 static hf_result transfer_apply(void* h) {
   hf_transfer_frame f = HF_INIT(hf_transfer_frame);
-  f.source_positions = scene.posed;
-  f.target_positions = floats;
+  f.source_positions = HF_ARRAY(scene.posed, TUBE_VERTICES);
+  f.target_positions = ROWS_OUT(floats);
   return hf_transfer_apply(h, &f);
 }
 static hf_result transfer_get_skin(void* h) {
@@ -394,7 +382,6 @@ static const struct {
     {"hf_solver_get_statistics", SOLVER, get_statistics, NO_INDEX},
     {"hf_surface_save", SURFACE, surface_save, NO_INDEX},
     {"hf_solver_solve_preview", SOLVER, solve_preview, NO_INDEX},
-    {"hf_solver_solve_preview_f64", SOLVER, solve_preview_f64, NO_INDEX},
     {"hf_solver_release_preview", SOLVER, release_preview, NO_INDEX},
     {"hf_add_sites", SOLVER, add_sites, NO_INDEX},
     {"hf_remove_sites", SOLVER, remove_sites, NO_INDEX},
@@ -404,9 +391,8 @@ static const struct {
     {"hf_solver_edit_sites", SOLVER, edit_sites, NO_INDEX},
     {"hf_solver_get_sites", SOLVER, get_sites, NO_INDEX},
     {"hf_solve", SOLVER, solve, NO_INDEX},
-    {"hf_solver_solve_f64", SOLVER, solve_f64, NO_INDEX},
+    {"hf_solver_solve", SOLVER, solve_f64, NO_INDEX},
     {"hf_solver_solve_vectors", SOLVER, solve_vectors, NO_INDEX},
-    {"hf_solver_solve_vectors_f64", SOLVER, solve_vectors_f64, NO_INDEX},
     {"hf_solver_solve_at", SOLVER, solve_at, NO_INDEX},
     {"hf_solver_prepare_rebase", SOLVER, prepare_rebase, NO_INDEX},
     {"hf_pose_create", SURFACE, pose_create, NO_INDEX},
@@ -438,7 +424,6 @@ static const struct {
     {"hf_surface_find_extremities", SURFACE, find_extremities, NO_INDEX},
     {"hf_surface_propose_handles", SURFACE, propose, NO_INDEX},
     {"hf_geodesics_solve", GEODESICS, geodesics_distance, NO_INDEX},
-    {"hf_geodesics_solve_f64", GEODESICS, geodesics_distance_f64, NO_INDEX},
     {"hf_geodesics_find_path", GEODESICS, geodesics_path, NO_INDEX},
     {"hf_geodesics_get_map", GEODESICS, geodesics_map, NO_INDEX},
     {"hf_surface_find_extremities", GEODESICS, find_extremities_with, NO_INDEX},
@@ -453,7 +438,6 @@ static const struct {
     {"hf_direction_clone", DIRECTION, direction_clone, NO_INDEX},
     {"hf_direction_get_sites", DIRECTION, direction_get_sites, NO_INDEX},
     {"hf_direction_solve", DIRECTION, direction_solve, NO_INDEX},
-    {"hf_direction_solve_f64", DIRECTION, direction_solve_f64, NO_INDEX},
     {"hf_direction_get_singularities", DIRECTION, direction_get_singularities, NO_INDEX},
     {"hf_direction_get_statistics", DIRECTION, direction_get_statistics, NO_INDEX},
     {"hf_progress_get_fraction", PROGRESS, progress_get, NO_INDEX},

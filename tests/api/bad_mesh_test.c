@@ -6,6 +6,7 @@ static CountingAllocator counter;
 
 /* The good input: a copy of the cut sheet that a row may spoil. */
 static hf_surface_desc desc;
+static hf_faces_desc faces;
 static hf_solver_desc solver_desc;
 static float positions[3 * CUT_VERTICES];
 static double positions_f64[3 * CUT_VERTICES];
@@ -22,8 +23,8 @@ static void good_input(void) {
   for (size_t i = 0; i < 3 * CUT_VERTICES; ++i) positions_f64[i] = (double)positions[i];
   desc = options_of(&scene.cut).surface;
   solver_desc = HF_INIT(hf_solver_desc);
-  desc.positions = positions;
-  desc.triangles = triangles;
+  desc.positions = HF_ARRAY(positions, CUT_VERTICES);
+  desc.triangles = HF_ARRAY(triangles, CUT_TRIANGLES);
   desc.allocator = counting_hooks(&counter);
   for (size_t i = 0; i < 3 * CUT_TRIANGLES; ++i) triangles_u16[i] = (uint16_t)triangles[i];
   for (uint32_t i = 0; i <= CUT_TRIANGLES; ++i) face_starts[i] = 3 * i;
@@ -39,37 +40,30 @@ static int nothing_exists(void) {
 #define UNCHANGED nothing_exists
 #define CREATE(what, expected, index, change) ROW(what, expected, index, change, hf_surface_create(&desc, &out))
 
-static void no_position_array(void) { desc.positions = NULL; }
-static void in_double(void) {
-  desc.positions = NULL;
-  desc.positions_f64 = positions_f64;
-}
+static void no_position_array(void) { desc.positions.data = NULL; }
+static void in_double(void) { desc.positions = HF_ARRAY(positions_f64, CUT_VERTICES); }
 
 static void in_64_bits(void) {
   for (size_t i = 0; i < 3 * CUT_TRIANGLES; ++i) triangles_u64[i] = triangles[i];
 }
 
-static void in_16_bits(void) {
-  desc.triangles = NULL;
-  desc.triangles_u16 = triangles_u16;
-}
+static void in_16_bits(void) { desc.triangles = HF_ARRAY(triangles_u16, CUT_TRIANGLES); }
 
 static void in_sizes(void) {
-  desc.triangles = NULL;
-  desc.triangle_count = 0;
-  desc.face_count = CUT_TRIANGLES;
-  desc.corner_count = 3 * CUT_TRIANGLES;
-  desc.face_sizes = face_sizes;
-  desc.corners = triangles;
+  desc.triangles = (hf_array){0};
+  faces = HF_INIT(hf_faces_desc);
+  faces.sizes = HF_ARRAY(face_sizes, CUT_TRIANGLES);
+  faces.corners = HF_ARRAY(triangles, 3 * CUT_TRIANGLES);
+  desc.faces = &faces;
 }
 static void in_offsets(void) {
   in_sizes();
-  desc.face_sizes = NULL;
-  desc.face_starts = face_starts;
+  faces.sizes = (hf_array){0};
+  faces.starts = HF_ARRAY(face_starts, CUT_TRIANGLES + 1);
 }
 static void in_loops(void) {
   in_sizes();
-  desc.face_starts = face_starts;
+  faces.starts = HF_ARRAY(face_starts, CUT_TRIANGLES);
 }
 
 static void hf_surface_create_refuses_bad_faces(void** state) {
@@ -82,18 +76,18 @@ static void hf_surface_create_refuses_bad_faces(void** state) {
   out = NULL;
   assert_true(nothing_exists());
 
-  CREATE("faces and triangles", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), desc.triangles = triangles));
-  CREATE("faces and 16-bit triangles", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-         (in_sizes(), desc.triangles_u16 = triangles_u16));
-  CREATE("faces and a triangle count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), desc.triangle_count = 1));
-  CREATE("triangles and face sizes", HF_ERROR_EMPTY, NO_INDEX, desc.face_sizes = face_sizes);
-  CREATE("triangles and face starts", HF_ERROR_EMPTY, NO_INDEX, desc.face_starts = face_starts);
-  CREATE("triangles and corners", HF_ERROR_EMPTY, NO_INDEX, desc.corners = triangles);
-  CREATE("triangles and a corner count", HF_ERROR_EMPTY, NO_INDEX, desc.corner_count = 3);
-  CREATE("no starts and no sizes", HF_ERROR_NULL_POINTER, NO_INDEX, (in_sizes(), desc.face_sizes = NULL));
-  CREATE("no corners", HF_ERROR_NULL_POINTER, NO_INDEX, (in_sizes(), desc.corners = NULL));
-  CREATE("face stride below an entry", HF_ERROR_TOO_SMALL, NO_INDEX, (in_sizes(), desc.face_stride = 3));
-  CREATE("corner stride below an entry", HF_ERROR_TOO_SMALL, NO_INDEX, (in_sizes(), desc.corner_stride = 1));
+  CREATE("faces and triangles", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+         (in_sizes(), desc.triangles = HF_ARRAY(triangles, CUT_TRIANGLES)));
+  CREATE("faces and 16-bit triangles", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), in_16_bits()));
+  CREATE("faces and a triangle count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), desc.triangles.count = 1));
+  CREATE("starts of other faces", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_loops(), faces.starts.count += 1));
+  CREATE("sizes in 16 bits", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), faces.sizes.type = HF_TYPE_UINT16));
+  CREATE("faces of another size", HF_ERROR_INVALID_DESC, NO_INDEX, (in_sizes(), faces.struct_size = 4));
+  CREATE("faces with reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, (in_sizes(), faces.reserved = 1));
+  CREATE("no starts and no sizes", HF_ERROR_NULL_POINTER, NO_INDEX, (in_sizes(), faces.sizes = (hf_array){0}));
+  CREATE("no corners", HF_ERROR_NULL_POINTER, NO_INDEX, (in_sizes(), faces.corners = (hf_array){0}));
+  CREATE("face stride below an entry", HF_ERROR_TOO_SMALL, NO_INDEX, (in_sizes(), faces.sizes.stride = 3));
+  CREATE("corner stride below an entry", HF_ERROR_TOO_SMALL, NO_INDEX, (in_sizes(), faces.corners.stride = 1));
   CREATE("a face of two corners", HF_ERROR_INVALID_ARGUMENT, 5, (in_sizes(), face_sizes[5] = 2));
   CREATE("a face of no corner", HF_ERROR_INVALID_ARGUMENT, 72, (in_loops(), face_sizes[72] = 0));
   CREATE("offsets that stay", HF_ERROR_INVALID_ARGUMENT, 7, (in_offsets(), face_starts[8] = face_starts[7]));
@@ -101,9 +95,9 @@ static void hf_surface_create_refuses_bad_faces(void** state) {
   CREATE("a face of too many corners", HF_ERROR_TOO_LARGE, 3, (in_sizes(), face_sizes[3] = 65536));
   CREATE("a face of 2^32 - 1 corners", HF_ERROR_TOO_LARGE, 0, (in_loops(), face_sizes[0] = UINT32_MAX));
   CREATE("an offset of 2^32 - 1", HF_ERROR_TOO_LARGE, 72, (in_offsets(), face_starts[CUT_TRIANGLES] = UINT32_MAX));
-  CREATE("a corner beyond corner_count", HF_ERROR_OUT_OF_RANGE, 72, (in_sizes(), desc.corner_count -= 1));
+  CREATE("a corner beyond corner_count", HF_ERROR_OUT_OF_RANGE, 72, (in_sizes(), faces.corners.count -= 1));
   CREATE("a start beyond corner_count", HF_ERROR_OUT_OF_RANGE, 4, (in_loops(), face_starts[4] = UINT32_MAX));
-  CREATE("corner_count 0", HF_ERROR_OUT_OF_RANGE, 0, (in_sizes(), desc.corner_count = 0));
+  CREATE("corner_count 0", HF_ERROR_OUT_OF_RANGE, 0, (in_sizes(), faces.corners.count = 0));
   CREATE("corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 24, (in_sizes(), triangles[3 * 24] = CUT_VERTICES));
   CREATE("corner UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 7, (in_loops(), triangles[3 * 7 + 2] = UINT32_MAX));
   CREATE("every face collapses", HF_ERROR_EMPTY, NO_INDEX, (in_sizes(), memset(triangles, 0, sizeof triangles)));
@@ -122,30 +116,28 @@ static void hf_surface_create_refuses_bad_meshes(void** state) {
   out = NULL;
   assert_true(nothing_exists());
 
-  CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, desc.vertex_count = 0);
-  CREATE("no triangles", HF_ERROR_EMPTY, NO_INDEX, desc.triangle_count = 0);
+  CREATE("no vertices", HF_ERROR_EMPTY, NO_INDEX, desc.positions.count = 0);
+  CREATE("no triangles", HF_ERROR_EMPTY, NO_INDEX, desc.triangles.count = 0);
   CREATE("no positions", HF_ERROR_NULL_POINTER, NO_INDEX, no_position_array());
-  CREATE("no triangle array", HF_ERROR_NULL_POINTER, NO_INDEX, desc.triangles = NULL);
-  CREATE("both position arrays", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.positions_f64 = positions_f64);
-  CREATE("stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, desc.position_stride = 11);
-  CREATE("stride of one byte", HF_ERROR_TOO_SMALL, NO_INDEX, desc.position_stride = 1);
-  CREATE("stride of floats for doubles", HF_ERROR_TOO_SMALL, NO_INDEX, (in_double(), desc.position_stride = 12));
+  CREATE("no triangle array", HF_ERROR_NULL_POINTER, NO_INDEX, desc.triangles.data = NULL);
+  CREATE("stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, desc.positions.stride = 11);
+  CREATE("stride of one byte", HF_ERROR_TOO_SMALL, NO_INDEX, desc.positions.stride = 1);
+  CREATE("stride of floats for doubles", HF_ERROR_TOO_SMALL, NO_INDEX, (in_double(), desc.positions.stride = 12));
 
-  CREATE("both triangle arrays", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.triangles_u16 = triangles_u16);
-  CREATE("triangle stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, desc.triangle_stride = 11);
-  CREATE("triangle stride of one byte", HF_ERROR_TOO_SMALL, NO_INDEX, desc.triangle_stride = 1);
-  CREATE("16-bit triangle stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, (in_16_bits(), desc.triangle_stride = 5));
+  CREATE("triangle stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, desc.triangles.stride = 11);
+  CREATE("triangle stride of one byte", HF_ERROR_TOO_SMALL, NO_INDEX, desc.triangles.stride = 1);
+  CREATE("16-bit triangle stride below a row", HF_ERROR_TOO_SMALL, NO_INDEX, (in_16_bits(), desc.triangles.stride = 5));
   CREATE("32-bit indices as 16-bit ones", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-         (desc.triangles_u16 = (const uint16_t*)triangles, desc.triangles = NULL));
+         (in_16_bits(), desc.triangles.data = triangles));
   CREATE("64-bit indices as 32-bit ones", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-         (in_64_bits(), desc.triangles = (const uint32_t*)triangles_u64));
+         (in_64_bits(), desc.triangles.data = triangles_u64));
   CREATE("16-bit corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 5, (in_16_bits(), triangles_u16[16] = CUT_VERTICES));
   CREATE("16-bit corner 2^16 - 1", HF_ERROR_OUT_OF_RANGE, 72, (in_16_bits(), triangles_u16[3 * 72] = UINT16_MAX));
 
   CREATE("corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 0, triangles[0] = CUT_VERTICES);
   CREATE("corner UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 7, triangles[3 * 7 + 2] = UINT32_MAX);
   CREATE("corner 2^31", HF_ERROR_OUT_OF_RANGE, 72, triangles[3 * 72 + 1] = 0x80000000u);
-  CREATE("vertex_count one too small", HF_ERROR_OUT_OF_RANGE, 64, desc.vertex_count = 50);
+  CREATE("vertex_count one too small", HF_ERROR_OUT_OF_RANGE, 64, desc.positions.count = 50);
   CREATE("NaN", HF_ERROR_NON_FINITE, 3, positions[9] = (float)NAN);
   CREATE("infinity", HF_ERROR_NON_FINITE, 0, positions[2] = (float)INFINITY);
   CREATE("minus infinity", HF_ERROR_NON_FINITE, 49, positions[3 * 49 + 1] = -(float)INFINITY);
@@ -159,15 +151,15 @@ static void hf_surface_create_refuses_bad_meshes(void** state) {
          (desc.weld = HF_WELD_TOLERANCE, desc.weld_tolerance = 100.0));
   CREATE("all vertices at one place", HF_ERROR_EMPTY, NO_INDEX, memset(positions, 0, sizeof positions));
 
-  CREATE("2^32 - 1 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_count = UINT32_MAX);
-  CREATE("2^31 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_count = 0x80000000u);
+  CREATE("2^32 - 1 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.positions.count = UINT32_MAX);
+  CREATE("2^31 vertices", HF_ERROR_TOO_LARGE, NO_INDEX, desc.positions.count = 0x80000000u);
   CREATE("2^31 vertices, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
-         (desc.vertex_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
-  CREATE("2^32 - 1 triangles", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangle_count = UINT32_MAX);
+         (desc.positions.count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
+  CREATE("2^32 - 1 triangles", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangles.count = UINT32_MAX);
   CREATE("2^31 triangles, limit lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
-         (desc.triangle_count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
+         (desc.triangles.count = 0x80000000u, desc.vertex_limit = UINT32_MAX));
   CREATE("2^31 triangles, both limits lifted", HF_ERROR_TOO_LARGE, NO_INDEX,
-         (desc.triangle_count = 0x80000000u, desc.vertex_limit = desc.triangle_limit = UINT32_MAX));
+         (desc.triangles.count = 0x80000000u, desc.vertex_limit = desc.triangle_limit = UINT32_MAX));
   CREATE("above the vertex_limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.vertex_limit = CUT_VERTICES - 1);
 
   scene_destroy(&scene);
@@ -189,7 +181,8 @@ static void hf_surface_create_refuses_bad_options(void** state) {
   CREATE("operator 4", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.operator_kind = 4);
   CREATE("field kind -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.field_kind = -1);
   CREATE("field kind 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.field_kind = 3);
-  CREATE("a triangle more than the limit", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangle_limit = desc.triangle_count - 1);
+  CREATE("a triangle more than the limit", HF_ERROR_TOO_LARGE, NO_INDEX,
+         desc.triangle_limit = desc.triangles.count - 1);
   CREATE("triangles of a limit of 1", HF_ERROR_TOO_LARGE, NO_INDEX, desc.triangle_limit = 1);
   CREATE("ordering -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.ordering = -1);
   CREATE("ordering 3", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.ordering = 3);

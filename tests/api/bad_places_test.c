@@ -98,11 +98,11 @@ static void vectors_stay_on_their_component(void** state) {
   uint32_t site = 0;
   assert_ok(hf_add_sites(solver, &sites, &site));
   double before[3 * CUT_VERTICES], after[3 * CUT_VERTICES];
-  assert_ok(hf_solver_solve_vectors_f64(solver, before, 0, NULL, NULL));
+  assert_ok(hf_solver_solve_vectors(solver, OUT(before), NULL, NULL));
   REFUSED("to a vertex in no triangle", HF_ERROR_INVALID_ARGUMENT, 0,
           hf_solver_move_vectors(solver, 1, &site, isolated));
   REFUSED("to another component", HF_ERROR_INVALID_ARGUMENT, 0, hf_solver_move_vectors(solver, 1, &site, piece));
-  assert_ok(hf_solver_solve_vectors_f64(solver, after, 0, NULL, NULL));
+  assert_ok(hf_solver_solve_vectors(solver, OUT(after), NULL, NULL));
   assert_true(same_bits(before, after, sizeof before));
 
   hf_direction direction = NULL;

@@ -55,10 +55,10 @@ static void good_input(void) {
   radii[0] = radii[1] = 0.2;
   transforms[0].rotation[3] = transforms[1].rotation[3] = 1;
   transforms[0].translation[0] = 3;
-  deform.positions = floats;
+  deform.positions = ROWS_OUT(floats);
   memcpy(source, scene.posed, sizeof source);
-  frame.source_positions = source;
-  frame.target_positions = floats;
+  frame.source_positions = HF_ARRAY(source, TUBE_VERTICES);
+  frame.target_positions = ROWS_OUT(floats);
   propose = HF_INIT(hf_handle_proposals_desc);
   memset(joints, 0, sizeof joints);
   parents[0] = NO_INDEX;
@@ -291,17 +291,17 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
 
   ROW("no such handle", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_handle(scene.pose, 2, &info));
   ROW("UINT32_MAX", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_handle(scene.pose, UINT32_MAX, &info));
-  ROW("no such handle", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 2, floats, 0));
-  ROW("output NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, NULL, 0));
-  ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, floats, 3));
+  ROW("no such handle", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 2, OUT(floats)));
+  ROW("output NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, NULL));
+  ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_pose_get_field(scene.pose, 0, OUT_ROWS(floats, 3)));
 
 #define DEFORM(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_deform(scene.pose, &deform, NULL))
-  DEFORM("no output", HF_ERROR_NULL_POINTER, deform.positions = NULL);
-  DEFORM("both outputs", HF_ERROR_INVALID_ARGUMENT, deform.positions_f64 = doubles);
-  DEFORM("stride 11", HF_ERROR_TOO_SMALL, deform.position_stride = 11);
-  DEFORM("stride of floats", HF_ERROR_TOO_SMALL,
-         (deform.positions = NULL, deform.positions_f64 = doubles, deform.position_stride = 12));
-  DEFORM("normal stride 4", HF_ERROR_TOO_SMALL, (deform.normals = normals, deform.normal_stride = 4));
+  DEFORM("no output", HF_ERROR_NULL_POINTER, deform.positions = (hf_array_out){0});
+  DEFORM("no room", HF_ERROR_TOO_SMALL, deform.positions.count = TUBE_VERTICES - 1);
+  DEFORM("another type", HF_ERROR_INVALID_ARGUMENT, deform.positions.type = HF_TYPE_UINT16);
+  DEFORM("stride 11", HF_ERROR_TOO_SMALL, deform.positions.stride = 11);
+  DEFORM("stride of floats", HF_ERROR_TOO_SMALL, (deform.positions = ROWS_OUT(doubles), deform.positions.stride = 12));
+  DEFORM("normal stride 4", HF_ERROR_TOO_SMALL, (deform.normals = ROWS_OUT(normals), deform.normals.stride = 4));
   DEFORM("1001 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = 1001);
   DEFORM("2^32 - 1 iterations", HF_ERROR_INVALID_ARGUMENT, deform.iteration_count = UINT32_MAX);
   DEFORM("refine 65", HF_ERROR_INVALID_ARGUMENT, deform.refine = 65);
@@ -351,7 +351,7 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   check_row(__LINE__, "no handle", "hf_pose_get_skin", hf_pose_get_skin(out_pose, &skin), HF_ERROR_EMPTY, NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_get_handle", hf_pose_get_handle(out_pose, 0, &info), HF_ERROR_NOT_FOUND,
             NO_INDEX);
-  check_row(__LINE__, "no handle", "hf_pose_get_field", hf_pose_get_field(out_pose, 0, floats, 0), HF_ERROR_NOT_FOUND,
+  check_row(__LINE__, "no handle", "hf_pose_get_field", hf_pose_get_field(out_pose, 0, OUT(floats)), HF_ERROR_NOT_FOUND,
             NO_INDEX);
   check_row(__LINE__, "no handle", "hf_pose_remove_handles", hf_pose_remove_handles(out_pose, 1, numbers),
             HF_ERROR_NOT_FOUND, 0);
@@ -384,12 +384,13 @@ static void bad_transfers_are_not_made(void** state) {
   CREATE_TRANSFER("ground 2", HF_ERROR_INVALID_ARGUMENT, transfer_desc.ground = 2);
   static float rest[3 * TUBE_AROUND * (TUBE_RINGS + 2)];
   rest[3 * 5 + 1] = 1e30f;
-  ROW("rest of the source 1e29 boxes away", HF_ERROR_TOO_LARGE, 5, transfer_desc.source_rest = rest,
+  ROW("rest of the source 1e29 boxes away", HF_ERROR_TOO_LARGE, 5,
+      transfer_desc.source_rest = HF_ARRAY(rest, TUBE_VERTICES),
       hf_transfer_create(scene.body, scene.body, &transfer_desc, &out_transfer));
   rest[3 * 5 + 1] = (float)NAN;
-  ROW("rest of the source NaN", HF_ERROR_NON_FINITE, 5, transfer_desc.source_rest = rest,
+  ROW("rest of the source NaN", HF_ERROR_NON_FINITE, 5, transfer_desc.source_rest = HF_ARRAY(rest, TUBE_VERTICES),
       hf_transfer_create(scene.body, scene.body, &transfer_desc, &out_transfer));
-  ROW("rest of the target NaN", HF_ERROR_NON_FINITE, 5, transfer_desc.target_rest = rest,
+  ROW("rest of the target NaN", HF_ERROR_NON_FINITE, 5, transfer_desc.target_rest = HF_ARRAY(rest, TUBE_VERTICES),
       hf_transfer_create(scene.body, scene.body, &transfer_desc, &out_transfer));
   CREATE_TRANSFER("angle NaN", HF_ERROR_NON_FINITE, transfer_desc.alignment_angle = NAN);
   CREATE_TRANSFER("angle infinite", HF_ERROR_NON_FINITE, transfer_desc.alignment_angle = INFINITY);
@@ -462,12 +463,13 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   ROW("no such pair", HF_ERROR_NOT_FOUND, 2, (void)0, hf_transfer_get_pair(scene.transfer, 2, &info));
   ROW("UINT32_MAX", HF_ERROR_NOT_FOUND, NO_INDEX, (void)0, hf_transfer_get_pair(scene.transfer, UINT32_MAX, &info));
 
-  APPLY("no source", HF_ERROR_NULL_POINTER, NO_INDEX, frame.source_positions = NULL);
-  APPLY("both sources", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, frame.source_positions_f64 = doubles);
-  APPLY("both outputs", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, frame.target_positions_f64 = doubles);
-  APPLY("source stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, frame.source_stride = 11);
-  APPLY("target stride 8", HF_ERROR_TOO_SMALL, NO_INDEX, frame.target_stride = 8);
-  APPLY("normal stride 1", HF_ERROR_TOO_SMALL, NO_INDEX, (frame.target_normals = normals, frame.normal_stride = 1));
+  APPLY("no source", HF_ERROR_NULL_POINTER, NO_INDEX, frame.source_positions = (hf_array){0});
+  APPLY("another source", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, frame.source_positions.count = CUT_VERTICES);
+  APPLY("no room", HF_ERROR_TOO_SMALL, NO_INDEX, frame.target_positions.count = CUT_VERTICES);
+  APPLY("source stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, frame.source_positions.stride = 11);
+  APPLY("target stride 8", HF_ERROR_TOO_SMALL, NO_INDEX, frame.target_positions.stride = 8);
+  APPLY("normal stride 1", HF_ERROR_TOO_SMALL, NO_INDEX,
+        (frame.target_normals = ROWS_OUT(normals), frame.target_normals.stride = 1));
   APPLY("source NaN", HF_ERROR_NON_FINITE, 17, source[3 * 17 + 2] = (float)NAN);
   APPLY("source 1e30 boxes away", HF_ERROR_TOO_LARGE, 17, source[3 * 17] = 1e31f);
   APPLY("source infinite", HF_ERROR_NON_FINITE, TUBE_VERTICES - 1, source[3 * TUBE_VERTICES - 1] = (float)INFINITY);

@@ -55,11 +55,8 @@ static hf_result flow_create(void* h) {
   return hf_flow_create(h, &out);
 }
 static hf_result flow_trace(void* h) {
-  hf_scalars field;
-  hf_streamlines lines;
-  field = HF_INIT(hf_scalars);
-  lines = HF_INIT(hf_streamlines);
-  field.values_f64 = height;
+  const hf_array field = HF_ARRAY(height, TUBE_VERTICES);
+  hf_streamlines lines = HF_INIT(hf_streamlines);
   lines.wanted_count = 4;
   return hf_flow_trace(h, &field, &lines);
 }
@@ -76,7 +73,7 @@ static hf_result region_get_curve(void* h) {
 }
 static hf_result detail_morph(void* h) {
   hf_morph_desc desc = HF_INIT(hf_morph_desc);
-  desc.positions_f64 = positions;
+  desc.positions = ROWS_OUT(positions);
   return hf_detail_morph(h, &desc);
 }
 
@@ -266,12 +263,11 @@ static void quads_refuse_bad_descs(void** state) {
   teardown_surface();
 }
 
-static hf_scalars good_field;
+static hf_array good_field;
 static hf_streamlines good_lines;
 static void refresh_flow(void) {
-  good_field = HF_INIT(hf_scalars);
+  good_field = HF_ARRAY(height, TUBE_VERTICES);
   good_lines = HF_INIT(hf_streamlines);
-  good_field.values_f64 = height;
   good_lines.wanted_count = 4;
 }
 #undef GOOD
@@ -281,7 +277,6 @@ static void flow_lines_refuse_bad_input(void** state) {
   (void)state;
   setup_surface();
   double broken[TUBE_VERTICES];
-  float floats[TUBE_VERTICES];
   memcpy(broken, height, sizeof broken);
   broken[33] = NAN;
   const uint32_t outside[2] = {3, TUBE_VERTICES};
@@ -291,16 +286,15 @@ static void flow_lines_refuse_bad_input(void** state) {
   ROW("too many lines wanted", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_lines.wanted_count = 1000001,
       hf_flow_trace(flow, &good_field, &good_lines));
   ROW("no field", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_flow_trace(flow, NULL, &good_lines));
-  ROW("no values", HF_ERROR_NULL_POINTER, NO_INDEX, good_field.values_f64 = NULL,
+  ROW("no values", HF_ERROR_NULL_POINTER, NO_INDEX, good_field.data = NULL,
       hf_flow_trace(flow, &good_field, &good_lines));
-  ROW("both values", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_field.values = floats,
+  ROW("a value too few", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, good_field.count = TUBE_VERTICES - 1,
       hf_flow_trace(flow, &good_field, &good_lines));
-  ROW("a value that is none", HF_ERROR_NON_FINITE, 33, good_field.values_f64 = broken,
+  ROW("a value that is none", HF_ERROR_NON_FINITE, 33, good_field.data = broken,
       hf_flow_trace(flow, &good_field, &good_lines));
-  ROW("stride", HF_ERROR_TOO_SMALL, NO_INDEX, good_field.value_stride = 4,
-      hf_flow_trace(flow, &good_field, &good_lines));
+  ROW("stride", HF_ERROR_TOO_SMALL, NO_INDEX, good_field.stride = 4, hf_flow_trace(flow, &good_field, &good_lines));
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_flow_trace(flow, &good_field, NULL));
-  ROW("struct_size of the field", HF_ERROR_INVALID_DESC, NO_INDEX, good_field.struct_size = 1,
+  ROW("reserved of the field", HF_ERROR_INVALID_DESC, NO_INDEX, good_field.reserved = 1,
       hf_flow_trace(flow, &good_field, &good_lines));
   ROW("struct_size of the lines", HF_ERROR_INVALID_DESC, NO_INDEX, good_lines.struct_size = 1,
       hf_flow_trace(flow, &good_field, &good_lines));

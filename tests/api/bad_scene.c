@@ -8,15 +8,15 @@ static void* copy_of(size_t size) {
 
 static hf_result deform_now(hf_pose pose, float* positions) {
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
-  desc.positions = positions;
+  desc.positions = ROWS_OUT(positions);
   desc.restart = 1;
   return hf_pose_deform(pose, &desc, NULL);
 }
 
 static hf_result transfer_now(const Scene* scene, float* positions) {
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = scene->posed;
-  frame.target_positions = positions;
+  frame.source_positions = HF_ARRAY(scene->posed, TUBE_VERTICES);
+  frame.target_positions = ROWS_OUT(positions);
   return hf_transfer_apply(scene->transfer, &frame);
 }
 
@@ -151,7 +151,7 @@ int solver_unchanged(const Scene* s) {
   if (hf_solver_get_site_count(s->solver) != 3 || hf_solver_get_site_count(s->three) != 0) return 0;
   if (hf_solver_get_sites(s->solver, &info) != HF_OK || !same_bits(sites, s->sites, sizeof sites)) return 0;
   if (vertices[0] != CUT_LEFT || vertices[1] != CUT_RIGHT || vertices[2] != CUT_SEAM_LEFT) return 0;
-  return hf_solver_solve_f64(s->solver, field, 0, NULL) == HF_OK && same_bits(field, s->field, sizeof field);
+  return hf_solver_solve(s->solver, OUT(field), NULL) == HF_OK && same_bits(field, s->field, sizeof field);
 }
 
 int pose_unchanged(const Scene* s) {

@@ -143,7 +143,7 @@ static void linearly_dependent_points_are_refused(void** state) {
     assert_ok(hf_add_sites(solver, &corner, NULL));
   }
   double before[CUT_VERTICES], after[CUT_VERTICES];
-  assert_ok(hf_solver_solve_f64(solver, before, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(before), NULL));
   GOOD();
   in_triangles(&sites);
   sites.site_count = 1;
@@ -161,7 +161,7 @@ static void linearly_dependent_points_are_refused(void** state) {
   there.triangles = corners + 1;
   check_row(__LINE__, "a move to such a point", "hf_solver_move_sites",
             hf_solver_move_sites(solver, 1, scene.sites, &there), HF_ERROR_CONFLICT, 0);
-  assert_ok(hf_solver_solve_f64(solver, after, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(after), NULL));
   assert_true(same_bits(before, after, sizeof before));
   const double soft = 3;
   sites.site_count = 1;
@@ -320,28 +320,28 @@ static void reading_with_bad_arguments_is_refused(void** state) {
   ROW("no room", HF_ERROR_TOO_SMALL, NO_INDEX, info.capacity = 2, hf_solver_get_sites(scene.solver, &info));
   ROW("capacity 0", HF_ERROR_TOO_SMALL, NO_INDEX, info.capacity = 0, hf_solver_get_sites(scene.solver, &info));
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solve(scene.solver, NULL, 0, NULL));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_f64(scene.solver, NULL, 0, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve(scene.solver, NULL, NULL));
   ROW("stride 1", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve(scene.solver, floats, 1, NULL));
   ROW("stride 3", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solve(scene.solver, floats, 3, NULL));
-  ROW("stride of floats", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solver_solve_f64(scene.solver, doubles, 4, NULL));
+  ROW("stride of floats", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_solver_solve(scene.solver, OUT_ROWS(doubles, 4), NULL));
   ROW("stride of two of three channels", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_solver_solve_f64(scene.three, doubles, 16, NULL));
+      hf_solver_solve(scene.three, OUT_ROWS(doubles, 16), NULL));
   ROW("no sites", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solve(scene.three, floats, 0, NULL));
-  ROW("no sites", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve_f64(scene.three, doubles, 0, NULL));
+  ROW("no sites", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve(scene.three, OUT(doubles), NULL));
   ROW("no sites", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve_at(scene.three, 1, list, points));
-  ROW("no sites", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, floats, 0, NULL, NULL));
-  ROW("no sites", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve_vectors_f64(scene.three, doubles, 0, NULL, NULL));
+  ROW("no sites", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, OUT(floats), NULL, NULL));
+  ROW("no sites", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, OUT(doubles), NULL, NULL));
   ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0,
-      hf_solver_solve_vectors(scene.solver, floats, 0, NULL, NULL));
+      hf_solver_solve_vectors(scene.solver, OUT(floats), NULL, NULL));
   ROW("one channel", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0,
-      hf_solver_solve_vectors_f64(scene.solver, doubles, 0, NULL, NULL));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
-      hf_solver_solve_vectors(scene.three, NULL, 0, doubles, NULL));
-  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
-      hf_solver_solve_vectors_f64(scene.three, NULL, 0, doubles, NULL));
-  ROW("stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, floats, 11, NULL, NULL));
+      hf_solver_solve_vectors(scene.solver, OUT(doubles), NULL, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, NULL, doubles, NULL));
+  ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_vectors(scene.three, NULL, doubles, NULL));
+  ROW("stride 11", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_solver_solve_vectors(scene.three, OUT_ROWS(floats, 11), NULL, NULL));
   ROW("stride 23", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_solver_solve_vectors_f64(scene.three, doubles, 23, NULL, NULL));
+      hf_solver_solve_vectors(scene.three, OUT_ROWS(doubles, 23), NULL, NULL));
   ROW("no vertex", HF_ERROR_EMPTY, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 0, list, points));
   ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 2, NULL, points));
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_solver_solve_at(scene.solver, 2, list, NULL));

@@ -212,11 +212,8 @@ static void a_long_chain_is_right_to_rounding(void** state) {
     triangles[3 * i + 2] = apex;
   }
   Options desc = options_of(&tube);
-  desc.surface.positions = NULL;
-  desc.surface.positions_f64 = positions;
-  desc.surface.vertex_count = 2 * CHAIN + 1;
-  desc.surface.triangles = triangles;
-  desc.surface.triangle_count = CHAIN;
+  desc.surface.positions = HF_ARRAY(positions, 2 * CHAIN + 1);
+  desc.surface.triangles = HF_ARRAY(triangles, CHAIN);
   for (int32_t engine = HF_ENGINE_GREEN; engine <= HF_ENGINE_REFACTOR; engine += HF_ENGINE_REFACTOR) {
     hf_solver solver = NULL;
     desc.solver.engine = engine;
@@ -331,11 +328,8 @@ static void weights_that_a_rule_set_are_counted(void** state) {
     const uint32_t triangles[18] = {0, 1, 4, 1, 5, 4, 1, 2, 5, 2, 6, 5, 2, 3, 6, 3, 7, 6};
     for (int32_t operator_kind = 0; operator_kind < 4; ++operator_kind) {
       Options desc = options_of(&tube);
-      desc.surface.positions = NULL;
-      desc.surface.positions_f64 = positions;
-      desc.surface.vertex_count = 8;
-      desc.surface.triangles = triangles;
-      desc.surface.triangle_count = 6;
+      desc.surface.positions = HF_ARRAY(positions, 8);
+      desc.surface.triangles = HF_ARRAY(triangles, 6);
       desc.surface.operator_kind = operator_kind;
       assert_ok(hf_surface_create(&desc.surface, &surface));
       assert_ok(hf_surface_get_report(surface, &report));

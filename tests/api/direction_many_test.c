@@ -61,8 +61,8 @@ static void many_constraints_come_and_go_without_a_trace(void** state) {
       assert_ok(hf_direction_remove_sites(direction, leaving - i < 20 ? leaving - i : 20, list + i));
     constrain(fresh, (count + keep - 1) / keep, step * keep, 0, NULL);
     hf_solve_info info = HF_INIT(hf_solve_info);
-    assert_ok(hf_direction_solve_f64(direction, got, 0, &info));
-    assert_ok(hf_direction_solve_f64(fresh, right, 0, NULL));
+    assert_ok(hf_direction_solve(direction, OUT(got), &info));
+    assert_ok(hf_direction_solve(fresh, OUT(right), NULL));
     assert_int_equal(info.unreached_vertex_count, round == 2 ? 0 : HALF);
     for (uint32_t i = 0; i < 3 * ALL; ++i) assert_true(fabs(got[i] - right[i]) <= 1e-9);
     hf_direction_destroy(direction);
@@ -103,7 +103,7 @@ static void triangles_that_nothing_reaches_do_not_matter(void** state) {
   assert_ok(hf_direction_get_statistics(direction, &statistics));
   assert_int_equal(statistics.eliminated_count, MANY);
   hf_solve_info info = HF_INIT(hf_solve_info);
-  assert_ok(hf_direction_solve_f64(direction, got, 0, &info));
+  assert_ok(hf_direction_solve(direction, OUT(got), &info));
   assert_int_equal(info.unreached_vertex_count, 3 * LOOSE);
   for (uint32_t i = 0; i < 3 * HALF; ++i) assert_true(fabs(got[i]) <= 10);
   for (uint32_t i = 3 * HALF; i < 3 * ALL; ++i) assert_true(got[i] == 0);

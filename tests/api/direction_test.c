@@ -29,7 +29,7 @@ static void a_vector_of_three_channels_is_carried_and_turned_without_touching_th
   uint32_t sites[2];
   assert_ok(hf_add_sites(solver, &batch, sites));
   static double field[3 * VERTICES], normals[3 * VERTICES];
-  assert_ok(hf_solver_solve_vectors_f64(solver, field, 0, normals, NULL));
+  assert_ok(hf_solver_solve_vectors(solver, OUT(field), normals, NULL));
   for (uint32_t v = 0; v < VERTICES; ++v) {
     assert_true(fabs(dot3(field + 3 * v, normals + 3 * v)) <= 1e-12);
     assert_true(fabs(dot3(normals + 3 * v, normals + 3 * v) - 1) <= 1e-12);
@@ -44,7 +44,7 @@ static void a_vector_of_three_channels_is_carried_and_turned_without_touching_th
   assert_ok(hf_solver_get_statistics(solver, &after));
   assert_int_equal(after.factorisation_count, before.factorisation_count);
   assert_int_equal(after.path_solve_count, before.path_solve_count);
-  assert_ok(hf_solver_solve_vectors_f64(solver, field, 0, normals, NULL));
+  assert_ok(hf_solver_solve_vectors(solver, OUT(field), normals, NULL));
   const double up[3] = {0, 1, 0};
   assert_true(fabs(dot3(field + 3 * places[1], up)) <= 1e-9);
   assert_true(fabs(dot3(field + 3 * places[1], field + 3 * places[1]) - 1) <= 1e-9);
@@ -54,7 +54,7 @@ static void a_vector_of_three_channels_is_carried_and_turned_without_touching_th
   assert_ok(hf_solver_move_vectors(solver, 1, sites, &there));
   assert_ok(hf_solver_get_statistics(solver, &after));
   assert_int_equal(after.factorisation_count, before.factorisation_count);
-  assert_ok(hf_solver_solve_vectors_f64(solver, field, 0, normals, NULL));
+  assert_ok(hf_solver_solve_vectors(solver, OUT(field), normals, NULL));
   const float* q = tube.positions + 3 * there;
   const double along[3] = {-q[2], 0, q[0]};
   assert_true(fabs(dot3(field + 3 * there, up) - 1) <= 1e-6);
@@ -114,10 +114,10 @@ static void a_direction_field_follows_its_constraints(void** state) {
     uint32_t sites[2], numbers[2], vertices[2];
     static float field[3 * VERTICES];
     static double exact[3 * VERTICES];
-    check_row(__LINE__, "no constraint", "hf_direction_solve", hf_direction_solve(direction, field, 0, NULL),
+    check_row(__LINE__, "no constraint", "hf_direction_solve", hf_direction_solve(direction, OUT(field), NULL),
               HF_ERROR_EMPTY, NO_INDEX);
     assert_ok(hf_direction_add_sites(direction, 1, places, up, sites));
-    assert_ok(hf_direction_solve(direction, field, 0, NULL));
+    assert_ok(hf_direction_solve(direction, OUT(field), NULL));
     for (uint32_t v = 0; v < VERTICES; ++v) { /* flat in itself: the field is parallel */
       const double length =
           sqrt((double)field[3 * v] * (double)field[3 * v] + (double)field[3 * v + 1] * (double)field[3 * v + 1] +
@@ -128,7 +128,7 @@ static void a_direction_field_follows_its_constraints(void** state) {
     assert_ok(hf_direction_add_sites(direction, 1, places + 1, up + 3, sites + 1));
     assert_int_equal(hf_direction_get_site_count(direction), 2);
     hf_solve_info info = HF_INIT(hf_solve_info);
-    assert_ok(hf_direction_solve_f64(direction, exact, 0, &info));
+    assert_ok(hf_direction_solve(direction, OUT(exact), &info));
     assert_int_equal(info.unreached_component_count, 0);
     double vectors[6];
     assert_ok(hf_direction_get_sites(direction, 2, numbers, vertices, vectors, NULL));
@@ -147,7 +147,7 @@ static void a_direction_field_follows_its_constraints(void** state) {
     const double half = 2 * acos(0.0), other[3] = {0, -3, 0};
     assert_ok(hf_direction_rotate_sites(direction, 1, sites, &half));
     assert_ok(hf_direction_set_vectors(direction, 1, sites + 1, other));
-    assert_ok(hf_direction_solve_f64(direction, exact, 0, NULL));
+    assert_ok(hf_direction_solve(direction, OUT(exact), NULL));
     assert_ok(hf_direction_get_statistics(direction, &after));
     assert_int_equal(after.factorisation_count, before.factorisation_count);
     assert_int_equal(after.path_solve_count, before.path_solve_count);
@@ -178,7 +178,7 @@ static void a_direction_field_follows_its_constraints(void** state) {
   const double vector[3] = {0, 1, 0};
   assert_ok(hf_direction_add_sites(direction, 1, &vertex, vector, NULL));
   static float field[3 * VERTICES];
-  assert_ok(hf_direction_solve(direction, field, 0, NULL));
+  assert_ok(hf_direction_solve(direction, OUT(field), NULL));
   hf_direction_destroy(direction);
   surface_free(&tube);
 }
@@ -207,7 +207,7 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
   assert_ok(hf_direction_add_sites(direction, 2, places, vectors, sites));
   static double before[3 * CUT_VERTICES], now[3 * CUT_VERTICES];
   hf_solve_info info = HF_INIT(hf_solve_info);
-  assert_ok(hf_direction_solve_f64(direction, before, 0, &info));
+  assert_ok(hf_direction_solve(direction, OUT(before), &info));
   assert_int_equal(info.unreached_component_count, 1); /* the piece */
   assert_int_equal(info.unreached_vertex_count, 10);
   assert_true(same_bits(before + 3 * CUT_SEAM_LEFT, before + 3 * CUT_SEAM_RIGHT, 3 * sizeof(double)));
@@ -234,10 +234,10 @@ static void a_direction_object_refuses_bad_input_and_stays_as_it_was(void** stat
   REFUSED("twice", HF_ERROR_NOT_FOUND, 1, hf_direction_remove_sites(direction, 2, twice));
   REFUSED("too many", HF_ERROR_NOT_FOUND, 2, hf_direction_remove_sites(direction, 3000000000u, twice));
   REFUSED("room for one", HF_ERROR_TOO_SMALL, NO_INDEX, hf_direction_get_sites(direction, 1, sites, NULL, NULL, NULL));
-  REFUSED("narrow", HF_ERROR_TOO_SMALL, NO_INDEX, hf_direction_solve_f64(direction, now, 16, NULL));
-  REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_direction_solve(direction, NULL, 0, NULL));
+  REFUSED("narrow", HF_ERROR_TOO_SMALL, NO_INDEX, hf_direction_solve(direction, OUT_ROWS(now, 16), NULL));
+  REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_direction_solve(direction, NULL, NULL));
   REFUSED("NULL", HF_ERROR_NULL_POINTER, NO_INDEX, hf_direction_get_singularities(direction, 0, NULL, NULL));
-  assert_ok(hf_direction_solve_f64(direction, now, 0, NULL));
+  assert_ok(hf_direction_solve(direction, OUT(now), NULL));
   row_holds(__LINE__, "the field", "is as it was", same_bits(before, now, sizeof now));
   finish_rows("direction input");
   hf_direction_destroy(direction);
@@ -269,13 +269,13 @@ static void a_kept_clone_has_the_bits_of_then(void** state) {
       if (edit == 2) assert_ok(hf_direction_move_sites(direction, 1, numbers, &to));
       if (edit == 3) assert_ok(hf_direction_remove_sites(direction, 1, numbers));
       counts[step] = hf_direction_get_site_count(direction);
-      assert_ok(hf_direction_solve_f64(direction, fields[step], 0, NULL));
+      assert_ok(hf_direction_solve(direction, OUT(fields[step]), NULL));
       assert_ok(hf_direction_clone(direction, &kept[step]));
     }
     hf_direction_destroy(direction);
     for (uint32_t step = STEPS; step-- > 0;) {
       assert_int_equal(hf_direction_get_site_count(kept[step]), counts[step]);
-      assert_ok(hf_direction_solve_f64(kept[step], now, 0, NULL));
+      assert_ok(hf_direction_solve(kept[step], OUT(now), NULL));
       assert_memory_equal(now, fields[step], sizeof now);
       hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);
       assert_ok(hf_direction_get_statistics(kept[step], &statistics));

@@ -67,10 +67,8 @@ static void append_doubles(Soup* soup, uint32_t count, int mirrored) {
 static hf_surface surface_of(const Soup* soup, uint32_t* triangles, int32_t operator_kind) {
   for (uint32_t i = 0; i < 3 * soup->triangle_count; ++i) triangles[i] = i;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 3 * soup->triangle_count;
-  desc.positions_f64 = soup->positions;
-  desc.triangle_count = soup->triangle_count;
-  desc.triangles = triangles;
+  desc.positions = HF_ARRAY(soup->positions, 3 * soup->triangle_count);
+  desc.triangles = HF_ARRAY(triangles, soup->triangle_count);
   desc.operator_kind = operator_kind;
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&desc, &surface));
@@ -117,8 +115,8 @@ static Results results_of(hf_surface surface, uint32_t vertices, const Places* p
   hf_deform_desc deform = HF_INIT(hf_deform_desc);
   out.posed = calloc(vertices, 3 * sizeof(double));
   out.normals = calloc(vertices, 3 * sizeof(float));
-  deform.positions_f64 = out.posed;
-  deform.normals = out.normals;
+  deform.positions = ROWS_OUT(out.posed);
+  deform.normals = ROWS_OUT(out.normals);
   deform.refine = 4;
   assert_ok(hf_pose_deform(pose, &deform, NULL));
   hf_pose_destroy(pose);
@@ -251,14 +249,14 @@ static void a_two_sided_sheet_is_one_sheet_with_opposite_normals_behind(void** s
     const uint32_t vertices = 3 * doubled.triangle_count;
     float* normals = calloc(vertices, 3 * sizeof *normals);
     hf_deform_desc deform = HF_INIT(hf_deform_desc);
-    deform.normals = normals;
+    deform.normals = ROWS_OUT(normals);
     assert_ok(hf_pose_deform(pose, &deform, NULL));
     for (uint32_t v = 0; v < vertices; ++v)
       assert_true(fabs((double)normals[3 * v + 2] - (is_back(&doubled, v / 3) ? -1 : 1)) < 1e-6);
     /* a range in the middle, with a stride */
     float range[4 * 20];
-    deform.normals = range;
-    deform.normal_stride = 4 * sizeof(float);
+    deform.normals = ROWS_OUT(range);
+    deform.normals.stride = 4 * sizeof(float);
     deform.first_vertex = 5;
     deform.vertex_count = 20;
     assert_ok(hf_pose_deform(pose, &deform, NULL));
@@ -342,10 +340,8 @@ static void a_triangle_over_a_line_that_joins_nothing_changes_nothing(void** sta
     memcpy(triangles, flaps[i], sizeof flaps[i]);
     memcpy(triangles + 3, tube.triangles, 3 * tube.triangle_count * sizeof *triangles);
     hf_surface_desc desc = HF_INIT(hf_surface_desc);
-    desc.vertex_count = VERTICES;
-    desc.positions = tube.positions;
-    desc.triangle_count = tube.triangle_count + 1;
-    desc.triangles = triangles;
+    desc.positions = HF_ARRAY(tube.positions, VERTICES);
+    desc.triangles = HF_ARRAY(triangles, tube.triangle_count + 1);
     hf_surface surface = NULL;
     assert_ok(hf_surface_create(&desc, &surface));
     const hf_surface_report report = report_of(surface);

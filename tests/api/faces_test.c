@@ -37,14 +37,22 @@ static Sheet bent_sheet(void) {
   return sheet;
 }
 
+/* Faces for a desc; the next ones are kept elsewhere. */
+static hf_faces_desc* faces_of(const uint32_t* sizes, uint32_t face_count, const uint32_t* corners,
+                               uint32_t corner_count) {
+  static hf_faces_desc kept[16];
+  static uint32_t next;
+  hf_faces_desc* faces = &kept[next++ % COUNT_OF(kept)];
+  *faces = HF_INIT(hf_faces_desc);
+  faces->sizes = HF_ARRAY(sizes, face_count);
+  faces->corners = HF_ARRAY(corners, corner_count);
+  return faces;
+}
+
 static hf_surface_desc desc_of(const Sheet* sheet) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = POINTS;
-  desc.positions_f64 = sheet->positions;
-  desc.face_count = QUADS;
-  desc.corner_count = 4 * QUADS;
-  desc.face_sizes = sheet->sizes;
-  desc.corners = sheet->corners;
+  desc.positions = HF_ARRAY(sheet->positions, POINTS);
+  desc.faces = faces_of(sheet->sizes, QUADS, sheet->corners, 4 * QUADS);
   return desc;
 }
 
@@ -59,8 +67,8 @@ static void field_on(const hf_surface_desc* desc, double* field) {
   hf_surface surface = made(desc);
   hf_solver solver = solver_on(surface);
   add_site(solver, LEFT, 0);
-  add_site(solver, desc->vertex_count - 1, 1);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
+  add_site(solver, desc->positions.count - 1, 1);
+  assert_ok(hf_solver_solve(solver, OUT(field), NULL));
   hf_solver_destroy(solver);
   hf_surface_destroy(surface);
 }
@@ -85,8 +93,10 @@ static void faces_are_taken_as_every_host_stores_them(void** state) {
   hf_surface_desc desc = desc_of(&sheet);
   double sizes[POINTS], other[POINTS];
   field_on(&desc, sizes);
-  desc.face_starts = sheet.offsets;
-  desc.face_sizes = NULL;
+  hf_faces_desc* faces = faces_of(sheet.sizes, QUADS, sheet.corners, 4 * QUADS);
+  desc.faces = faces;
+  faces->starts = HF_ARRAY(sheet.offsets, QUADS + 1);
+  faces->sizes = (hf_array){0};
   field_on(&desc, other);
   assert_memory_equal(sizes, other, sizeof sizes);
   /* records of a host: start and size of a face, the vertex of a corner, among other things */
@@ -102,11 +112,11 @@ static void faces_are_taken_as_every_host_stores_them(void** state) {
     polygons[f].material = 77;
     for (uint32_t k = 0; k < 4; ++k) loops[polygons[f].start + k].vertex = sheet.corners[4 * f + k];
   }
-  desc.face_starts = &polygons[0].start;
-  desc.face_sizes = &polygons[0].size;
-  desc.face_stride = sizeof polygons[0];
-  desc.corners = &loops[0].vertex;
-  desc.corner_stride = sizeof loops[0];
+  faces->starts = HF_ARRAY(&polygons[0].start, QUADS);
+  faces->sizes = HF_ARRAY(&polygons[0].size, QUADS);
+  faces->starts.stride = faces->sizes.stride = sizeof polygons[0];
+  faces->corners = HF_ARRAY(&loops[0].vertex, 4 * QUADS);
+  faces->corners.stride = sizeof loops[0];
   field_on(&desc, other);
   assert_memory_equal(sizes, other, sizeof sizes);
 }
@@ -156,25 +166,20 @@ static void faces_of_three_corners_are_triangles(void** state) {
   for (uint32_t t = 0; t < CUT_TRIANGLES; ++t) sizes[t] = 3;
   Options options = options_of(&cut);
   double triangles[CUT_VERTICES], faces[CUT_VERTICES];
-  options.surface.vertex_count = CUT_VERTICES;
   hf_surface surface = surface_on(&cut);
   hf_solver solver = solver_on(surface);
   add_site(solver, CUT_LEFT, 0);
   add_site(solver, CUT_RIGHT, 1);
-  assert_ok(hf_solver_solve_f64(solver, triangles, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(triangles), NULL));
   const hf_surface_report before = report_of(&options.surface);
   hf_surface_desc desc = options.surface;
-  desc.triangles = NULL;
-  desc.triangle_count = 0;
-  desc.face_count = CUT_TRIANGLES;
-  desc.corner_count = 3 * CUT_TRIANGLES;
-  desc.face_sizes = sizes;
-  desc.corners = cut.triangles;
+  desc.triangles = (hf_array){0};
+  desc.faces = faces_of(sizes, CUT_TRIANGLES, cut.triangles, 3 * CUT_TRIANGLES);
   hf_surface same = made(&desc);
   hf_solver other = solver_on(same);
   add_site(other, CUT_LEFT, 0);
   add_site(other, CUT_RIGHT, 1);
-  assert_ok(hf_solver_solve_f64(other, faces, 0, NULL));
+  assert_ok(hf_solver_solve(other, OUT(faces), NULL));
   assert_memory_equal(triangles, faces, sizeof faces);
   hf_surface_report after = report_of(&desc);
   assert_int_equal(after.face_count, CUT_TRIANGLES);
@@ -261,12 +266,8 @@ static void concave_faces_holes_and_dirt(void** state) {
                         6, 5,  3};                                    /* the third again, turned round */
   const uint32_t sizes[] = {14, 4, 4, 3, 3};
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 14;
-  desc.positions = &positions[0][0];
-  desc.face_count = 5;
-  desc.corner_count = (uint32_t)COUNT_OF(c);
-  desc.face_sizes = sizes;
-  desc.corners = c;
+  desc.positions = HF_ARRAY(&positions[0][0], 14);
+  desc.faces = faces_of(sizes, 5, c, (uint32_t)COUNT_OF(c));
   const hf_surface_report report = report_of(&desc);
   assert_int_equal(report.face_count, 5);
   assert_int_equal(report.polygon_count, 3);
@@ -302,28 +303,22 @@ static void sides_of_faces_are_counted_not_cuts(void** state) {
   uint32_t corners[] = {0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
   const uint32_t sizes[] = {4, 4, 4, 4, 4, 4};
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 8;
-  desc.positions = &positions[0][0];
-  desc.face_count = 6;
-  desc.corner_count = 24;
-  desc.face_sizes = sizes;
-  desc.corners = corners;
+  desc.positions = HF_ARRAY(&positions[0][0], 8);
+  desc.faces = faces_of(sizes, 6, corners, 24);
   hf_surface_report report = report_of(&desc);
   assert_true(report.boundary_edge_count == 0 && report.flipped_edge_count == 0 && report.non_manifold_edge_count == 0);
-  desc.face_count = 5;
+  desc.faces = faces_of(sizes, 5, corners, 24);
   assert_int_equal(report_of(&desc).boundary_edge_count, 4);
   /* two sides of a card on the same four vertices are one sheet with a border */
   const uint32_t card[] = {0, 1, 2, 3, 3, 2, 1, 0};
-  desc.vertex_count = 4;
-  desc.face_count = 2;
-  desc.corner_count = 8;
-  desc.corners = card;
+  desc.positions.count = 4;
+  desc.faces = faces_of(sizes, 2, card, 8);
   report = report_of(&desc);
   assert_true(report.boundary_edge_count == 4 && report.flipped_edge_count == 0 && report.non_manifold_edge_count == 0);
   assert_int_equal(report.duplicate_triangle_count, 1);
   /* a bow tie on the four vertices is another face */
   const uint32_t tie[] = {0, 1, 2, 3, 0, 2, 1, 3};
-  desc.corners = tie;
+  desc.faces = faces_of(sizes, 2, tie, 8);
   assert_int_equal(report_of(&desc).duplicate_triangle_count, 0);
 }
 
@@ -349,12 +344,8 @@ static void linear_fields_are_exact_on_flat_faces(void** state) {
   }
   sizes[0] = AROUND;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = ALL;
-  desc.positions_f64 = positions;
-  desc.corners = corners;
-  desc.face_sizes = sizes;
-  desc.face_count = 1 + AROUND;
-  desc.corner_count = 5 * AROUND;
+  desc.positions = HF_ARRAY(positions, ALL);
+  desc.faces = faces_of(sizes, 1 + AROUND, corners, 5 * AROUND);
   for (int32_t kind = HF_OPERATOR_INTRINSIC_DELAUNAY; kind <= HF_OPERATOR_COTANGENT; kind += 3) {
     desc.operator_kind = kind;
     hf_surface surface = made(&desc);
@@ -363,7 +354,7 @@ static void linear_fields_are_exact_on_flat_faces(void** state) {
     for (uint32_t i = 0; i < AROUND; ++i) values[i] = positions[3 * rim[i]] + 2 * positions[3 * rim[i] + 1];
     const hf_sites_desc sites = sites_at(AROUND, rim, values);
     assert_ok(hf_add_sites(solver, &sites, NULL));
-    assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
+    assert_ok(hf_solver_solve(solver, OUT(field), NULL));
     for (uint32_t v = 0; v < ALL; ++v)
       assert_true(fabs(field[v] - positions[3 * v] - 2 * positions[3 * v + 1]) < 1e-12);
     hf_solver_destroy(solver);
@@ -413,8 +404,8 @@ static void a_pose_of_faces_follows_its_handles(void** state) {
   assert_ok(hf_pose_add_handles(pose, &regions, handles));
   float posed[3 * POINTS], normals[3 * POINTS];
   hf_deform_desc out = HF_INIT(hf_deform_desc);
-  out.positions = posed;
-  out.normals = normals;
+  out.positions = ROWS_OUT(posed);
+  out.normals = ROWS_OUT(normals);
   assert_ok(hf_pose_deform(pose, &out, NULL));
   for (uint32_t i = 0; i < 3 * POINTS; ++i) assert_true(fabs(posed[i] - sheet.positions[i]) < 1e-5);
   /* the normal of a corner of the sheet is Newell's normal of its one face, wherever the cut runs */

@@ -120,7 +120,7 @@ static void borrowed_bytes_serve_clones_and_poses_until_the_last_is_gone(void** 
   hf_solver_destroy(copy);
   float positions[3 * VERTICES];
   hf_deform_desc deform = HF_INIT(hf_deform_desc);
-  deform.positions = positions;
+  deform.positions = ROWS_OUT(positions);
   assert_ok(hf_pose_deform(pose, &deform, NULL));
   hf_pose_destroy(pose);
   memset(saved.bytes, 0xFF, saved.size); /* no object reads them now */
@@ -386,7 +386,7 @@ static void a_preview_is_close_and_a_correction_makes_it_accurate(void** state) 
     for (uint32_t corrections = 0; corrections < 3; ++corrections) {
       double* field = malloc(sizeof(double) * LARGE);
       hf_preview_info info = HF_INIT(hf_preview_info);
-      assert_ok(hf_solver_solve_preview_f64(solver, field, 0, corrections, &info));
+      assert_ok(hf_solver_solve_preview(solver, OUT(field), corrections, &info));
       const double error = worst_difference(field, exact, LARGE);
       const double allowed[3] = {1e-5, 1e-9, 2e-12};
       assert_true(error <= allowed[corrections] * info.value_range);
@@ -401,7 +401,7 @@ static void a_preview_is_close_and_a_correction_makes_it_accurate(void** state) 
       if (threads == 1) first[corrections] = field;
       assert_true(same_bits(field, first[corrections], sizeof(double) * LARGE));
       float* values = malloc(sizeof(float) * LARGE);
-      assert_ok(hf_solver_solve_preview(solver, values, 0, corrections, NULL));
+      assert_ok(hf_solver_solve_preview(solver, OUT(values), corrections, NULL));
       for (uint32_t v = 0; v < LARGE; ++v) assert_true(values[v] == (float)field[v]);
       free(values);
       if (threads != 1) free(field);
@@ -414,7 +414,7 @@ static void a_preview_is_close_and_a_correction_makes_it_accurate(void** state) 
     assert_ok(hf_surface_get_statistics(surface, &after));
     assert_true(after.memory_bytes <= with - 0.3 * before.factor_bytes);
     double* again = malloc(sizeof(double) * LARGE);
-    assert_ok(hf_solver_solve_preview_f64(solver, again, 0, 0, NULL));
+    assert_ok(hf_solver_solve_preview(solver, OUT(again), 0, NULL));
     assert_true(same_bits(again, first[0], sizeof(double) * LARGE));
     free(again);
     free(exact);
@@ -435,7 +435,7 @@ static void previews_of_tiny_huge_and_shifted_values_are_as_close(void** state) 
     double *exact = field_of(solver, VERTICES), *field = malloc(sizeof(double) * VERTICES);
     hf_preview_info info = HF_INIT(hf_preview_info);
     for (uint32_t corrections = 0; corrections < 2; ++corrections) {
-      assert_ok(hf_solver_solve_preview_f64(solver, field, 0, corrections, &info));
+      assert_ok(hf_solver_solve_preview(solver, OUT(field), corrections, &info));
       const double allowed = (corrections ? 1e-9 : 1e-5) * scale[k] + 1e-15 * shift[k];
       assert_true(worst_difference(field, exact, VERTICES) <= allowed);
     }
@@ -475,7 +475,7 @@ static void solvers_without_a_preview_answer_with_the_exact_field(void** state) 
     }
     double *exact = field_of(solver, VERTICES), *field = malloc(sizeof(double) * VERTICES);
     hf_preview_info info = HF_INIT(hf_preview_info);
-    assert_ok(hf_solver_solve_preview_f64(solver, field, 0, 2, &info));
+    assert_ok(hf_solver_solve_preview(solver, OUT(field), 2, &info));
     assert_int_equal(info.exact, 1);
     assert_true(info.error_estimate == 0 && info.correction_count == 0);
     assert_true(same_bits(field, exact, sizeof(double) * VERTICES));
@@ -494,17 +494,17 @@ static void previews_report_what_no_site_reaches_and_check_their_arguments(void*
   double doubles[CUT_VERTICES];
   hf_preview_info info = HF_INIT(hf_preview_info);
   memset(values, 0x5A, sizeof values);
-  assert_code(HF_ERROR_EMPTY, hf_solver_solve_preview(solver, values, 0, 0, &info));
+  assert_code(HF_ERROR_EMPTY, hf_solver_solve_preview(solver, OUT(values), 0, &info));
   add_site(solver, CUT_LEFT, 1);
   add_site(solver, CUT_RIGHT, 3);
-  assert_code(HF_ERROR_NULL_POINTER, hf_solver_solve_preview(solver, NULL, 0, 0, &info));
-  assert_code(HF_ERROR_NULL_POINTER, hf_solver_solve_preview_f64(solver, NULL, 0, 0, &info));
-  assert_code(HF_ERROR_TOO_SMALL, hf_solver_solve_preview(solver, values, 3, 0, &info));
-  assert_code(HF_ERROR_TOO_SMALL, hf_solver_solve_preview_f64(solver, doubles, 4, 0, &info));
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solver_solve_preview(solver, values, 0, 9, &info));
-  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solver_solve_preview_f64(solver, doubles, 0, UINT32_MAX, &info));
+  assert_code(HF_ERROR_NULL_POINTER, hf_solver_solve_preview(solver, NULL, 0, &info));
+  assert_code(HF_ERROR_NULL_POINTER, hf_solver_solve_preview(solver, NULL, 0, &info));
+  assert_code(HF_ERROR_TOO_SMALL, hf_solver_solve_preview(solver, OUT_ROWS(values, 3), 0, &info));
+  assert_code(HF_ERROR_TOO_SMALL, hf_solver_solve_preview(solver, OUT_ROWS(doubles, 4), 0, &info));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solver_solve_preview(solver, OUT(values), 9, &info));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_solver_solve_preview(solver, OUT(doubles), UINT32_MAX, &info));
   for (size_t i = 0; i < sizeof values; ++i) assert_int_equal(((unsigned char*)values)[i], 0x5A);
-  assert_ok(hf_solver_solve_preview(solver, values, 8, 1, &info));
+  assert_ok(hf_solver_solve_preview(solver, OUT_ROWS(values, 8), 1, &info));
   assert_int_equal(info.unreached_component_count, 1);
   assert_true(values[2 * CUT_ISLAND] == 0 && values[2 * CUT_ISOLATED] == 0);
   assert_true(values[2 * CUT_SEAM_LEFT] == values[2 * CUT_SEAM_RIGHT]);
@@ -527,7 +527,7 @@ static void memory_that_runs_out_in_a_preview_changes_nothing(void** state) {
   size_t failures = 0;
   for (size_t n = 1;; ++n) {
     memory.refuse_at = memory.calls + n;
-    const hf_result result = hf_solver_solve_preview_f64(solver, field, 0, 2, NULL);
+    const hf_result result = hf_solver_solve_preview(solver, OUT(field), 2, NULL);
     memory.refuse_at = 0;
     assert_ok(hf_solver_release_preview(solver));
     if (result == HF_OK) break;

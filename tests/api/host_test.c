@@ -51,7 +51,7 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
   note(w, hf_add_sites(solver, &batch, sites));
   note(w, hf_solver_clone(solver, &copy));
   note(w, hf_remove_sites(copy, 1, sites));
-  note(w, hf_solver_solve_f64(solver, w->field, 0, NULL));
+  note(w, hf_solver_solve(solver, OUT(w->field), NULL));
   hf_add_sites(solver, &batch, NULL); /* a failure: formats a message */
   hf_pose pose = NULL;
   hf_transfer transfer = NULL;
@@ -67,8 +67,8 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
     const hf_transform turned = {{0, 0.5, 0, 0.8660254}, {1, 2, 3}};
     note(w, hf_pose_set_transforms(pose, 1, &handles[1], &turned));
     hf_deform_desc deform = HF_INIT(hf_deform_desc);
-    deform.positions = w->posed;
-    deform.normals = w->normals;
+    deform.positions = ROWS_OUT(w->posed);
+    deform.normals = ROWS_OUT(w->normals);
     note(w, hf_pose_deform(pose, &deform, NULL));
     hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
     pairs.pair_count = 2;
@@ -77,8 +77,8 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
     note(w, hf_transfer_create(surface, surface, NULL, &transfer));
     note(w, hf_transfer_add_pairs(transfer, &pairs, NULL));
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions = w->posed;
-    frame.target_positions = w->transferred;
+    frame.source_positions = HF_ARRAY(w->posed, VERTICES);
+    frame.target_positions = ROWS_OUT(w->transferred);
     note(w, hf_transfer_apply(transfer, &frame));
     free(ends);
   }
@@ -146,7 +146,7 @@ static void rounding_modes_are_kept_and_do_not_matter(void** state) {
     after[0] = fegetround();
     results[1] = hf_add_sites(solver, &sites, NULL);
     after[1] = fegetround();
-    results[2] = hf_solver_solve_f64(solver, fields[m], 0, NULL);
+    results[2] = hf_solver_solve(solver, OUT(fields[m]), NULL);
     after[2] = fegetround();
     hf_solver_destroy(solver);
     after[3] = fegetround();
@@ -228,7 +228,7 @@ static void floating_point_traps_of_the_host_do_not_strike(void** state) {
   const int traps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT;
   feenableexcept(traps);
   const hf_result made = make(&desc, NULL, &solver), added = hf_add_sites(solver, &sites, NULL),
-                  solved = hf_solver_solve_f64(solver, field, 0, NULL);
+                  solved = hf_solver_solve(solver, OUT(field), NULL);
   const int still = fegetexcept();
   fedisableexcept(traps);
   assert_int_equal(made, HF_OK);

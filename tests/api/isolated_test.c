@@ -43,7 +43,7 @@ static Found found_on(const Surface* body, uint32_t vertex_count) {
   assert_ok(hf_pose_set_transform(pose, 0, &turn));
   out.posed = calloc(3 * body->vertex_count, sizeof *out.posed);
   hf_deform_desc deform = HF_INIT(hf_deform_desc);
-  deform.positions_f64 = out.posed;
+  deform.positions = ROWS_OUT(out.posed);
   deform.refine = 2;
   assert_ok(hf_pose_deform(pose, &deform, NULL));
   hf_pose_destroy(pose);

@@ -89,7 +89,7 @@ static void use_member(Family* f, int member, const Surface* tube) {
   float positions[3 * VERTICES];
   if (member < POSE) {
     const uint32_t site = add_site(f->solvers[member], 50, 2);
-    assert_ok(hf_solver_solve_f64(f->solvers[member], field, 0, NULL));
+    assert_ok(hf_solver_solve(f->solvers[member], OUT(field), NULL));
     assert_true(field[50] == 2);
     assert_ok(hf_remove_sites(f->solvers[member], 1, &site));
   } else if (member < TRANSFER) {
@@ -101,7 +101,7 @@ static void use_member(Family* f, int member, const Surface* tube) {
     more.region_vertices = &vertex;
     assert_ok(hf_pose_add_handles(f->poses[member - POSE], &more, &handle));
     hf_deform_desc deform = HF_INIT(hf_deform_desc);
-    deform.positions = positions;
+    deform.positions = ROWS_OUT(positions);
     assert_ok(hf_pose_deform(f->poses[member - POSE], &deform, NULL));
     assert_ok(hf_pose_remove_handles(f->poses[member - POSE], 1, &handle));
   } else if (member == SURFACE) {
@@ -110,8 +110,8 @@ static void use_member(Family* f, int member, const Surface* tube) {
     hf_solver_destroy(more);
   } else {
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions = tube->positions;
-    frame.target_positions = positions;
+    frame.source_positions = HF_ARRAY(tube->positions, tube->vertex_count);
+    frame.target_positions = ROWS_OUT(positions);
     assert_ok(hf_transfer_apply(f->transfer, &frame));
   }
 }

@@ -20,11 +20,7 @@ static hf_surface_desc soup(void) {
     corners[i] = (random >> 8) % VERTICES;
   }
   hf_surface_desc desc = options_of(&places).surface;
-  desc.vertex_count = VERTICES;
-  desc.triangle_count = TRIANGLES;
-  desc.triangles = corners;
-  desc.triangles_u16 = NULL;
-  desc.triangle_stride = 0;
+  desc.triangles = HF_ARRAY(corners, TRIANGLES);
   desc.allocator = counting_hooks(&counter);
   return desc;
 }

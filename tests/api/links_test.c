@@ -108,14 +108,13 @@ static void what_works_on_triangles_does_not_see_links(void** state) {
   assert_ok(hf_geodesics_create(plain, NULL, &without));
   const uint32_t source = CUT_LEFT;
   double a[CUT_VERTICES], b[CUT_VERTICES];
-  assert_ok(hf_geodesics_solve_f64(with, 1, &source, a, 0));
-  assert_ok(hf_geodesics_solve_f64(without, 1, &source, b, 0));
+  assert_ok(hf_geodesics_solve(with, 1, &source, OUT(a)));
+  assert_ok(hf_geodesics_solve(without, 1, &source, OUT(b)));
   assert_true(same_bits(a, b, sizeof a));
   hf_geodesics_destroy(with);
   hf_geodesics_destroy(without);
   double* field = field_on(plain);
-  hf_scalars scalars = HF_INIT(hf_scalars);
-  scalars.values_f64 = field;
+  const hf_array scalars = HF_ARRAY(field, CUT_VERTICES);
   hf_critical_info x = HF_INIT(hf_critical_info), y = HF_INIT(hf_critical_info);
   assert_ok(hf_surface_find_critical_points(linked, &scalars, 0, NULL, &x));
   assert_ok(hf_surface_find_critical_points(plain, &scalars, 0, NULL, &y));
@@ -300,8 +299,7 @@ static void a_pose_takes_linked_pieces_along_and_gaps_are_measured(void** state)
     hf_deform_info info = HF_INIT(hf_deform_info);
     assert_ok(hf_deform(pose, posed, &info));
     assert_int_equal(info.unreached_vertex_count, with ? 1 : 10);
-    hf_gaps_desc desc = HF_INIT(hf_gaps_desc);
-    desc.positions = posed;
+    const hf_array desc = HF_ARRAY(posed, CUT_VERTICES);
     hf_gaps_info gaps = HF_INIT(hf_gaps_info);
     double each[64];
     assert_ok(hf_surface_measure_gaps(linked, &desc, 64, each, &gaps));
@@ -324,7 +322,7 @@ static double* expected;
 static uint16_t joints[CUT_VERTICES];
 static float weights[CUT_VERTICES], posed[3 * CUT_VERTICES];
 static uint32_t vertex_list[2];
-static hf_gaps_desc gaps_desc;
+static hf_array posed_rows;
 static hf_gaps_info gaps_info;
 
 static void good_input(void) {
@@ -348,9 +346,8 @@ static void good_input(void) {
     weights[v] = 1;
   }
   memcpy(posed, mesh.positions, sizeof posed);
-  gaps_desc = HF_INIT(hf_gaps_desc);
   gaps_info = HF_INIT(hf_gaps_info);
-  gaps_desc.positions = posed;
+  posed_rows = HF_ARRAY(posed, CUT_VERTICES);
   out = linked; /* must become NULL */
 }
 static int nothing_changed(void) {
@@ -422,16 +419,16 @@ static void bad_links_are_refused_by_index_and_change_nothing(void** state) {
   ROW("no array", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_get_pieces(linked, 0, NULL, NULL, NULL));
   ROW("short array", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_surface_get_pieces(linked, 1, vertex_list, NULL, NULL));
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
-      hf_surface_measure_gaps(linked, &gaps_desc, 0, NULL, NULL));
-  ROW("no desc", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_measure_gaps(linked, NULL, 0, NULL, &gaps_info));
-  ROW("no positions", HF_ERROR_NULL_POINTER, NO_INDEX, gaps_desc.positions = NULL,
-      hf_surface_measure_gaps(linked, &gaps_desc, 0, NULL, &gaps_info));
+      hf_surface_measure_gaps(linked, &posed_rows, 0, NULL, NULL));
+  ROW("no array", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_measure_gaps(linked, NULL, 0, NULL, &gaps_info));
+  ROW("no positions", HF_ERROR_NULL_POINTER, NO_INDEX, posed_rows.data = NULL,
+      hf_surface_measure_gaps(linked, &posed_rows, 0, NULL, &gaps_info));
   ROW("short gaps", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
-      hf_surface_measure_gaps(linked, &gaps_desc, 0, one.barycentrics, &gaps_info));
-  ROW("stride", HF_ERROR_TOO_SMALL, NO_INDEX, gaps_desc.position_stride = 8,
-      hf_surface_measure_gaps(linked, &gaps_desc, 0, NULL, &gaps_info));
+      hf_surface_measure_gaps(linked, &posed_rows, 0, one.barycentrics, &gaps_info));
+  ROW("stride", HF_ERROR_TOO_SMALL, NO_INDEX, posed_rows.stride = 8,
+      hf_surface_measure_gaps(linked, &posed_rows, 0, NULL, &gaps_info));
   ROW("position not finite", HF_ERROR_NON_FINITE, linked_vertex, spoil_linked_vertex(),
-      hf_surface_measure_gaps(linked, &gaps_desc, 0, NULL, &gaps_info));
+      hf_surface_measure_gaps(linked, &posed_rows, 0, NULL, &gaps_info));
   ROW("destroyed surface", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_surface_relink(NULL, &bad, NULL, &out));
   free(expected);
 }

@@ -62,8 +62,7 @@ static void dirty_triangles_are_counted_and_the_field_is_finite(void** state) {
                              0,        24,       12};      /* a flap across the sheet */
   memcpy(dirty + 96, more, sizeof more);
   Options desc = options_of(&sheet);
-  desc.surface.triangles = dirty;
-  desc.surface.triangle_count = 36;
+  desc.surface.triangles = HF_ARRAY(dirty, 36);
   hf_surface surface = NULL;
   hf_solver solver = NULL;
   assert_ok(make(&desc, &surface, &solver));
@@ -94,10 +93,8 @@ static hf_surface_report report_of_tetrahedra(int first_turned, int second_turne
     triangles[3 * t + 1] = v;
   }
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 8;
-  desc.positions = positions;
-  desc.triangle_count = second_open ? 7 : 8;
-  desc.triangles = triangles;
+  desc.positions = HF_ARRAY(positions, 8);
+  desc.triangles = HF_ARRAY(triangles, second_open ? 7 : 8);
   hf_surface surface;
   assert_ok(hf_surface_create(&desc, &surface));
   const hf_surface_report report = report_of(surface);
@@ -138,14 +135,14 @@ static void what_no_site_reaches_is_zero_and_counted(void** state) {
   double field[CUT_VERTICES];
   hf_solve_info info = HF_INIT(hf_solve_info);
   const uint32_t first = add_site(solver, CUT_LEFT, 3);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve(solver, OUT(field), &info));
   assert_int_equal(info.unreached_component_count, 1);
   assert_int_equal(info.first_unreached_component, 1);
   assert_int_equal(info.unreached_vertex_count, 9 + 1);
   for (uint32_t v = 0; v < CUT_VERTICES; ++v) assert_true(v < CUT_ISLAND ? fabs(field[v] - 3) < 1e-12 : field[v] == 0);
   /* a site on the piece reaches it; the isolated vertex stays */
   const uint32_t second = add_site(solver, CUT_ISLAND + 4, -2);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve(solver, OUT(field), &info));
   assert_int_equal(info.unreached_component_count, 0);
   assert_int_equal(info.first_unreached_component, HF_NO_INDEX);
   assert_int_equal(info.unreached_vertex_count, 1);
@@ -153,12 +150,12 @@ static void what_no_site_reaches_is_zero_and_counted(void** state) {
   assert_true(field[CUT_ISOLATED] == 0);
   /* the last site of the first component leaves: it is unreached, and exact again after another comes */
   assert_ok(hf_remove_sites(solver, 1, &first));
-  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve(solver, OUT(field), &info));
   assert_int_equal(info.first_unreached_component, 0);
   assert_int_equal(info.unreached_vertex_count, 50 + 1);
   for (uint32_t v = 0; v < CUT_ISLAND; ++v) assert_true(field[v] == 0);
   add_site(solver, CUT_RIGHT, 11);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, &info));
+  assert_ok(hf_solver_solve(solver, OUT(field), &info));
   for (uint32_t v = 0; v < CUT_ISLAND; ++v) assert_true(fabs(field[v] - 11) < 1e-11);
   assert_ok(hf_remove_sites(solver, 1, &second));
   double at[2];
@@ -214,8 +211,8 @@ static double* moved_field(const Surface* sheet, double scale, double offset, in
     floats[i] = (float)doubles[i];
   }
   Options desc = options_of(sheet);
-  desc.surface.positions = as_float ? floats : NULL;
-  desc.surface.positions_f64 = as_float ? NULL : doubles;
+  desc.surface.positions = HF_ARRAY(doubles, sheet->vertex_count);
+  if (as_float) desc.surface.positions = HF_ARRAY(floats, sheet->vertex_count);
   hf_solver solver = NULL;
   assert_ok(make(&desc, NULL, &solver));
   add_site(solver, 0, -1e6);
@@ -261,8 +258,8 @@ static void interleaved_vertices_are_read_by_their_stride(void** state) {
   for (uint32_t v = 0; v < sheet.vertex_count; ++v) memcpy(records + (size_t)RECORD * v, sheet.positions + 3 * v, 12);
   Options desc = options_of(&sheet);
   hf_solver plain = surface_solver(&sheet), strided = NULL;
-  desc.surface.positions = (const float*)(const void*)records;
-  desc.surface.position_stride = RECORD;
+  desc.surface.positions.data = records;
+  desc.surface.positions.stride = RECORD;
   assert_ok(make(&desc, NULL, &strided));
   hf_solver both[2] = {plain, strided};
   double* field[2];
@@ -295,17 +292,21 @@ static void triangles_of_16_bits_and_any_stride_give_the_same_bits(void** state)
     memcpy(narrow + (size_t)NARROW * t, packed + 3 * t, 6);
   }
   const struct {
-    const void *triangles, *triangles_u16;
+    const void* triangles;
+    int32_t type;
     uint32_t stride;
-  } forms[4] = {{sheet.triangles, NULL, 0}, {wide, NULL, WIDE}, {NULL, packed, 0}, {NULL, narrow, NARROW}};
+  } forms[4] = {{sheet.triangles, HF_TYPE_PLAIN, 0},
+                {wide, HF_TYPE_PLAIN, WIDE},
+                {packed, HF_TYPE_UINT16, 0},
+                {narrow, HF_TYPE_UINT16, NARROW}};
   double* fields[4];
   unsigned char* factors[4];
   size_t sizes[4];
   for (int i = 0; i < 4; ++i) {
     Options desc = options_of(&sheet);
-    desc.surface.triangles = forms[i].triangles;
-    desc.surface.triangles_u16 = forms[i].triangles_u16;
-    desc.surface.triangle_stride = forms[i].stride;
+    desc.surface.triangles.data = forms[i].triangles;
+    desc.surface.triangles.type = forms[i].type;
+    desc.surface.triangles.stride = forms[i].stride;
     hf_surface surface = NULL;
     hf_solver solver = NULL;
     assert_ok(make(&desc, &surface, &solver));

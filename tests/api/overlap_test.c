@@ -58,9 +58,9 @@ static void values_may_be_written_over_the_list_they_were_asked_by(void** state)
   assert_ok(hf_geodesics_create(surface, NULL, &geodesics));
   double apart[VERTICES], over[VERTICES];
   const uint32_t sources[2] = {5, 66};
-  assert_ok(hf_geodesics_solve_f64(geodesics, 2, sources, apart, 0));
+  assert_ok(hf_geodesics_solve(geodesics, 2, sources, OUT(apart)));
   memcpy(over, sources, sizeof sources);
-  assert_ok(hf_geodesics_solve_f64(geodesics, 2, (const uint32_t*)(const void*)over, over, 0));
+  assert_ok(hf_geodesics_solve(geodesics, 2, (const uint32_t*)(const void*)over, OUT(over)));
   assert_true(same_bits(apart, over, sizeof over));
   hf_geodesics_destroy(geodesics);
   free(field);
@@ -89,10 +89,10 @@ static void a_posed_source_may_become_the_target_in_place(void** state) {
     posed[3 * v] += 0.02f * y * y;
   }
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed;
-  frame.target_positions = apart;
+  frame.source_positions = HF_ARRAY(posed, VERTICES);
+  frame.target_positions = ROWS_OUT(apart);
   assert_ok(hf_transfer_apply(transfer, &frame));
-  frame.target_positions = posed;
+  frame.target_positions = ROWS_OUT(posed);
   assert_ok(hf_transfer_apply(transfer, &frame));
   assert_true(same_bits(posed, apart, sizeof apart));
   hf_transfer_destroy(transfer);

@@ -208,7 +208,7 @@ static void rays_through_edges_and_vertices_never_slip_through(void** state) {
   /* and where the distances of the triangles differ by rounding alone */
   double posed[3 * 25];
   hf_pick_desc stand = HF_INIT(hf_pick_desc);
-  stand.positions_f64 = posed;
+  stand.positions = HF_ARRAY(posed, 25);
   for (uint32_t v = 0; v < 25; ++v) {
     posed[3 * v] = 3 * (v % 5);
     posed[3 * v + 1] = 7 * (v / 5);
@@ -244,9 +244,9 @@ static void a_posed_surface_is_hit_where_it_stands(void** state) {
   moved.positions = posed;
   const hf_surface there = surface_on(&moved);
   hf_pick_desc floats = HF_INIT(hf_pick_desc), wide = HF_INIT(hf_pick_desc);
-  floats.positions = posed;
-  wide.positions_f64 = doubles;
-  wide.position_stride = 4 * sizeof(double);
+  floats.positions = HF_ARRAY(posed, COUNT);
+  wide.positions = HF_ARRAY(doubles, COUNT);
+  wide.positions.stride = 4 * sizeof(double);
   int hits = 0, others = 0;
   for (int i = 0; i < 1000; ++i) {
     const uint32_t aim = random_below(COUNT);
@@ -291,9 +291,9 @@ static void triangles_of_16_bits_give_the_same_bits_on_any_thread_count(void** s
     memcpy(narrow + (size_t)STRIDE * t, corners, sizeof corners);
   }
   hf_surface_desc desc = options_of(&ring).surface;
-  desc.triangles = NULL;
-  desc.triangles_u16 = (const uint16_t*)(const void*)narrow;
-  desc.triangle_stride = STRIDE;
+  desc.triangles.data = narrow;
+  desc.triangles.type = HF_TYPE_UINT16;
+  desc.triangles.stride = STRIDE;
   desc.thread_count = 3;
   hf_surface small = NULL;
   assert_ok(hf_surface_create(&desc, &small));
@@ -373,17 +373,19 @@ static void bad_input_is_named(void** state) {
     BAD("a point far away", HF_ERROR_TOO_LARGE, NO_INDEX, hf_surface_find_vertex(s, far, NULL, &vertex, NULL));
   }
 #define PICK(what, expected, index, change)                              \
-  pick = HF_INIT(hf_pick_desc), pick.positions_f64 = doubles, change;    \
+  pick = HF_INIT(hf_pick_desc);                                          \
+  pick.positions = HF_ARRAY(doubles, CUT_VERTICES);                      \
+  change;                                                                \
   BAD(what, expected, index, hf_surface_cast_ray(s, o, d, &pick, &hit)); \
   BAD(what, expected, index, hf_surface_find_vertex(s, o, &pick, &vertex, NULL))
-  PICK("both positions", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, pick.positions = cut.positions);
-  PICK("stride of floats", HF_ERROR_TOO_SMALL, NO_INDEX, pick.position_stride = 12);
+  PICK("a vertex too few", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, pick.positions.count = CUT_VERTICES - 1);
+  PICK("stride of floats", HF_ERROR_TOO_SMALL, NO_INDEX, pick.positions.stride = 12);
   PICK("front_only 2", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, pick.front_only = 2);
-  PICK("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, pick.reserved = 1);
+  PICK("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, pick.positions.reserved = 1);
   PICK("a posed vertex NaN", HF_ERROR_NON_FINITE, 13, doubles[3 * 13 + 1] = (double)NAN);
   PICK("a posed vertex infinite", HF_ERROR_NON_FINITE, 13, doubles[3 * 13 + 1] = HUGE_VAL);
   pick = HF_INIT(hf_pick_desc);
-  pick.positions_f64 = doubles;
+  pick.positions = HF_ARRAY(doubles, CUT_VERTICES);
   for (size_t i = 0; i < COUNT_OF(doubles); ++i) doubles[i] = 1e200;
   BAD("all posed vertices far away", HF_ERROR_TOO_LARGE, NO_INDEX,
       hf_surface_find_vertex(s, zero, &pick, &vertex, NULL));

@@ -26,8 +26,8 @@ static int free_tube(void** state) {
 
 static hf_deform_desc to_doubles(double* positions, float* normals) {
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
-  desc.positions_f64 = positions;
-  desc.normals = normals;
+  desc.positions = ROWS_OUT(positions);
+  if (normals) desc.normals = ROWS_OUT(normals);
   return desc;
 }
 
@@ -161,8 +161,8 @@ static void the_fields_of_the_handles_sum_to_one(void** state) {
   uint32_t handles[2];
   hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles);
   static float first[VERTICES], second[2 * VERTICES];
-  assert_ok(hf_pose_get_field(pose, handles[0], first, 0));
-  assert_ok(hf_pose_get_field(pose, handles[1], second, 8));
+  assert_ok(hf_pose_get_field(pose, handles[0], OUT(first)));
+  assert_ok(hf_pose_get_field(pose, handles[1], OUT_ROWS(second, 8)));
   for (uint32_t v = 0; v < VERTICES; ++v) {
     assert_true(fabs((double)(first[v] + second[2 * v]) - 1) < 1e-6);
     const uint32_t ring = v / AROUND;
@@ -188,13 +188,12 @@ static void float_double_and_strided_outputs_agree(void** state) {
   hf_deform_desc desc = to_doubles(doubles, NULL);
   desc.restart = 1;
   assert_ok(hf_pose_deform(pose, &desc, NULL));
-  desc.positions_f64 = NULL;
-  desc.positions = floats;
-  desc.normals = normals;
+  desc.positions = ROWS_OUT(floats);
+  desc.normals = ROWS_OUT(normals);
   assert_ok(hf_pose_deform(pose, &desc, NULL));
-  desc.positions = records[0].position;
-  desc.normals = records[0].normal;
-  desc.position_stride = desc.normal_stride = sizeof(Record);
+  desc.positions = ROWS_OUT(records[0].position);
+  desc.normals = ROWS_OUT(records[0].normal);
+  desc.positions.stride = desc.normals.stride = sizeof(Record);
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   for (uint32_t v = 0; v < VERTICES; ++v) {
     for (uint32_t k = 0; k < 3; ++k) {
@@ -227,7 +226,7 @@ static void handles_come_and_go_and_clones_are_independent(void** state) {
   assert_ok(hf_pose_add_handles(pose, &more, &third));
   assert_int_equal(hf_pose_get_handle_count(pose), 3);
   assert_int_equal(hf_pose_get_handle_count(copy), 2);
-  desc.positions_f64 = after;
+  desc.positions = ROWS_OUT(after);
   assert_ok(hf_pose_deform(copy, &desc, NULL));
   assert_true(same_bits(before, after, sizeof before));
   assert_ok(hf_pose_deform(pose, &desc, NULL));
@@ -371,9 +370,9 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
     hf_transfer transfer = transfer_of(transfer_modes[m], surface, target, AROUND, RINGS, 9, 17, pairs);
     static float positions[3 * 9 * 17], normals[3 * 9 * 17];
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions = tube.positions;
-    frame.target_positions = positions;
-    frame.target_normals = normals;
+    frame.source_positions = HF_ARRAY(tube.positions, VERTICES);
+    frame.target_positions = ROWS_OUT(positions);
+    frame.target_normals = ROWS_OUT(normals);
     assert_ok(hf_transfer_apply(transfer, &frame));
     for (uint32_t i = 0; i < 3 * 9 * 17; ++i) assert_true(fabs((double)(positions[i] - other.positions[i])) < 1e-4);
     for (uint32_t v = 0; v < 9 * 17; ++v)
@@ -400,8 +399,8 @@ static void a_transfer_of_stretch_swells_with_the_source_and_refuses_holds_and_s
   static double posed[3 * VERTICES], made[3 * TARGET], before[3 * TARGET];
   for (uint32_t i = 0; i < 3 * VERTICES; ++i) posed[i] = 1.5 * (double)tube.positions[i];
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed;
-  frame.target_positions_f64 = made;
+  frame.source_positions = HF_ARRAY(posed, VERTICES);
+  frame.target_positions = ROWS_OUT(made);
   assert_ok(hf_transfer_apply(transfer, &frame));
   double box = 0; /* without fmax: GCC 12 for ARM breaks down on a maximum in a loop */
   for (uint32_t i = 0; i < 3 * TARGET; ++i) {
@@ -441,8 +440,8 @@ static void dials_are_read_back_and_neutral_ones_change_no_bit(void** state) {
   for (uint32_t v = 0; v < VERTICES; ++v)
     for (int c = 0; c < 3; ++c) posed[3 * v + c] = tube.positions[3 * v + c] + (c == 0 ? 2.0f : 0.0f);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed;
-  frame.target_positions = plain;
+  frame.source_positions = HF_ARRAY(posed, VERTICES);
+  frame.target_positions = ROWS_OUT(plain);
   assert_ok(hf_transfer_apply(transfer, &frame));
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
   assert_ok(hf_transfer_get_dials(transfer, &dials));
@@ -458,7 +457,7 @@ static void dials_are_read_back_and_neutral_ones_change_no_bit(void** state) {
   hf_transfer_dials read = HF_INIT(hf_transfer_dials);
   assert_ok(hf_transfer_get_dials(transfer, &read));
   assert_memory_equal(&read, &dials, sizeof read);
-  frame.target_positions = dialled;
+  frame.target_positions = ROWS_OUT(dialled);
   assert_ok(hf_transfer_apply(transfer, &frame));
   double moved = 0, path = 0;
   for (uint32_t v = 0; v < TARGET; ++v) {
@@ -467,7 +466,7 @@ static void dials_are_read_back_and_neutral_ones_change_no_bit(void** state) {
   }
   assert_true(fabs(moved - 1.5 * path) < 1e-4 * fabs(path)); /* the body travels 1.5 times as far */
   assert_ok(hf_transfer_set_dials(transfer, NULL));
-  frame.target_positions = again;
+  frame.target_positions = ROWS_OUT(again);
   assert_ok(hf_transfer_apply(transfer, &frame));
   assert_memory_equal(again, plain, sizeof plain);
   hf_transfer_info info = HF_INIT(hf_transfer_info);
@@ -492,8 +491,8 @@ static void the_skin_replays_the_transfer(void** state) {
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, target, AROUND, RINGS, 9, 17, pairs);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed;
-  frame.target_positions_f64 = moved;
+  frame.source_positions = HF_ARRAY(posed, VERTICES);
+  frame.target_positions = ROWS_OUT(moved);
   assert_ok(hf_transfer_apply(transfer, &frame));
 
   hf_skin_info skin = HF_INIT(hf_skin_info);
@@ -534,7 +533,7 @@ static void the_skin_replays_the_transfer(void** state) {
   }
   assert_true(farthest > 0.5); /* the motion arrived at all */
   /* a frame without output moves the skin only */
-  frame.target_positions_f64 = NULL;
+  frame.target_positions = (hf_array_out){0};
   assert_ok(hf_transfer_apply(transfer, &frame));
   free(pivots);
   free(rotations);
@@ -556,10 +555,10 @@ static void a_frame_may_be_transferred_in_place(void** state) {
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, surface, AROUND, RINGS, AROUND, RINGS, pairs);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed;
-  frame.target_positions_f64 = apart;
+  frame.source_positions = HF_ARRAY(posed, VERTICES);
+  frame.target_positions = ROWS_OUT(apart);
   assert_ok(hf_transfer_apply(transfer, &frame));
-  frame.target_positions_f64 = posed;
+  frame.target_positions = ROWS_OUT(posed);
   assert_ok(hf_transfer_apply(transfer, &frame));
   assert_true(same_bits(posed, apart, sizeof posed));
   assert_ok(hf_transfer_remove_pairs(transfer, 1, pairs));
@@ -583,8 +582,8 @@ static void a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_t
   static float out[3 * VERTICES];
   const double place[3] = {1.5, -0.25, 7.0};
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = tube.positions;
-  frame.target_positions = out;
+  frame.source_positions = HF_ARRAY(tube.positions, VERTICES);
+  frame.target_positions = ROWS_OUT(out);
   frame.hold_count = 1;
   frame.hold_pairs = &pairs[1];
   frame.hold_positions = place;
@@ -688,7 +687,7 @@ static void matrices_place_handles_like_transforms(void** state) {
   assert_ok(hf_pose_set_matrices(other, 1, &handles[1], matrix));
   hf_deform_desc desc = to_doubles(by_transform, NULL);
   assert_ok(hf_pose_deform(pose, &desc, NULL));
-  desc.positions_f64 = by_matrix;
+  desc.positions = ROWS_OUT(by_matrix);
   assert_ok(hf_pose_deform(other, &desc, NULL));
   assert_true(farthest_apart(by_transform, by_matrix) < 1e-9);
   hf_pose_destroy(pose);

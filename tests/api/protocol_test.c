@@ -28,11 +28,7 @@ typedef struct Call {
   void* array[ARRAYS];
 } Call;
 
-static hf_scalars heights(void) {
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = height;
-  return field;
-}
+static hf_array heights(void) { return HF_ARRAY(height, TUBE_VERTICES); }
 
 static hf_result get_components(Call* c) {
   uint32_t count = 777;
@@ -54,9 +50,8 @@ static hf_result get_pieces(Call* c) {
 }
 static hf_result measure_gaps(Call* c) {
   float posed[36] = {0};
-  hf_gaps_desc desc = HF_INIT(hf_gaps_desc);
+  const hf_array desc = HF_ARRAY(posed, 12);
   hf_gaps_info info = HF_INIT(hf_gaps_info);
-  desc.positions = posed;
   const hf_result r = hf_surface_measure_gaps(linked, &desc, (uint32_t)c->capacity[0], c->array[0], &info);
   c->count[0] = info.link_count;
   return r;
@@ -65,7 +60,7 @@ static hf_result save(Call* c) {
   return hf_surface_save(scene.sheet, HF_FIELD_HARMONIC, NULL, c->capacity[0], c->array[0], &c->count[0]);
 }
 static hf_result find_critical_points(Call* c) {
-  const hf_scalars field = heights();
+  const hf_array field = heights();
   hf_critical_info info = HF_INIT(hf_critical_info);
   const hf_result r = hf_surface_find_critical_points(scene.body, &field, (uint32_t)c->capacity[0], c->array[0], &info);
   c->count[0] = info.point_count;
@@ -84,7 +79,7 @@ static hf_result propose(Call* c) {
   return r;
 }
 static hf_result trace_isolines(Call* c) {
-  const hf_scalars field = heights();
+  const hf_array field = heights();
   const double levels[2] = {3.5, 8.25};
   hf_isolines lines = HF_INIT(hf_isolines);
   lines.point_capacity = (uint32_t)c->capacity[0];
@@ -113,7 +108,7 @@ static hf_result find_path(Call* c) {
   return r;
 }
 static hf_result flow_trace(Call* c) {
-  const hf_scalars field = heights();
+  const hf_array field = heights();
   hf_streamlines lines = HF_INIT(hf_streamlines);
   lines.wanted_count = 5;
   lines.point_capacity = (uint32_t)c->capacity[0];
@@ -360,10 +355,8 @@ static void linked_create(void) {
   hf_links_desc links = HF_INIT(hf_links_desc);
   links.mode = HF_LINK_PIECES;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 12;
-  desc.triangle_count = 16;
-  desc.positions = corners;
-  desc.triangles = faces;
+  desc.positions = HF_ARRAY(corners, 12);
+  desc.triangles = HF_ARRAY(faces, 16);
   desc.links = &links;
   assert_ok(hf_surface_create(&desc, &linked));
 }

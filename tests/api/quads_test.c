@@ -347,8 +347,7 @@ static void flow_lines_rise_and_outlive_the_surface(void** state) {
   hf_flow flow = NULL;
   assert_ok(hf_flow_create(surface, &flow));
   hf_surface_destroy(surface);
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = height;
+  const hf_array field = HF_ARRAY(height, COUNT);
   const uint32_t seed = 10 * AROUND + 3;
   for (int pass = 0; pass < 2; ++pass) {
     hf_streamlines lines = HF_INIT(hf_streamlines);
@@ -523,8 +522,7 @@ static void bad_input_is_named(void** state) {
   assert_ok(hf_flow_create(surface, &flow));
   assert_code(HF_ERROR_INVALID_OBJECT, hf_quads_get_info((hf_quads)flow, NULL));
   double values[COUNT] = {0};
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = values;
+  const hf_array field = HF_ARRAY(values, COUNT);
   hf_streamlines out = HF_INIT(hf_streamlines);
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_flow_trace(flow, &field, &out)); /* no line is wanted */
   out.wanted_count = 1;
@@ -545,10 +543,8 @@ static void mostly_non_manifold_triangles_are_refused_with_a_vertex(void** state
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, -1};
   const uint32_t triangles[] = {0, 1, 2, 1, 0, 3, 0, 1, 4};
   hf_surface_desc create = HF_INIT(hf_surface_desc);
-  create.vertex_count = 5;
-  create.triangle_count = 3;
-  create.positions = positions;
-  create.triangles = triangles;
+  create.positions = HF_ARRAY(positions, 5);
+  create.triangles = HF_ARRAY(triangles, 3);
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&create, &surface));
   hf_quads quads = NULL;
@@ -586,10 +582,8 @@ static void very_many_quads_must_be_asked_for(void** state) {
   }
   for (uint32_t i = 0; i < RIM; ++i) add_square(triangles, 6 * i, 2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3);
   hf_surface_desc create = HF_INIT(hf_surface_desc);
-  create.vertex_count = 2 * RIM + 2;
-  create.triangle_count = 2 * RIM;
-  create.positions = positions;
-  create.triangles = triangles;
+  create.positions = HF_ARRAY(positions, 2 * RIM + 2);
+  create.triangles = HF_ARRAY(triangles, 2 * RIM);
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&create, &surface));
   hf_quads_desc desc = HF_INIT(hf_quads_desc);
@@ -625,10 +619,8 @@ static void a_non_manifold_edge_is_parted(void** state) {
     count = add_square(triangles, count, a, a + 1, c, c + 1);
   }
   hf_surface_desc create = HF_INIT(hf_surface_desc);
-  create.vertex_count = SHEET + N + 1;
-  create.triangle_count = count / 3;
-  create.positions = positions;
-  create.triangles = triangles;
+  create.positions = HF_ARRAY(positions, SHEET + N + 1);
+  create.triangles = HF_ARRAY(triangles, count / 3);
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&create, &surface));
   hf_surface_report report = HF_INIT(hf_surface_report);
@@ -695,10 +687,8 @@ static void triangles_whose_angles_are_lost_in_rounding_get_quads(void** state) 
   }
   for (size_t i = 0; i < COUNT_OF(moved); ++i) memcpy(positions[moved[i].vertex], moved[i].place, sizeof positions[0]);
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = ROWS * COLUMNS;
-  desc.positions_f64 = &positions[0][0];
-  desc.triangle_count = count / 3;
-  desc.triangles = triangles;
+  desc.positions = HF_ARRAY(&positions[0][0], ROWS * COLUMNS);
+  desc.triangles = HF_ARRAY(triangles, count / 3);
   hf_surface surface = NULL;
   assert_ok(hf_surface_create(&desc, &surface));
   hf_quads_desc options = HF_INIT(hf_quads_desc);

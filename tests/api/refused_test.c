@@ -26,8 +26,8 @@ static void a_frame_without_pairs_keeps_no_normals(void** state) {
   assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
   float posed[3 * COUNT] = {0}, normals[3 * COUNT];
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions = posed;
-  frame.target_normals = normals;
+  frame.source_positions = HF_ARRAY(posed, COUNT);
+  frame.target_normals = ROWS_OUT(normals);
   const size_t before = memory.live_bytes;
   assert_code(HF_ERROR_EMPTY, hf_transfer_apply(transfer, &frame));
   assert_int_equal(memory.live_bytes, before);
@@ -112,7 +112,7 @@ static void a_refused_full_mesh_step_leaves_the_pose_where_it_was(void** state) 
     const hf_pose pose = posed(surface, layered, handles), twin = posed(surface, layered, others);
     float frame[3 * COUNT], expected[3 * COUNT];
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
-    desc.positions = frame;
+    desc.positions = ROWS_OUT(frame);
     desc.refine = 1 + 2 * layered; /* several steps keep more */
     if (kind >= 2) {               /* the refused steps go on from another frame */
       desc.refine_from_last = 1;
@@ -131,7 +131,7 @@ static void a_refused_full_mesh_step_leaves_the_pose_where_it_was(void** state) 
       assert_code(HF_ERROR_OUT_OF_MEMORY, result);
     }
     assert_true(n > 10);
-    desc.positions = expected;
+    desc.positions = ROWS_OUT(expected);
     assert_ok(hf_pose_deform(twin, &desc, NULL)); /* the same frame, never refused */
     assert_memory_equal(frame, expected, sizeof frame);
     hf_pose_destroy(pose);

@@ -59,7 +59,7 @@ static void a_linear_function_on_the_border_is_continued_inside(void** state) {
     const hf_sites_desc sites = sites_at(n, border, values);
     assert_ok(hf_add_sites(solver, &sites, NULL));
     double field[2 * VERTICES];
-    assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
+    assert_ok(hf_solver_solve(solver, OUT(field), NULL));
     for (uint32_t v = 0; v < VERTICES; ++v) {
       const uint32_t i = v % (COLUMNS + 1), j = v / (COLUMNS + 1);
       assert_true(fabs(field[2 * v] - (3.0 * i - 2.0 * j)) < 60 * tolerance_of(engines[e]));
@@ -244,7 +244,7 @@ static void solving_at_vertices_equals_solving_everywhere(void** state) {
     assert_ok(hf_add_sites(solver, &sites, NULL));
     double everywhere[3 * VERTICES], here[3 * 7];
     const uint32_t ask[7] = {0, 2, 88, 179, 50, 50, 7};
-    assert_ok(hf_solver_solve_f64(solver, everywhere, 0, NULL));
+    assert_ok(hf_solver_solve(solver, OUT(everywhere), NULL));
     assert_ok(hf_solver_solve_at(solver, 7, ask, here));
     for (int i = 0; i < 7; ++i) {
       for (int c = 0; c < 3; ++c)
@@ -281,13 +281,13 @@ static void float_and_double_outputs_agree_at_any_stride(void** state) {
   assert_ok(hf_add_sites(solver, &sites, NULL));
   double packed[2 * VERTICES];
   float packed_f32[2 * VERTICES];
-  assert_ok(hf_solver_solve_f64(solver, packed, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(packed), NULL));
   assert_ok(hf_solve(solver, packed_f32, 0, NULL));
   for (int i = 0; i < 2 * VERTICES; ++i) assert_true(packed_f32[i] == (float)packed[i]);
   for (uint32_t stride = 16; stride <= 41; stride += 5) { /* unaligned rows too; bytes between the rows stay */
     unsigned char* wide = malloc((size_t)stride * VERTICES);
     memset(wide, 0x5A, (size_t)stride * VERTICES);
-    assert_ok(hf_solver_solve_f64(solver, (double*)(void*)wide, stride, NULL));
+    assert_ok(hf_solver_solve(solver, OUT_ROWS((double*)(void*)wide, stride), NULL));
     for (uint32_t v = 0; v < VERTICES; ++v) {
       assert_true(same_bits(wide + (size_t)stride * v, packed + 2 * v, 16));
       for (uint32_t k = 16; k < stride; ++k) assert_int_equal(wide[(size_t)stride * v + k], 0x5A);
@@ -312,9 +312,9 @@ static void vectors_are_tangent_and_follow_their_constraints(void** state) {
   assert_ok(hf_add_sites(solver, &sites, NULL));
   double vectors[3 * VERTICES], normals[3 * VERTICES], free_field[3 * VERTICES];
   float vectors_f32[3 * VERTICES];
-  assert_ok(hf_solver_solve_vectors_f64(solver, vectors, 0, normals, NULL));
-  assert_ok(hf_solver_solve_vectors(solver, vectors_f32, 0, NULL, NULL));
-  assert_ok(hf_solver_solve_f64(solver, free_field, 0, NULL));
+  assert_ok(hf_solver_solve_vectors(solver, OUT(vectors), normals, NULL));
+  assert_ok(hf_solver_solve_vectors(solver, OUT(vectors_f32), NULL, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(free_field), NULL));
   for (int v = 0; v < VERTICES; ++v) {
     const double *x = vectors + 3 * v, *n = normals + 3 * v, *u = free_field + 3 * v;
     const double along = u[0] * n[0] + u[1] * n[1] + u[2] * n[2];

@@ -88,7 +88,7 @@ static void create_all(Household* h, const Surface* tube) {
 static void solve_with(hf_solver solver) {
   double field[COUNT];
   const uint32_t site = add_site(solver, 50, 2);
-  assert_ok(hf_solver_solve_f64(solver, field, 0, NULL));
+  assert_ok(hf_solver_solve(solver, OUT(field), NULL));
   assert_true(field[50] == 2);
   assert_ok(hf_remove_sites(solver, 1, &site));
 }
@@ -98,7 +98,7 @@ static void use_member(Household* h, int member, const Surface* tube) {
   double values[COUNT];
   const uint32_t vertex = 40;
   hf_morph_desc morph = HF_INIT(hf_morph_desc);
-  morph.positions = positions;
+  morph.positions = ROWS_OUT(positions);
   morph.weight = 0.5;
   switch (member) {
     case SURFACE: {
@@ -118,13 +118,13 @@ static void use_member(Household* h, int member, const Surface* tube) {
       break;
     case TRANSFER: {
       hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-      frame.source_positions = tube->positions;
-      frame.target_positions = positions;
+      frame.source_positions = HF_ARRAY(tube->positions, COUNT);
+      frame.target_positions = ROWS_OUT(positions);
       assert_ok(hf_transfer_apply(h->transfer, &frame));
       break;
     }
     case DIRECTION:
-      assert_ok(hf_direction_solve(h->direction, positions, 0, NULL));
+      assert_ok(hf_direction_solve(h->direction, OUT(positions), NULL));
       break;
     case REGION:
       assert_ok(hf_region_morph(h->region, &morph));
@@ -133,7 +133,7 @@ static void use_member(Household* h, int member, const Surface* tube) {
       assert_ok(hf_detail_morph(h->detail, &morph));
       break;
     case GEODESICS:
-      assert_ok(hf_geodesics_solve_f64(h->geodesics, 1, &vertex, values, 0));
+      assert_ok(hf_geodesics_solve(h->geodesics, 1, &vertex, OUT(values)));
       break;
     case QUADS: {
       hf_quads_info info = HF_INIT(hf_quads_info);
@@ -142,9 +142,8 @@ static void use_member(Household* h, int member, const Surface* tube) {
     }
     default: {
       for (uint32_t v = 0; v < COUNT; ++v) values[v] = (double)tube->positions[3 * v + 1] + 1e-3 * (v % AROUND);
-      hf_scalars field = HF_INIT(hf_scalars);
+      const hf_array field = HF_ARRAY(values, COUNT);
       hf_streamlines lines = HF_INIT(hf_streamlines);
-      field.values_f64 = values;
       lines.wanted_count = 4;
       assert_ok(hf_flow_trace(h->flow, &field, &lines));
     }
@@ -243,7 +242,7 @@ static void a_kind_asked_for_later_gives_the_bits_of_a_surface_made_with_it(void
       assert_ok(hf_region_edit(region, &edit));
       hf_morph_desc morph = HF_INIT(hf_morph_desc);
       morph.weight = 1;
-      morph.positions_f64 = bases[i];
+      morph.positions = ROWS_OUT(bases[i]);
       assert_ok(hf_region_morph(region, &morph));
       hf_region_destroy(region);
       hf_solver_destroy(solver);
@@ -461,7 +460,7 @@ static void* ask(void* data) {
   const double values[3] = {1, -2, 0.5};
   const uint32_t vertices[3] = {3, COUNT - 5, COUNT / 2};
   for (int i = 0; i < 3; ++i) a->wrong += hf_solver_add_site(solver, vertices[i], values + i, NULL) != HF_OK;
-  a->wrong += hf_solver_solve_f64(solver, a->field, 0, NULL) != HF_OK;
+  a->wrong += hf_solver_solve(solver, OUT(a->field), NULL) != HF_OK;
   hf_solver_destroy(solver);
   return NULL;
 }

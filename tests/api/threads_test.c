@@ -38,7 +38,7 @@ static hf_result edit_and_solve(hf_solver solver, unsigned number, double* field
     if (added != HF_OK) return added;
   }
   const hf_result removed = hf_remove_sites(solver, 2, sites + 1);
-  return removed != HF_OK ? removed : hf_solver_solve_f64(solver, field, 0, NULL);
+  return removed != HF_OK ? removed : hf_solver_solve(solver, OUT(field), NULL);
 }
 
 static void* own_solver(void* user) {
@@ -109,7 +109,7 @@ static void* reader(void* user) {
     const uint32_t vertices[2] = {5, 300};
     double at[2];
     hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
-    w->wrong += hf_solver_solve_f64(w->solver, field, 0, NULL) != HF_OK ||
+    w->wrong += hf_solver_solve(w->solver, OUT(field), NULL) != HF_OK ||
                 !same_bits(field, w->expected, sizeof(double) * VERTICES);
     w->wrong += hf_solver_solve_at(w->solver, 2, vertices, at) != HF_OK || fabs(at[1] - w->expected[300]) > 1e-11;
     w->wrong += hf_solver_get_statistics(w->solver, &statistics) != HF_OK || hf_solver_get_site_count(w->solver) != 2;
@@ -161,7 +161,7 @@ static void* contender(void* user) {
       while ((result = hf_remove_sites(w->solver, 2, sites)) == HF_ERROR_BUSY) ++w->busy;
       w->wrong += result != HF_OK;
     } else {
-      const hf_result result = hf_solver_solve_f64(w->solver, field, 0, NULL);
+      const hf_result result = hf_solver_solve(w->solver, OUT(field), NULL);
       pause_a_moment();
       w->wrong += result != HF_OK && result != HF_ERROR_BUSY;
       w->wrong += hf_solver_get_site_count(w->solver) % 2 != 0;
@@ -284,7 +284,7 @@ static void calls_during_a_change_are_busy_and_destroy_waits_for_it(void** state
   w.solver = solver;
 
   hold_a_call(&gate, &w, held_add);
-  assert_code(HF_ERROR_BUSY, hf_solver_solve_f64(solver, field, 0, NULL));
+  assert_code(HF_ERROR_BUSY, hf_solver_solve(solver, OUT(field), NULL));
   assert_code(HF_ERROR_BUSY, hf_solver_set_values(solver, 1, &site, &value));
   assert_code(HF_ERROR_BUSY, hf_solver_clone(solver, &copy));
   assert_null(copy);

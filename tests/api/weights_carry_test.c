@@ -57,15 +57,17 @@ static int nothing_is_written(void) {
 #define GOOD good
 #define UNCHANGED() (weights_unchanged(&scene) && nothing_is_written())
 /* What both read alike. */
-#define BOTH(what, expected, index, change)                                                             \
+#define BOTH(what, expected, index, change)                                                                \
   ROW(what, expected, index, change, hf_weights_transfer(scene.body, scene.body, &carry, &out, &carried)); \
   ROW(what, expected, index, change, hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored))
 
 static void bad_weights_are_named(void** state) {
   (void)state;
   scene_create(&scene);
-  BOTH("no influence", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, carry.source_influence_count = mirror.source_influence_count = 0);
-  BOTH("65 influences", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, carry.source_influence_count = mirror.source_influence_count = 65);
+  BOTH("no influence", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+       carry.source_influence_count = mirror.source_influence_count = 0);
+  BOTH("65 influences", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+       carry.source_influence_count = mirror.source_influence_count = 65);
   BOTH("joints NULL", HF_ERROR_NULL_POINTER, NO_INDEX, carry.joints = mirror.joints = NULL);
   BOTH("weights NULL", HF_ERROR_NULL_POINTER, NO_INDEX, carry.weights = mirror.weights = NULL);
   BOTH("a weight is NaN", HF_ERROR_NON_FINITE, 7, weights[15] = NAN);

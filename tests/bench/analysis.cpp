@@ -1,10 +1,11 @@
 // Extremities beside the sweeps they are made of: from a Poisson field, and from the mean geodesic distance to 40
-// sources. A sweep is one field of a solver, hf_solver_solve_f64: one backward pass through the factor, scattered.
+// sources. A sweep is one field of a solver, hf_solver_solve: one backward pass through the factor, scattered.
 #include <cstdio>
 
 #include "bench/bench_mesh.h"
 #include "bench/commands.h"
 #include "bench/svg_plot.h"
+#include "support/arrays.h"
 
 namespace bench {
 
@@ -37,7 +38,7 @@ Rows run_analysis(const Run& run, Report& report) {
               return time_ms([&] { check(hf_surface_find_extremities(solver.surface(), nullptr, 0, nullptr, &tips)); });
             }},
            {"distance",
-            [&] { return time_ms([&] { check(hf_geodesics_solve_f64(geodesics, 1, &vertex, field.data(), 0)); }); }},
+            [&] { return time_ms([&] { check(hf_geodesics_solve(geodesics, 1, &vertex, OUT(field.data()))); }); }},
            {"average",
             [&] {
               return time_ms(

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "assets/shapes.h"
+#include "support/arrays.h"
 
 namespace bench {
 
@@ -49,10 +50,8 @@ void check(hf_result result) {
 Solver::Solver(const Mesh& mesh, const SolverOptions& options)
     : vertex_count_(mesh.vertex_count()), channels_(options.channels) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count();
-  desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
-  desc.positions_f64 = mesh.positions.data();
-  desc.triangles = mesh.triangles.data();
+  desc.positions = HF_ARRAY(mesh.positions.data(), mesh.vertex_count());
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangles.size() / 3);
   desc.thread_count = options.threads;
   desc.ordering = options.ordering;
   desc.operator_kind = options.operator_kind;
@@ -87,7 +86,7 @@ void Solver::solve(std::vector<float>& field) const {
 
 void Solver::solve(std::vector<double>& field) const {
   field.resize(size_t{vertex_count_} * channels_);
-  check(hf_solver_solve_f64(handle_, field.data(), 0, nullptr));
+  check(hf_solver_solve(handle_, OUT(field.data()), nullptr));
 }
 
 double Sites::edit(const std::vector<uint32_t>& insert, const std::vector<uint32_t>& remove) {

@@ -12,6 +12,7 @@
 #include "deform/pose_stack.h"
 #include "support/arap_oracle.h"
 #include "support/meshes.h"
+#include "support/arrays.h"
 
 namespace bench {
 namespace {
@@ -77,8 +78,8 @@ class Rig {
   }
   hf_deform_info deform(bool refine = false) {
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
-    desc.positions = positions.data();
-    desc.normals = normals.data();
+    desc.positions = ROWS_OUT(positions.data());
+    desc.normals = ROWS_OUT(normals.data());
     desc.refine = refine;
     hf_deform_info info = HF_INIT(hf_deform_info);
     check(hf_pose_deform(pose, &desc, &info));

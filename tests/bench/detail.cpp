@@ -8,6 +8,7 @@
 #include "bench/bench_mesh.h"
 #include "bench/commands.h"
 #include "bench/peer_cholmod.h"
+#include "support/arrays.h"
 
 namespace bench {
 namespace {
@@ -49,8 +50,8 @@ class Region {
   void morph(std::vector<float>& positions, std::vector<float>& normals) const {
     hf_morph_desc desc = HF_INIT(hf_morph_desc);
     desc.weight = 0.5;
-    desc.positions = positions.data();
-    desc.normals = normals.data();
+    desc.positions = ROWS_OUT(positions.data());
+    desc.normals = ROWS_OUT(normals.data());
     check(hf_region_morph(handle_, &desc));
   }
 

@@ -15,6 +15,7 @@
 #include "bench/peer_cholmod.h"
 #include "bench/svg_plot.h"
 #include "field/direction_solver.h"
+#include "support/arrays.h"
 
 namespace bench {
 namespace {
@@ -32,7 +33,7 @@ ConnectionSystem connection_system(const Mesh& mesh, const std::vector<uint32_t>
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   input.positions = {mesh.positions.data(), 3 * sizeof(double)};
-  input.triangles = mesh.triangles.data();
+  input.triangles = hf_inner::IndexRows(mesh.triangles.data(), 3);
   const auto core = hf_inner::Core::make(input, {}, memory, std::make_shared<hf_inner::JobRunner>(1));
   const hf_inner::DirectionSolver solver(core, 1);
   const hf_inner::SymmetricMatrix& a = solver.matrix();
@@ -111,7 +112,7 @@ Way by_channels(const Mesh& mesh, const std::vector<uint32_t>& sites, const Run&
   batch.values = vectors.data();
   check(hf_add_sites(solver.handle(), &batch, numbers.data()));
   std::vector<float> field(size_t{3} * mesh.vertex_count());
-  const auto solve = [&] { check(hf_solver_solve_vectors(solver.handle(), field.data(), 0, nullptr, nullptr)); };
+  const auto solve = [&] { check(hf_solver_solve_vectors(solver.handle(), OUT(field.data()), nullptr, nullptr)); };
   const uint32_t before = solver.statistics().factorisation_count;
   double angle = 0.3;
   uint32_t next = 0;
@@ -145,7 +146,7 @@ Way by_connection(const Mesh& mesh, const std::vector<uint32_t>& sites, const Ru
   std::vector<uint32_t> numbers(site_count);
   check(hf_direction_add_sites(direction, site_count, sites.data(), vectors.data(), numbers.data()));
   std::vector<float> field(size_t{3} * mesh.vertex_count());
-  const auto solve = [&] { check(hf_direction_solve(direction, field.data(), 0, nullptr)); };
+  const auto solve = [&] { check(hf_direction_solve(direction, OUT(field.data()), nullptr)); };
   double angle = 0.3;
   uint32_t next = 0;
   auto times = take_turns({{"turn",
@@ -186,7 +187,7 @@ void report_edits(const Mesh& mesh, const Run& run, Report& report, nlohmann::js
   const std::vector<double> vectors = vectors_of(count + 1);
   check(hf_direction_add_sites(direction, count, sites.data(), vectors.data(), nullptr));
   std::vector<float> field(size_t{3} * mesh.vertex_count());
-  const auto solve = [&] { check(hf_direction_solve(direction, field.data(), 0, nullptr)); };
+  const auto solve = [&] { check(hf_direction_solve(direction, OUT(field.data()), nullptr)); };
   solve();
   const auto statistics_now = [&] {
     hf_direction_statistics statistics = HF_INIT(hf_direction_statistics);

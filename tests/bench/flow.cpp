@@ -18,8 +18,7 @@ class Tracer {
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
   uint32_t trace(const std::vector<double>& values) {
-    hf_scalars field = HF_INIT(hf_scalars);
-    field.values_f64 = values.data();
+    const hf_array field = HF_ARRAY(values.data(), values.size());
     hf_streamlines lines = HF_INIT(hf_streamlines);
     lines.wanted_count = 64;
     for (;;) {

@@ -10,7 +10,7 @@ std::shared_ptr<const hf_inner::Core> make_core(const Mesh& mesh, const std::sha
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
   input.positions = {mesh.positions.data(), 3 * sizeof(double)};
-  input.triangles = mesh.triangles.data();
+  input.triangles = hf_inner::IndexRows(mesh.triangles.data(), 3);
   hf_inner::CoreOptions options;
   options.need_factor = false;
   options.field_kind = kind;

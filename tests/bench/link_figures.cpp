@@ -15,6 +15,7 @@
 #include "bench/link_scene.h"
 #include "common/picture.h"
 #include "gltf/animate.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -153,7 +154,7 @@ std::vector<double> turn(hf_surface surface, const LinkScene& scene, uint32_t tu
   ok(hf_pose_set_transform(pose, handle[0], &transform));
   std::vector<double> out(scene.xyz.size());
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
-  desc.positions_f64 = out.data();
+  desc.positions = ROWS_OUT(out.data());
   hf_deform_info info = HF_INIT(hf_deform_info);
   for (int i = 0; i < 10; ++i) ok(hf_pose_deform(pose, &desc, &info));
   *unreached = info.unreached_vertex_count;
@@ -315,8 +316,8 @@ double played_on_itself(hf_surface surface, const LinkScene& scene, const std::v
       const std::vector<double> xyz = double_positions(
           posed_positions(scene.model, scene.flat, clip, clip_duration(clip) * i / (clip_samples - 1)));
       hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-      frame.source_positions_f64 = xyz.data();
-      frame.target_positions_f64 = out.data();
+      frame.source_positions = HF_ARRAY(xyz.data(), xyz.size() / 3);
+      frame.target_positions = ROWS_OUT(out.data());
       ok(hf_transfer_apply(transfer, &frame));
       // The whole may lie elsewhere: the mean displacement does not count.
       glm::dvec3 mean(0);

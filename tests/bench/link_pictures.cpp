@@ -14,6 +14,7 @@
 #include "bench/link_scene.h"
 #include "common/picture.h"
 #include "support/part_scenes.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -146,7 +147,7 @@ std::vector<double> pose_with(hf_surface surface, const LinkScene& scene, const 
   ok(hf_pose_set_matrices(pose, 1, &handle, &turn[0][0]));
   std::vector<double> out(scene.xyz.size());
   hf_deform_desc frame = HF_INIT(hf_deform_desc);
-  frame.positions_f64 = out.data();
+  frame.positions = ROWS_OUT(out.data());
   for (int i = 0; i < 20; ++i) ok(hf_pose_deform(pose, &frame, nullptr));
   hf_pose_destroy(pose);
   return out;
@@ -260,7 +261,7 @@ void add_parts(const hf_test::PartScene& parts, const Point& view, std::vector<P
     ok(hf_pose_set_matrices(pose, 1, &handle, &matrix[0][0]));
     std::vector<double> out(scene.xyz.size());
     hf_deform_desc frame = HF_INIT(hf_deform_desc);
-    frame.positions_f64 = out.data();
+    frame.positions = ROWS_OUT(out.data());
     for (int i = 0; i < 20; ++i) ok(hf_pose_deform(pose, &frame, nullptr));
     hf_pose_destroy(pose);
     hf_surface_destroy(surface);

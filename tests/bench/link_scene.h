@@ -52,10 +52,8 @@ inline LinkScene read_scene(const std::string& file) {
 // links: NULL for none. Copies within 1e-5 of the box are one vertex.
 inline hf_surface make_linked(const LinkScene& scene, const hf_links_desc* links) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = scene.flat.vertex_count();
-  desc.triangle_count = scene.flat.triangle_count();
-  desc.positions_f64 = scene.xyz.data();
-  desc.triangles = scene.flat.triangles.data();
+  desc.positions = HF_ARRAY(scene.xyz.data(), scene.flat.vertex_count());
+  desc.triangles = HF_ARRAY(scene.flat.triangles.data(), scene.flat.triangle_count());
   desc.weld = HF_WELD_TOLERANCE;
   desc.weld_tolerance = 1e-5 * scene.diagonal;
   desc.links = links;

@@ -8,6 +8,7 @@
 #include "bench/bench_mesh.h"
 #include "bench/commands.h"
 #include "bench/svg_plot.h"
+#include "support/arrays.h"
 
 namespace bench {
 namespace {
@@ -79,8 +80,8 @@ struct Actor {
   void play(const std::vector<std::vector<float>>& poses) {
     for (const std::vector<float>& posed : poses) {
       hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-      frame.source_positions = posed.data();
-      frame.target_positions = positions.data();
+      frame.source_positions = HF_ARRAY(posed.data(), posed.size() / 3);
+      frame.target_positions = ROWS_OUT(positions.data());
       check(hf_transfer_apply(transfer, &frame));
     }
   }

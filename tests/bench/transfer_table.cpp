@@ -191,8 +191,7 @@ hf_surface with_links(hf_surface surface, const Loaded& loaded) {
 double largest_gap(hf_surface surface, const Frames& frames) {
   double out = 0;
   for (const std::vector<double>& frame : frames) {
-    hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
-    posed.positions_f64 = frame.data();
+    const hf_array posed = HF_ARRAY(frame.data(), frame.size() / 3);
     hf_gaps_info info = HF_INIT(hf_gaps_info);
     if (hf_surface_measure_gaps(surface, &posed, 0, nullptr, &info) != HF_OK || info.link_count == 0) return 0;
     out = std::max(out, info.worst);
@@ -382,8 +381,7 @@ void say_widest(const PlayedClip& played, const Loaded& target, const Session& s
   std::vector<hf_link> links(count);
   hf_surface_get_links(session.target_surface(), count, links.data(), nullptr);
   for (size_t f = 0; f < played.target_frames.size(); ++f) {
-    hf_gaps_desc posed = HF_INIT(hf_gaps_desc);
-    posed.positions_f64 = played.target_frames[f].data();
+    const hf_array posed = HF_ARRAY(played.target_frames[f].data(), played.target_frames[f].size() / 3);
     hf_gaps_info info = HF_INIT(hf_gaps_info);
     if (hf_surface_measure_gaps(session.target_surface(), &posed, 0, nullptr, &info) != HF_OK || info.worst <= most)
       continue;

@@ -43,10 +43,8 @@ hf::Joints bones_of_creature() {
 
 hf::Surface surface_of(const Mesh& mesh, uint32_t threads) {
   auto desc = hf::make<hf_surface_desc>();
-  desc.vertex_count = mesh.vertex_count();
-  desc.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
-  desc.positions_f64 = mesh.positions.data();
-  desc.triangles = mesh.triangles.data();
+  desc.positions = HF_ARRAY(mesh.positions.data(), mesh.vertex_count());
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangles.size() / 3);
   desc.thread_count = threads;
   return hf::Surface(desc);
 }

@@ -165,7 +165,7 @@ class Scene
                         "thread_count", "vertex_limit", "triangle_limit", "memory_limit_mb", "link_pieces");
                     double[] positions = null;
                     uint[] triangles = null;
-                    if (step["mesh"] != null)
+                    if (step["mesh"] == null) throw new HfException("no positions", Constants.HF_ERROR_NULL_POINTER);
                     {
                         Map mesh = meshes[(string)step["mesh"]];
                         positions = ((Items)mesh["positions"]).Select(Number).ToArray();
@@ -184,8 +184,8 @@ class Scene
                         ? (Indices)triangles.Select(v => (ushort)v).ToArray() : triangles;
                     uint[] tags = Numbers(Get(step, "tags"));
                     if (tags != null && o["link_pieces"] == 0) throw new HfException("tags are those of links");
-                    objects[name] = new Surface(positions, indices, faceStarts: faces == null ? null : Numbers(faces["offsets"]),
-                        corners: faces == null ? null : Numbers(faces["corners"]), weld: (Weld)o["weld"],
+                    objects[name] = new Surface(positions, indices, faces: faces == null ? null
+                        : new FacesDesc { Starts = Numbers(faces["offsets"]), Corners = Numbers(faces["corners"]) }, weld: (Weld)o["weld"],
                         weldTolerance: o["weld_tolerance"], operatorKind: (Operator)o["operator_kind"],
                         fieldKind: (FieldKind)o["field_kind"], ordering: (Ordering)o["ordering"],
                         threadCount: (uint)o["thread_count"], vertexLimit: (uint)o["vertex_limit"],

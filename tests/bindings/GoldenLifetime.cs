@@ -24,8 +24,8 @@ static class Lifetime
         int calls = 0;
         for (int round = 0; round < count; ++round)
         {
-            using (var quad = new Surface(new float[] { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, faceStarts: new uint[] { 0, 4 },
-            corners: new uint[] { 0, 1, 2, 3 }))
+            using (var quad = new Surface(new float[] { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, 
+                faces: new FacesDesc { Starts = new uint[] { 0, 4 }, Corners = new uint[] { 0, 1, 2, 3 } }))
         using (var held = new Solver(quad))
         {
             Hit hit = quad.CastRay(new[] { 0.3, 0.6, 1.0 }, new[] { 0.0, 0.0, -1.0 });

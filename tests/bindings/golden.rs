@@ -206,8 +206,7 @@ impl Scene<'_> {
             let offsets = self.integers(&step["faces"], "offsets").unwrap();
             let sizes: Vec<u32> = offsets.windows(2).map(|o| o[1] - o[0]).collect();
             let corners = self.integers(&step["faces"], "corners").unwrap();
-            options.face_sizes = Some(&sizes);
-            options.corners = Some(&corners);
+            options.faces = Some(Faces { sizes: Some(&sizes), corners: Some(&corners), starts: None });
             let made = Surface::new(&positions, &[0u32; 0], &options)?;
             return self.keep(step, Object::Surface(made));
         }
@@ -739,7 +738,7 @@ impl Scene<'_> {
                 let masses = self.doubles(step, "masses");
                 let made = {
                     options.vertex_count = whole(&step["vertex_count"]);
-                    options.masses = masses.as_deref();
+                    options.masses = masses.as_deref().map(Reals::F64);
                     Surface::from_graph(&edges, &weights, &options)?
                 };
                 self.keep(step, Object::Surface(made))

@@ -1,5 +1,6 @@
 // Steps of direction fields, quad meshes and streamlines, and of everything that is made on a surface.
 #include "golden_scene.h"
+#include "support/arrays.h"
 
 namespace golden {
 
@@ -117,7 +118,7 @@ Result Scene::run_direction(const Json& step, const std::string& what) {
     check(hf_direction_get_sites(direction, k, nullptr, nullptr, result.array->data(), nullptr));
   } else if (what == "directions") {
     result.array.emplace(3 * on.vertex_count);
-    check(hf_direction_solve_f64(direction, result.array->data(), 0, nullptr));
+    check(hf_direction_solve(direction, OUT(result.array->data()), nullptr));
   } else {
     std::vector<hf_singularity> found(1000);
     uint32_t size = 0;
@@ -134,8 +135,7 @@ Result Scene::run_quads(const Json& step, const std::string& what) {
   if (what == "streamlines") {
     const auto field = doubles(step, "field", on.vertex_count);
     const auto seeds = numbers(step, "seeds");
-    auto scalars = make<hf_scalars>();
-    scalars.values_f64 = data(field);
+    const hf_array scalars = HF_ARRAY(data(field), field ? on.vertex_count : 0);
     auto lines = make<hf_streamlines>();
     lines.wanted_count = step.value("count", 0u);
     if (seeds) {

@@ -35,10 +35,8 @@ void check_lifetime(const Json& mesh, int rounds) {
   long long most = 0;
   for (int round = 0; round < rounds; ++round) {
     auto desc = hf::make<hf_surface_desc>();
-    desc.vertex_count = last + 1;
-    desc.positions = positions.data();
-    desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
-    desc.triangles = triangles.data();
+    desc.positions = HF_ARRAY(positions.data(), last + 1);
+    desc.triangles = HF_ARRAY(triangles.data(), triangles.size() / 3);
     desc.allocator.allocate = allocate;
     desc.allocator.release = release;
     auto surface = std::make_shared<hf::Surface>(desc);

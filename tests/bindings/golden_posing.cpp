@@ -1,5 +1,6 @@
 // Steps of poses and transfers.
 #include "golden_scene.h"
+#include "support/arrays.h"
 
 namespace golden {
 
@@ -71,11 +72,11 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
                        {"refine", &desc.refine},
                        {"refine_from_last", &desc.refine_from_last}});
     result.array.emplace(3 * on.vertex_count);
-    desc.positions_f64 = result.array->data();
+    desc.positions = ROWS_OUT(result.array->data());
     check(hf_pose_deform(pose, &desc, nullptr));
   } else if (what == "handle_field") {
     std::vector<float> field(on.vertex_count);
-    check(hf_pose_get_field(pose, step["handle"], field.data(), 0));
+    check(hf_pose_get_field(pose, step["handle"], OUT(field.data())));
     result.array.emplace(field.begin(), field.end());
   } else if (what == "handle_info") {
     auto info = make<hf_handle_info>();
@@ -135,8 +136,8 @@ Result Scene::run_posing(const Json& step, const std::string& what) {
     const auto posed = doubles(step, "positions", 3 * on.source_vertex_count);
     result.array.emplace(3 * on.vertex_count);
     auto frame = make<hf_transfer_frame>();
-    frame.source_positions_f64 = data(posed);
-    frame.target_positions_f64 = result.array->data();
+    frame.source_positions = HF_ARRAY(data(posed), posed ? on.source_vertex_count : 0);
+    frame.target_positions = ROWS_OUT(result.array->data());
     check(hf_transfer_apply(on.transfer.get(), &frame));
   } else {
     throw std::runtime_error("unknown step " + what);

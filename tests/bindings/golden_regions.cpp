@@ -1,5 +1,6 @@
 // Steps of regions and the detail on them.
 #include "golden_scene.h"
+#include "support/arrays.h"
 
 namespace golden {
 
@@ -26,7 +27,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     auto desc = make<hf_region_desc>();
     set_options(step, {{"base", &desc.base}});
     const auto positions = doubles(step, "positions", 3 * on.vertex_count);
-    desc.positions_f64 = data(positions);
+    if (positions) desc.positions = HF_ARRAY(data(positions), on.vertex_count);
     hf_region raw = nullptr;
     check(hf_region_create(on.surface.get(), &desc, &raw));
     const size_t n = on.vertex_count;
@@ -83,7 +84,7 @@ Result Scene::run_region(const Json& step, const std::string& what) {
     auto desc = make<hf_morph_desc>();
     result.array.emplace(3 * on.vertex_count);
     desc.weight = number(step["weight"]);
-    desc.positions_f64 = result.array->data();
+    desc.positions = ROWS_OUT(result.array->data());
     check(on.detail ? hf_detail_morph(on.detail.get(), &desc) : hf_region_morph(region, &desc));
   }
   return result;

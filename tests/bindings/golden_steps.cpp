@@ -1,5 +1,6 @@
 // Steps of solvers, and which step goes where.
 #include "golden_scene.h"
+#include "support/arrays.h"
 
 namespace golden {
 
@@ -155,14 +156,14 @@ Result Scene::run(const Json& step) {
     on.solver_history.redo(on.solver);
   } else if (what == "solve") {
     result.array.emplace(n);
-    check(hf_solver_solve_f64(solver, result.array->data(), 0, nullptr));
+    check(hf_solver_solve(solver, OUT(result.array->data()), nullptr));
   } else if (what == "solve_f32") {
     std::vector<float> field(n);
     check(hf_solve(solver, field.data(), 0, nullptr));
     result.array.emplace(field.begin(), field.end());
   } else if (what == "preview") {
     result.array.emplace(n);
-    check(hf_solver_solve_preview_f64(solver, result.array->data(), 0, step.value("correction_count", 0u), nullptr));
+    check(hf_solver_solve_preview(solver, OUT(result.array->data()), step.value("correction_count", 0u), nullptr));
   } else if (what == "solve_at") {
     result.array.emplace(count(vertices));
     check(hf_solver_solve_at(solver, count(vertices), data(vertices), result.array->data()));
@@ -193,7 +194,7 @@ Result Scene::run(const Json& step) {
   } else if (what == "distance") {
     const auto sources = numbers(step, "sources");
     result.array.emplace(n);
-    check(hf_geodesics_solve_f64(on.geodesics.get(), count(sources), data(sources), result.array->data(), 0));
+    check(hf_geodesics_solve(on.geodesics.get(), count(sources), data(sources), OUT(result.array->data())));
   } else if (what == "path" || what == "map") {
     const hf_surface_point from = place_of(step, what == "path" ? "from" : "centre");
     if (what == "map") {

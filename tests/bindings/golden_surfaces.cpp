@@ -44,26 +44,26 @@ Result Scene::run_surface(const Json& step) {
     for (const auto& [key, value] : step["positions"].items()) positions[std::stoul(key)] = number(value);
   if (step.contains("triangles"))
     for (const auto& [key, value] : step["triangles"].items()) triangles[std::stoul(key)] = value.get<uint32_t>();
-  desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
-  desc.positions_f64 = positions.data();
-  desc.triangle_count = step.contains("no_triangles") ? 0 : static_cast<uint32_t>(triangles.size() / 3);
+  desc.positions = HF_ARRAY(positions.data(), positions.size() / 3);
   const size_t width = step.value("index_bits", 32u) / 8;
-  desc.triangle_stride = step.value("triangle_stride", 0u);
-  const auto laid = lay_out(triangles, width, desc.triangle_stride ? desc.triangle_stride : 3 * width);
-  if (desc.triangle_count && width == sizeof(uint16_t))
-    desc.triangles_u16 = reinterpret_cast<const uint16_t*>(laid.data());
-  else if (desc.triangle_count)
-    desc.triangles = reinterpret_cast<const uint32_t*>(laid.data());
+  const uint32_t stride = step.value("triangle_stride", 0u);
+  const auto laid = lay_out(triangles, width, stride ? stride : 3 * width);
+  const size_t triangle_count = step.contains("no_triangles") ? 0 : triangles.size() / 3;
+  if (triangle_count > 0) {
+    desc.triangles.data = laid.data();
+    desc.triangles.count = static_cast<uint32_t>(triangle_count);
+    desc.triangles.stride = stride;
+    desc.triangles.type = width == sizeof(uint16_t) ? HF_TYPE_UINT16 : HF_TYPE_PLAIN;
+  }
   Numbers offsets, corners, tags;
+  auto faces = make<hf_faces_desc>();
   if (step.contains("faces")) {
     offsets = step["faces"]["offsets"].get<Numbers>();
     corners = step["faces"]["corners"].get<Numbers>();
-    desc.triangle_count = 0;
-    desc.triangles = nullptr;
-    desc.face_count = static_cast<uint32_t>(offsets.size() - 1);
-    desc.face_starts = offsets.data();
-    desc.corner_count = static_cast<uint32_t>(corners.size());
-    desc.corners = corners.data();
+    desc.triangles = {};
+    faces.starts = HF_ARRAY(offsets.data(), offsets.size());
+    faces.corners = HF_ARRAY(corners.data(), corners.size());
+    desc.faces = &faces;
   }
   if (step.contains("tags")) {
     tags = step["tags"].get<Numbers>();
@@ -82,7 +82,7 @@ Result Scene::run_surface(const Json& step) {
   check(hf_surface_create(&desc, &raw));
   Object& object = objects_[step["as"]];
   object.surface = hf::Handle<hf_surface, hf_surface_destroy>(raw);
-  object.vertex_count = desc.vertex_count;
+  object.vertex_count = desc.positions.count;
   return {};
 }
 
@@ -98,10 +98,9 @@ Result Scene::run_graph(const Json& step) {
   const auto weights = doubles(step, "weights"), masses = doubles(step, "masses", step["vertex_count"].get<size_t>());
   if (edges && weights && edges->size() != 2 * weights->size()) fail("edges must hold two vertices for each weight");
   desc.vertex_count = step["vertex_count"];
-  desc.edge_count = count(weights);
-  desc.edges = data(edges);
-  desc.weights = data(weights);
-  desc.masses = data(masses);
+  desc.edges = HF_ARRAY(data(edges), count(weights));
+  desc.weights = HF_ARRAY(data(weights), count(weights));
+  if (masses) desc.masses = HF_ARRAY(data(masses), masses->size());
   hf_surface raw = nullptr;
   check(hf_surface_create_graph(&desc, &raw));
   Object& object = objects_[step["as"]];
@@ -114,7 +113,7 @@ Result Scene::run_picking(const Json& step, const std::string& what, hf_surface 
   Result result;
   auto desc = make<hf_pick_desc>();
   const auto positions = doubles(step, "positions", 3 * n);
-  desc.positions_f64 = data(positions);
+  if (positions) desc.positions = HF_ARRAY(data(positions), n);
   desc.front_only = step.value("front_only", 0);
   if (what == "find_vertex") {
     const auto point = doubles(step, "point", 3);
@@ -197,8 +196,7 @@ Result Scene::run_looking(const Json& step, const std::string& what, hf_surface 
     return result;
   }
   const auto field = doubles(step, "field", n);
-  auto scalars = make<hf_scalars>();
-  scalars.values_f64 = data(field);
+  const hf_array scalars = HF_ARRAY(data(field), field ? n : 0);
   if (what == "levels") {
     const uint32_t wanted = step["count"];
     const int32_t spacing = step["spacing"] == "HF_LEVELS_AREA"     ? HF_LEVELS_AREA

@@ -142,7 +142,8 @@ class Arrays(unittest.TestCase):
         rows[:, :3] = triangles
         desc = hf._api._surface_desc(held := hf._library.Call(), positions=points, triangles=rows[:, :3])
         self.assertTrue(any(np.shares_memory(part, rows) for part in held.keep if isinstance(part, np.ndarray)))
-        self.assertEqual((desc.triangle_stride, desc.triangles_u16), (10, hf._library.address(rows)))
+        view = desc.triangles
+        self.assertEqual((view.data, view.stride, view.type), (hf._library.address(rows), 10, hf._raw.HF_TYPE_UINT16))
         fields = []
         for given in (triangles, triangles.astype(np.int64), triangles.astype(np.uint16), rows[:, :3]):
             solver = hf.Solver(hf.Surface(points, given))
@@ -322,7 +323,7 @@ class Refusals(unittest.TestCase):
             self.refused(lambda: make["Surface"](weld_tolerance=wrong), "weld_tolerance")
         for wrong in (float("nan"), float("inf"), -1.0, 1e300, 10**400):
             self.refused(lambda: make["Surface"](weld=hf.Weld.TOLERANCE, weld_tolerance=wrong))
-        for inner in ("positions_f64", "triangles_u16", "position_stride", "vertex_count", "struct_size", "threads"):
+        for inner in ("positions_f64", "stride", "vertex_count", "struct_size", "threads"):
             with self.assertRaisesRegex(TypeError, inner):
                 make["Surface"](**{inner: 12345})
         with self.assertRaisesRegex(TypeError, "positions_f64"):

@@ -11,10 +11,8 @@ int main(void) {
   hf_solver solver;
   hf_surface_desc mesh = HF_INIT(hf_surface_desc);
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
-  mesh.vertex_count = 4;
-  mesh.triangle_count = 2;
-  mesh.positions = positions;
-  mesh.triangles = triangles;
+  mesh.positions = HF_ARRAY(positions, 4);
+  mesh.triangles = HF_ARRAY(triangles, 2);
   sites.site_count = 2;
   sites.vertices = vertices;
   sites.values = values;

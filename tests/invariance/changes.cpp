@@ -262,7 +262,7 @@ const std::vector<Change>& changes() {
       {"unit 100", "100 times as large", hundreds},
       {"mirrored", "x to -x, triangles turned", mirrored},
       {"doubles", "the same positions as doubles", doubles},
-      {"16-bit indices", "triangles_u16", short_indices},
+      {"16-bit indices", "triangles, HF_TYPE_UINT16", short_indices},
       {"strides", "positions and triangles with gaps between rows", strided},
       {"faces", "triangles as faces of three corners", faces},
   };

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "setting.h"
+#include "support/arrays.h"
 
 namespace invariance {
 namespace {
@@ -19,8 +20,9 @@ std::vector<double> wave(const Body& body) {
 
 struct Scalars {
   std::vector<double> values;
-  hf_scalars desc = HF_INIT(hf_scalars);
-  Scalars(const Setting& s, double added) : values(s.spread(wave(s.body), added)) { desc.values_f64 = values.data(); }
+  hf_array desc;
+  Scalars(const Setting& s, double added)
+      : values(s.spread(wave(s.body), added)), desc(HF_ARRAY(values.data(), values.size())) {}
 };
 
 // A vertex that is not the body's has no value: its triangles do not count.
@@ -51,7 +53,7 @@ Measured distances(const Setting& s, std::int32_t method) {
   for (const std::uint32_t count : {1u, 3u}) {
     const std::uint32_t sources[] = {s.pick(0), s.pick(4), s.pick(7)};
     std::vector<double> values(s.copy.points.size());
-    ok(hf_geodesics_solve_f64(geodesics, count, sources, values.data(), 0));
+    ok(hf_geodesics_solve(geodesics, count, sources, OUT(values.data())));
     for (double& v : values) v = v < 0 ? -1 : s.back_size(v) / s.body.diagonal;
     out.add(count == 1 ? "one source" : "three sources", s.gather(values));
   }

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "setting.h"
+#include "support/arrays.h"
 
 namespace invariance {
 
@@ -60,7 +61,7 @@ Measured measure_links(const Setting& s) {
   const double values[] = {0, 1};
   for (std::size_t i = 0; i < 2; ++i) ok(hf_solver_add_site(solver, s.pick(i), values + i, nullptr));
   std::vector<double> field(s.copy.points.size());
-  ok(hf_solver_solve_f64(solver, field.data(), 0, nullptr));
+  ok(hf_solver_solve(solver, OUT(field.data()), nullptr));
   Measured out;
   out.count("links", count);
   out.add("mean length and weight", {length, weight}, std::max(1.0, double(count)));
@@ -152,9 +153,8 @@ Measured measure_graph(const Setting& s) {
   }
   hf_graph_desc d = HF_INIT(hf_graph_desc);
   d.vertex_count = static_cast<std::uint32_t>(s.copy.points.size());
-  d.edge_count = static_cast<std::uint32_t>(weights.size());
-  d.edges = edges.data();
-  d.weights = weights.data();
+  d.edges = HF_ARRAY(edges.data(), weights.size());
+  d.weights = HF_ARRAY(weights.data(), weights.size());
   Surface surface;
   ok(hf_surface_create_graph(&d, surface.out()));
   Solver solver;
@@ -162,7 +162,7 @@ Measured measure_graph(const Setting& s) {
   const double values[] = {0, 1, 0.4};
   for (std::size_t i = 0; i < 3; ++i) ok(hf_solver_add_site(solver, s.pick(i), values + i, nullptr));
   std::vector<double> field(s.copy.points.size());
-  ok(hf_solver_solve_f64(solver, field.data(), 0, nullptr));
+  ok(hf_solver_solve(solver, OUT(field.data()), nullptr));
   Measured out;
   out.add("field", s.gather(field));
   return out;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "setting.h"
+#include "support/arrays.h"
 
 namespace invariance {
 namespace {
@@ -32,7 +33,7 @@ Solver solver_on(const Setting& s, hf_surface surface, std::int32_t field_kind) 
 
 std::vector<double> field_of(const Setting& s, hf_solver solver) {
   std::vector<double> values(s.copy.points.size());
-  ok(hf_solver_solve_f64(solver, values.data(), 0, nullptr));
+  ok(hf_solver_solve(solver, OUT(values.data()), nullptr));
   return s.gather(values);
 }
 
@@ -123,7 +124,7 @@ Measured measure_preview(const Setting& s) {
   Measured out;
   const Solver solver = solver_on(s, s.surface(), HF_FIELD_HARMONIC);
   std::vector<double> values(s.copy.points.size());
-  ok(hf_solver_solve_preview_f64(solver, values.data(), 0, 0, nullptr));
+  ok(hf_solver_solve_preview(solver, OUT(values.data()), 0, nullptr));
   out.add("preview", s.gather(values));
   return out;
 }
@@ -135,7 +136,7 @@ Measured measure_vectors(const Setting& s) {
   ok(hf_create(s.surface(), &d, solver.out()));
   for (std::size_t i = 0; i < 4; ++i) ok(hf_solver_add_site(solver, s.pick(i), stroke(s, i).data(), nullptr));
   std::vector<double> vectors(3 * s.copy.points.size()), normals(vectors.size());
-  ok(hf_solver_solve_vectors_f64(solver, vectors.data(), 0, normals.data(), nullptr));
+  ok(hf_solver_solve_vectors(solver, OUT(vectors.data()), normals.data(), nullptr));
   Measured out;
   out.add("vectors", s.gather_directions(vectors));
   out.add("normals", s.gather_directions(normals));
@@ -166,7 +167,7 @@ Measured measure_direction(const Setting& s) {
   for (const std::uint32_t degree : {1u, 2u}) {
     const Direction direction = direction_of(s, degree);
     std::vector<double> vectors(3 * s.copy.points.size());
-    ok(hf_direction_solve_f64(direction, vectors.data(), 0, nullptr));
+    ok(hf_direction_solve(direction, OUT(vectors.data()), nullptr));
     std::vector<double> here = s.gather_directions(vectors);
     if (degree == 1) {
       out.add("vectors", here);

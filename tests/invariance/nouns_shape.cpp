@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "setting.h"
+#include "support/arrays.h"
 
 namespace invariance {
 namespace {
@@ -59,8 +60,8 @@ void add_deformed(Measured& out, const Setting& s, hf_pose pose, std::int32_t re
   std::vector<double> posed(3 * s.copy.points.size());
   std::vector<float> normals(posed.size());
   hf_deform_desc d = HF_INIT(hf_deform_desc);
-  d.positions_f64 = posed.data();
-  d.normals = normals.data();
+  d.positions = ROWS_OUT(posed.data());
+  d.normals = ROWS_OUT(normals.data());
   d.restart = 1;
   d.refine = refine;
   ok(hf_pose_deform(pose, &d, nullptr));
@@ -74,7 +75,7 @@ Measured measure_pose(const Setting& s) {
   const Pose pose = pose_of(s, HF_DEFORM_SMOOTH);
   add_deformed(out, s, pose, 0);
   std::vector<float> field(s.copy.points.size());
-  ok(hf_pose_get_field(pose, 1, field.data(), 0));
+  ok(hf_pose_get_field(pose, 1, OUT(field.data())));
   out.add("field of a handle", s.gather({field.begin(), field.end()}));
   return out;
 }
@@ -143,7 +144,7 @@ void add_morphed(Measured& out, const Setting& s, Morph morph, Handle handle, co
   std::vector<double> xyz(3 * s.copy.points.size());
   hf_morph_desc d = HF_INIT(hf_morph_desc);
   d.weight = 1;
-  d.positions_f64 = xyz.data();
+  d.positions = ROWS_OUT(xyz.data());
   ok(morph(handle, &d));
   out.add(name, s.gather_places(xyz), s.body.diagonal);
 }

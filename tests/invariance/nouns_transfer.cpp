@@ -4,6 +4,7 @@
 
 #include "gltf/flat_mesh.h"
 #include "setting.h"
+#include "support/arrays.h"
 
 namespace invariance {
 namespace {
@@ -88,8 +89,8 @@ Measured transferred(const Setting& source, const Setting& target, std::int32_t 
   const std::vector<double> posed = frame_of(source);
   std::vector<double> out_positions(3 * target.copy.points.size());
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed.data();
-  frame.target_positions_f64 = out_positions.data();
+  frame.source_positions = HF_ARRAY(posed.data(), posed.size() / 3);
+  frame.target_positions = ROWS_OUT(out_positions.data());
   ok(hf_transfer_apply(transfer, &frame));
   Measured out;
   out.add("positions", target.gather_places(out_positions), target.body.diagonal);

@@ -81,29 +81,27 @@ Setting::Setting(const Body& of, const Copy& made) : body(of), copy(made) {
 
 hf_surface_desc Setting::desc() const {
   hf_surface_desc d = HF_INIT(hf_surface_desc);
-  d.vertex_count = static_cast<std::uint32_t>(copy.points.size());
   if (copy.form == Form::doubles) {
-    d.positions_f64 = doubles_.data();
+    d.positions = HF_ARRAY(doubles_.data(), copy.points.size());
   } else {
-    d.positions = floats_.data();
+    d.positions = HF_ARRAY(floats_.data(), copy.points.size());
   }
   const auto triangle_count = static_cast<std::uint32_t>(copy.triangles.size());
   if (copy.form == Form::faces) {
-    d.face_count = triangle_count;
-    d.corner_count = 3 * triangle_count;
-    d.face_sizes = sizes_.data();
-    d.corners = corners_.data();
+    faces_ = HF_INIT(hf_faces_desc);
+    faces_.sizes = HF_ARRAY(sizes_.data(), triangle_count);
+    faces_.corners = HF_ARRAY(corners_.data(), 3 * triangle_count);
+    d.faces = &faces_;
     return d;
   }
-  d.triangle_count = triangle_count;
   if (copy.form == Form::u16) {
-    d.triangles_u16 = short_corners_.data();
+    d.triangles = HF_ARRAY(short_corners_.data(), triangle_count);
   } else {
-    d.triangles = corners_.data();
+    d.triangles = HF_ARRAY(corners_.data(), triangle_count);
   }
   if (copy.form == Form::strided) {
-    d.position_stride = gap * sizeof(float);
-    d.triangle_stride = gap * sizeof(std::uint32_t);
+    d.positions.stride = gap * sizeof(float);
+    d.triangles.stride = gap * sizeof(std::uint32_t);
   }
   return d;
 }

@@ -105,6 +105,7 @@ class Setting {
   std::vector<std::uint32_t> corners_;
   std::vector<std::uint16_t> short_corners_;
   std::vector<std::uint32_t> sizes_;
+  mutable hf_faces_desc faces_;
   Surface surface_;
 };
 

@@ -11,6 +11,7 @@
 
 #include "common/mesh_file.h"
 #include "hf/hf.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -54,10 +55,8 @@ std::vector<Given> meshes(std::size_t most) {
 // The surface of a mesh; null when the mesh is refused.
 hf_surface make_surface(const samples::SurfaceMesh& mesh, int field_kind) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
-  desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
-  desc.positions_f64 = &mesh.positions[0].x;
-  desc.triangles = mesh.triangles.data();
+  desc.positions = HF_ARRAY(&mesh.positions[0].x, mesh.positions.size());
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangles.size() / 3);
   desc.operator_kind = HF_OPERATOR_INTRINSIC_DELAUNAY;
   desc.field_kind = field_kind;
   hf_surface surface = nullptr;
@@ -109,7 +108,7 @@ TEST(EveryMesh, harmonic_fields_keep_to_the_range_of_their_sites) {
       continue;
     }
     std::vector<double> u(g.mesh.positions.size());
-    ASSERT_EQ(hf_solver_solve_f64(solver, u.data(), 0, nullptr), HF_OK);
+    ASSERT_EQ(hf_solver_solve(solver, OUT(u.data()), nullptr), HF_OK);
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     for (const double x : u) {
       ASSERT_TRUE(std::isfinite(x));
@@ -137,7 +136,7 @@ TEST(EveryMesh, biharmonic_fields_are_finite_and_hold_their_sites) {
         continue;
       }
       std::vector<double> u(g.mesh.positions.size());
-      ASSERT_EQ(hf_solver_solve_f64(solver, u.data(), 0, nullptr), HF_OK);
+      ASSERT_EQ(hf_solver_solve(solver, OUT(u.data()), nullptr), HF_OK);
       double most = 0;
       for (const double x : u) {
         ASSERT_TRUE(std::isfinite(x));
@@ -170,7 +169,7 @@ TEST(EveryMesh, direction_fields_are_finite_and_their_singularities_sum_up) {
           << hf_result_get_name(added);
     }
     std::vector<double> u(3 * g.mesh.positions.size());
-    if (hf_direction_solve_f64(direction, u.data(), 0, nullptr) == HF_OK) {
+    if (hf_direction_solve(direction, OUT(u.data()), nullptr) == HF_OK) {
       for (const double x : u) {
         ASSERT_TRUE(std::isfinite(x));
         ASSERT_LE(std::fabs(x), 2.0);

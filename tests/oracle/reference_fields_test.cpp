@@ -11,6 +11,7 @@
 #include "common/mesh_file.h"
 #include "hf/hf.h"
 #include "support/peers.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -47,10 +48,8 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
   for (const int engine : {HF_ENGINE_GREEN, HF_ENGINE_REFACTOR, HF_ENGINE_UPDOWN}) {
     if (engine == HF_ENGINE_UPDOWN && !has_peers()) continue;
     hf_surface_desc desc = HF_INIT(hf_surface_desc);
-    desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
-    desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
-    desc.positions_f64 = &mesh.positions[0].x;
-    desc.triangles = mesh.triangles.data();
+    desc.positions = HF_ARRAY(&mesh.positions[0].x, mesh.positions.size());
+    desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangles.size() / 3);
     desc.weld = HF_WELD_NONE;
     desc.operator_kind = HF_OPERATOR_COTANGENT;
     hf_solver_desc with = HF_INIT(hf_solver_desc);
@@ -65,7 +64,7 @@ TEST_P(ReferenceField, is_reproduced_by_every_engine) {
     batch.values = values.data();
     ASSERT_EQ(hf_add_sites(solver, &batch, nullptr), HF_OK);
     std::vector<double> u(reference.size());
-    ASSERT_EQ(hf_solver_solve_f64(solver, u.data(), 0, nullptr), HF_OK);
+    ASSERT_EQ(hf_solver_solve(solver, OUT(u.data()), nullptr), HF_OK);
     double worst = 0;
     for (std::size_t i = 0; i < u.size(); ++i) worst = std::max(worst, std::fabs(u[i] - reference[i]));
     // the paper's engine holds its sites by penalties of 1e8

@@ -28,11 +28,9 @@ struct Shape {
   }
   hf::Surface surface(int32_t weld = HF_WELD_EXACT) const {
     auto desc = hf::make<hf_surface_desc>();
-    desc.vertex_count = count();
-    desc.positions_f64 = positions.data();
+    desc.positions = HF_ARRAY(positions.data(), count());
     desc.weld = weld;
-    desc.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
-    desc.triangles = triangles.data();
+    desc.triangles = HF_ARRAY(triangles.data(), triangles.size() / 3);
     return hf::Surface(desc);
   }
 };

@@ -10,6 +10,7 @@
 #include "hf/hf.hpp"
 #include "reports_shapes.h"
 #include "unit/gltf/gltf_support.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -306,7 +307,7 @@ std::vector<double> posed(const Shape& shape, const std::vector<uint32_t>& still
   pose.set_transform(handles[1], {{std::sin(pi / 8), 0, 0, std::cos(pi / 8)}}, {{0, -0.2, 0.3}});
   std::vector<double> out(shape.positions.size());
   auto desc = hf::make<hf_deform_desc>();
-  desc.positions_f64 = out.data();
+  desc.positions = ROWS_OUT(out.data());
   hf::check(hf_pose_deform(pose.get(), &desc, nullptr));
   return out;
 }

@@ -15,10 +15,8 @@ void start(void) {
   hf_surface surface;
   hf_solver solver;
   mesh.struct_size = sizeof mesh;
-  mesh.vertex_count = 6;
-  mesh.triangle_count = 4;
-  mesh.positions = positions;
-  mesh.triangles = triangles;
+  mesh.positions = HF_ARRAY(positions, 6);
+  mesh.triangles = HF_ARRAY(triangles, 4);
   if (hf_surface_create(&mesh, &surface) != HF_OK) ExitProcess(2);
   if (hf_create(surface, NULL, &solver) != HF_OK) ExitProcess(3);
   sites.struct_size = sizeof sites;

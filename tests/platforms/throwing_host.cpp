@@ -33,10 +33,8 @@ int main() {
   unsigned refused = 0, wrong = 0;
   for (long at = 0; at < 400; ++at) {
     hf_surface_desc mesh = HF_INIT(hf_surface_desc);
-    mesh.vertex_count = 6;
-    mesh.triangle_count = 4;
-    mesh.positions = positions;
-    mesh.triangles = triangles;
+    mesh.positions = HF_ARRAY(positions, 6);
+    mesh.triangles = HF_ARRAY(triangles, 4);
     mesh.allocator.allocate = allocate;
     mesh.allocator.release = release;
     hf_surface surface = nullptr;

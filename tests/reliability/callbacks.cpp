@@ -7,6 +7,7 @@
 
 #include "report.h"
 #include "surfaces.h"
+#include "support/arrays.h"
 
 using namespace reliability;
 
@@ -129,11 +130,11 @@ int main() {
       hf_solver solver = make_solver(surface);
       must(add(solver, 5, 11), "hf_add_sites");
       std::vector<double> right(mesh.vertex_count()), field(right), before(right);
-      must(hf_solver_solve_f64(solver, before.data(), 0, nullptr), "hf_solver_solve_f64");
+      must(hf_solver_solve(solver, OUT(before.data()), nullptr), "hf_solver_solve");
       hf_solver other = nullptr;
       must(hf_solver_clone(solver, &other), "hf_solver_clone");
       must(add(other, 40, 3), "hf_add_sites");
-      must(hf_solver_solve_f64(other, right.data(), 0, nullptr), "hf_solver_solve_f64");
+      must(hf_solver_solve(other, OUT(right.data()), nullptr), "hf_solver_solve");
       hf_solver_destroy(other);
       const double bytes = live_bytes(surface);
       for (long at = 0;; at += 1 + at / 8) {
@@ -144,10 +145,10 @@ int main() {
         if (added == HF_OK) break;
         ++thrown;
         host.wrong += hf_solver_get_site_count(solver) != 5 || live_bytes(surface) != bytes;
-        must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
+        must(hf_solver_solve(solver, OUT(field.data()), nullptr), "hf_solver_solve");
         host.wrong += field != before;
       }
-      must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
+      must(hf_solver_solve(solver, OUT(field.data()), nullptr), "hf_solver_solve");
       host.wrong += field != right;
       hf_surface_destroy(surface);
       hf_solver_destroy(solver);
@@ -163,7 +164,7 @@ int main() {
   hf_solver plain = make_solver(d);
   must(add(plain, 5, 11), "hf_add_sites");
   std::vector<double> right(large.vertex_count()), field(right);
-  must(hf_solver_solve_f64(plain, right.data(), 0, nullptr), "hf_solver_solve_f64");
+  must(hf_solver_solve(plain, OUT(right.data()), nullptr), "hf_solver_solve");
   hf_solver_destroy(plain);
   d.job_runner = {run, &host};
   unsigned refused = 0;
@@ -181,12 +182,12 @@ int main() {
       must(add(solver, 5, 11), "hf_add_sites, again");
     }
     host.runner = runner;
-    const hf_result solved = hf_solver_solve_f64(solver, field.data(), 0, nullptr);
+    const hf_result solved = hf_solver_solve(solver, OUT(field.data()), nullptr);
     host.runner = 0;
     host.solver = nullptr;
     refused += solved != HF_OK;
     host.wrong += solved != HF_OK && solved != HF_ERROR_INTERNAL;
-    must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64, again");
+    must(hf_solver_solve(solver, OUT(field.data()), nullptr), "hf_solver_solve, again");
     host.wrong += field != right;
     hf_solver_destroy(solver);
   }

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "report.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -259,7 +260,7 @@ Case distances(const char* name, std::int32_t method, hf_surface surface, std::s
          [=](hf_progress) {
            std::vector<float> out(vertices);
            const std::uint32_t source = 0;
-           return hf_geodesics_solve(made->object, 1, &source, out.data(), 0);
+           return hf_geodesics_solve(made->object, 1, &source, OUT(out.data()));
          },
          [=] { return memory_of(surface); }};
   c.prepare = [=](hf_progress p) {

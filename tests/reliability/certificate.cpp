@@ -14,6 +14,7 @@
 #include "exact_shapes.h"
 #include "hf/hf.h"
 #include "report.h"
+#include "support/arrays.h"
 
 using namespace reliability;
 
@@ -29,10 +30,8 @@ struct Counts {
 
 hf_surface_desc desc_of(const ExactShape& shape) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = shape.vertex_count();
-  desc.positions_f64 = shape.positions.data();
-  desc.triangle_count = static_cast<std::uint32_t>(shape.triangles.size() / 3);
-  desc.triangles = shape.triangles.data();
+  desc.positions = HF_ARRAY(shape.positions.data(), shape.vertex_count());
+  desc.triangles = HF_ARRAY(shape.triangles.data(), shape.triangles.size() / 3);
   desc.field_kind = shape.field_kind;
   return desc;
 }
@@ -120,7 +119,7 @@ void judge(const ExactShape& shape, Factor factor, std::int32_t engine, double s
   std::vector<double> field(shape.vertex_count());
   hf_certificate found = HF_INIT(hf_certificate);
   double error = HUGE_VAL;
-  if (result == HF_OK) result = hf_solver_solve_f64(solver, field.data(), 0, nullptr);
+  if (result == HF_OK) result = hf_solver_solve(solver, OUT(field.data()), nullptr);
   if (result == HF_OK) {
     error = error_of(shape, field);
     result = hf_solver_certify(solver, &found);

@@ -9,6 +9,7 @@
 #include "degenerate_shapes.h"
 #include "hf/quads.h"
 #include "report.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -62,7 +63,7 @@ struct Scene {
   }
 };
 
-void play_levels(const Scene& scene, const hf_scalars& field, const std::vector<double>& values) {
+void play_levels(const Scene& scene, const hf_array& field, const std::vector<double>& values) {
   std::vector<double> levels = {0, 1, 1, -2.5, 1e300, -1e-300};
   for (std::int32_t spacing = HF_LEVELS_VALUE; spacing <= HF_LEVELS_LENGTH; ++spacing) {
     for (const std::uint32_t count : {1u, 7u}) {
@@ -100,8 +101,7 @@ void play_levels(const Scene& scene, const hf_scalars& field, const std::vector<
 }
 
 void play_field(const Scene& scene, const DegenerateField& given) {
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = given.values.data();
+  const hf_array field = HF_ARRAY(given.values.data(), given.values.size());
   play_levels(scene, field, given.values);
   hf_critical_info info = HF_INIT(hf_critical_info);
   if (ANSWERED(hf_surface_find_critical_points(scene.surface, &field, 0, nullptr, &info))) {
@@ -179,8 +179,8 @@ void play_distances(const Scene& scene, hf_geodesics geodesics, std::int32_t met
     std::vector<double> d(scene.n);
     std::vector<float> single(scene.n);
     const std::uint32_t count = static_cast<std::uint32_t>(sources.size());
-    if (!ANSWERED(hf_geodesics_solve_f64(geodesics, count, sources.data(), d.data(), 0))) continue;
-    check(ANSWERED(hf_geodesics_solve(geodesics, count, sources.data(), single.data(), 0)), "float distances");
+    if (!ANSWERED(hf_geodesics_solve(geodesics, count, sources.data(), OUT(d.data())))) continue;
+    check(ANSWERED(hf_geodesics_solve(geodesics, count, sources.data(), OUT(single.data()))), "float distances");
     const std::vector<double> most = along_edges(scene, sources);
     for (std::size_t v = 0; v < scene.n; ++v) {
       check(d[v] == -1 || (d[v] >= 0 && std::isfinite(d[v])), "a distance is no distance");
@@ -271,9 +271,9 @@ void play_solve(const Scene& scene, hf_direction direction) {
   std::vector<double> d(3 * scene.n);
   std::vector<float> f(3 * scene.n);
   hf_solve_info info = HF_INIT(hf_solve_info);
-  if (ANSWERED(hf_direction_solve_f64(direction, d.data(), 0, &info)))
+  if (ANSWERED(hf_direction_solve(direction, OUT(d.data()), &info)))
     check(all_finite(d.data(), d.size()), "a direction is not finite");
-  if (ANSWERED(hf_direction_solve(direction, f.data(), 0, nullptr))) {
+  if (ANSWERED(hf_direction_solve(direction, OUT(f.data()), nullptr))) {
     for (const float x : f) check(std::isfinite(x), "a direction in float is not finite");
   }
   std::uint32_t count = 0;
@@ -333,13 +333,11 @@ void play(const DegenerateMesh& mesh) {
   where = mesh.name;
   std::vector<float> floats(mesh.positions.begin(), mesh.positions.end());
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count();
-  desc.triangle_count = mesh.triangle_count();
   if (mesh.in_float)
-    desc.positions = floats.data();
+    desc.positions = HF_ARRAY(floats.data(), mesh.vertex_count());
   else
-    desc.positions_f64 = mesh.positions.data();
-  desc.triangles = mesh.triangles.data();
+    desc.positions = HF_ARRAY(mesh.positions.data(), mesh.vertex_count());
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangle_count());
   desc.weld = mesh.weld;
   desc.allocator = padded_allocator();
   hf_surface surface = nullptr;

@@ -7,6 +7,7 @@
 
 #include "report.h"
 #include "surfaces.h"
+#include "support/arrays.h"
 
 using namespace reliability;
 
@@ -145,7 +146,7 @@ void make_and_solve(hf_surface surface, const Mesh& mesh, int kind, Made& made) 
     must(hf_solver_add_site(made.solver, v, &value, nullptr), "hf_solver_add_site");
   }
   made.field.resize(mesh.vertex_count());
-  must(hf_solver_solve_f64(made.solver, made.field.data(), 0, nullptr), "hf_solver_solve_f64");
+  must(hf_solver_solve(made.solver, OUT(made.field.data()), nullptr), "hf_solver_solve");
 }
 
 void kinds(const Mesh& mesh, int rounds, unsigned& different, unsigned& repeated) {
@@ -169,7 +170,7 @@ void kinds(const Mesh& mesh, int rounds, unsigned& different, unsigned& repeated
       if (round == rounds - 1) hf_surface_destroy(surface);  // the solvers still work
       for (const Made& each : made) {
         std::vector<double> again(mesh.vertex_count());
-        must(hf_solver_solve_f64(each.solver, again.data(), 0, nullptr), "hf_solver_solve_f64, again");
+        must(hf_solver_solve(each.solver, OUT(again.data()), nullptr), "hf_solver_solve, again");
         different += each.field != right.field || again != right.field;
         hf_solver_destroy(each.solver);
       }

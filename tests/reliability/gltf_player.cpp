@@ -14,6 +14,7 @@
 #include "gltf/gltf_write.h"
 #include "gltf/skin_write.h"
 #include "hf/hf.h"
+#include "support/arrays.h"
 
 namespace hostile {
 namespace {
@@ -51,10 +52,8 @@ void pick(hf_surface surface, const FlatMesh& mesh, std::uint32_t vertex, double
 bool solve(const FlatMesh& mesh) {
   const std::vector<double> positions = double_positions(mesh.positions);
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count();
-  desc.triangle_count = mesh.triangle_count();
-  desc.positions_f64 = positions.data();
-  desc.triangles = mesh.triangles.data();
+  desc.positions = HF_ARRAY(positions.data(), mesh.vertex_count());
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangle_count());
   desc.vertex_limit = 200000;
   desc.memory_limit_mb = 256;
   struct Owner {
@@ -106,7 +105,7 @@ bool solve(const FlatMesh& mesh) {
     hold(added == HF_OK, hf_result_get_name(added));
     break;
   }
-  hold(hf_solver_solve_f64(solver, field.data(), 0, nullptr) == HF_OK, "hf_solver_solve_f64 failed");
+  hold(hf_solver_solve(solver, OUT(field.data()), nullptr) == HF_OK, "hf_solver_solve failed");
   // with degenerate triangles (a vertex at 1e30, say) only finite values are promised
   hf_surface_report report = HF_INIT(hf_surface_report);
   hold(hf_surface_get_report(surface, &report) == HF_OK, "hf_surface_get_report failed");

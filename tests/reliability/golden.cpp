@@ -14,6 +14,7 @@
 
 #include "base/elementary.h"
 #include "report.h"
+#include "support/arrays.h"
 #include "surfaces.h"
 #include "whole_api.h"
 
@@ -149,7 +150,7 @@ class Stages {
     take(solver, hash);
     must(hf_solve(solver, floats_.data(), 0, nullptr), "hf_solve");
     hash.take(floats_.data(), floats_.size());
-    must(hf_solver_solve_preview(solver, floats_.data(), 0, 0, nullptr), "hf_solver_solve_preview");
+    must(hf_solver_solve_preview(solver, OUT(floats_.data()), 0, nullptr), "hf_solver_solve_preview");
     hash.take(floats_.data(), floats_.size());
     hf_solver_destroy(solver);
   }
@@ -167,7 +168,7 @@ class Stages {
         if (op == HF_OPERATOR_CLAMPED) d.ordering = HF_ORDERING_MINIMUM_DEGREE;
         const hf_solver solver = make_solver(d, wanted);
         add(solver, 9, 701, 3, nullptr);
-        must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64");
+        must(hf_solver_solve(solver, OUT(doubles_.data()), nullptr), "hf_solver_solve");
         hash.take(doubles_.data(), n_);
         hf_solver_destroy(solver);
       }
@@ -179,9 +180,8 @@ class Stages {
     const hf_surface surface = make_surface(base_);
     const hf_solver solver = make_solver(surface);
     add(solver, 7, 811, 29, nullptr);
-    must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64");
-    hf_scalars scalars = desc<hf_scalars>();
-    scalars.values_f64 = doubles_.data();
+    must(hf_solver_solve(solver, OUT(doubles_.data()), nullptr), "hf_solver_solve");
+    const hf_array scalars = HF_ARRAY(doubles_.data(), doubles_.size());
     std::vector<hf_critical_point> points(n_);
     hf_critical_info info = desc<hf_critical_info>();
     must(hf_surface_find_critical_points(surface, &scalars, n_, points.data(), &info),
@@ -196,7 +196,7 @@ class Stages {
       hf_geodesics geodesics = nullptr;
       must(hf_geodesics_create(surface, &options, &geodesics), "hf_geodesics_create");
       const std::uint32_t sources[2] = {3, 2000};
-      must(hf_geodesics_solve_f64(geodesics, 2, sources, doubles_.data(), 0), "hf_geodesics_solve_f64");
+      must(hf_geodesics_solve(geodesics, 2, sources, OUT(doubles_.data())), "hf_geodesics_solve");
       hash.take(doubles_.data(), n_);
       hf_geodesics_destroy(geodesics);
     }
@@ -224,8 +224,8 @@ class Stages {
       std::vector<float> normals(3 * std::size_t{n_});
       floats_.resize(normals.size());
       hf_deform_desc deform = desc<hf_deform_desc>();
-      deform.positions = floats_.data();
-      deform.normals = normals.data();
+      deform.positions = ROWS_OUT(floats_.data());
+      deform.normals = ROWS_OUT(normals.data());
       deform.refine = mode == HF_DEFORM_SMOOTH;
       for (int frame = 1; frame <= 6; ++frame) {  // the turns (1 - t^2, 2 t) / (1 + t^2) need no sine
         const double t = 0.125 * frame, unit = 1 + t * t;
@@ -265,8 +265,8 @@ class Stages {
           posed[3 * v + 2] = p[2];
         }
         hf_transfer_frame played = desc<hf_transfer_frame>();
-        played.source_positions = posed.data();
-        played.target_positions = out.data();
+        played.source_positions = HF_ARRAY(posed.data(), posed.size() / 3);
+        played.target_positions = ROWS_OUT(out.data());
         must(hf_transfer_apply(transfer, &played), "hf_transfer_apply");
         hash.take(out.data(), out.size());
       }
@@ -288,7 +288,7 @@ class Stages {
       must(hf_direction_add_sites(direction, 4, vertices, vectors, sites), "hf_direction_add_sites");
       must(hf_direction_rotate_sites(direction, 1, sites, &angle), "hf_direction_rotate_sites");
       doubles_.resize(3 * std::size_t{n_});
-      must(hf_direction_solve_f64(direction, doubles_.data(), 0, nullptr), "hf_direction_solve_f64");
+      must(hf_direction_solve(direction, OUT(doubles_.data()), nullptr), "hf_direction_solve");
       hash.take(doubles_.data(), doubles_.size());
       hf_direction_destroy(direction);
     }
@@ -345,7 +345,7 @@ class Stages {
     must(hf_add_sites(solver, &d, sites), "hf_add_sites");
   }
   void take(hf_solver solver, Hash& hash) {
-    must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64");
+    must(hf_solver_solve(solver, OUT(doubles_.data()), nullptr), "hf_solver_solve");
     hash.take(doubles_.data(), doubles_.size());
   }
 

@@ -10,6 +10,7 @@
 #include "exact_shapes.h"
 #include "growth.h"
 #include "hf/hf.h"
+#include "support/arrays.h"
 
 namespace growth {
 namespace {
@@ -82,10 +83,8 @@ MeshArrays soup(std::size_t triangles) {
 hf_surface surface_of(const MeshArrays& mesh, std::int32_t field_kind = HF_FIELD_HARMONIC) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.field_kind = field_kind;
-  desc.vertex_count = static_cast<std::uint32_t>(mesh.positions.size() / 3);
-  desc.positions_f64 = mesh.positions.data();
-  desc.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
-  desc.triangles = mesh.triangles.data();
+  desc.positions = HF_ARRAY(mesh.positions.data(), mesh.positions.size() / 3);
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangles.size() / 3);
   desc.allocator.allocate = [](void*, std::size_t bytes, std::size_t alignment) {
     return ::operator new(bytes, std::align_val_t(alignment), std::nothrow);
   };
@@ -189,7 +188,7 @@ std::vector<double> biharmonic_field(const MeshArrays& mesh, const std::vector<s
   desc.values = values.data();
   check(hf_add_sites(scene.solver, &desc, nullptr), "hf_add_sites");
   std::vector<double> field(mesh.positions.size() / 3);
-  check(hf_solver_solve_f64(scene.solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
+  check(hf_solver_solve(scene.solver, OUT(field.data()), nullptr), "hf_solver_solve");
   hf_certificate certificate = HF_INIT(hf_certificate);
   check(hf_solver_certify(scene.solver, &certificate), "hf_solver_certify");
   return field;

@@ -14,10 +14,8 @@ constexpr double default_work_limit_gflop = 100000, most_vertices = 2e7;  // hf/
 hf_result create(const std::vector<float>& positions, const std::vector<std::uint32_t>& triangles,
                  hf_surface& surface) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
-  desc.positions = positions.data();
-  desc.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
-  desc.triangles = triangles.data();
+  desc.positions = HF_ARRAY(positions.data(), positions.size() / 3);
+  desc.triangles = HF_ARRAY(triangles.data(), triangles.size() / 3);
   return hf_surface_create(&desc, &surface);
 }
 

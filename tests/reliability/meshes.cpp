@@ -14,6 +14,7 @@
 
 #include "hf/hf.h"
 #include "report.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -294,8 +295,8 @@ std::string check_field(hf_surface surface, hf_solver solver, const Mesh& m, dou
   hf_result got = hf_add_sites(solver, &sites, numbers);
   if (got != HF_OK) return std::string("hf_add_sites: ") + hf_result_get_name(got);
   std::vector<double> field(m.count());
-  got = hf_solver_solve_f64(solver, field.data(), 0, nullptr);
-  if (got != HF_OK) return std::string("hf_solver_solve_f64: ") + hf_result_get_name(got);
+  got = hf_solver_solve(solver, OUT(field.data()), nullptr);
+  if (got != HF_OK) return std::string("hf_solver_solve: ") + hf_result_get_name(got);
   const double low = std::fmin(near_value, far_value), high = std::fmax(near_value, far_value);
   for (std::uint32_t v = 0; v < m.count(); ++v) {
     if (!std::isfinite(field[v])) return "a value is not finite";
@@ -309,12 +310,10 @@ std::string check_field(hf_surface surface, hf_solver solver, const Mesh& m, dou
 
 hf_surface_desc surface_desc(const Mesh& m, int operator_kind, int field_kind) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = m.count();
-  desc.triangle_count = static_cast<std::uint32_t>(m.triangles.size() / 3);
-  desc.positions_f64 = m.positions.data();
-  desc.triangles = m.triangles.data();
+  desc.positions = HF_ARRAY(m.positions.data(), m.count());
+  desc.triangles = HF_ARRAY(m.triangles.data(), m.triangles.size() / 3);
   static const std::uint32_t no_triangle[3] = {0, 0, 0};
-  if (m.triangles.empty()) desc.triangles = no_triangle;
+  if (m.triangles.empty()) desc.triangles = HF_ARRAY(no_triangle, 0);
   desc.operator_kind = operator_kind;
   desc.field_kind = field_kind;
   return desc;
@@ -373,8 +372,7 @@ std::vector<double> loaded_field(const Mesh& m, std::uint32_t count, int operato
     wanted.field_kind = field_kind;
     if (hf_surface_save(made, field_kind, nullptr, size, bytes.data(), nullptr) != HF_OK ||
         hf_surface_create(&desc, &loaded) != HF_OK || hf_create(loaded, &wanted, &solver) != HF_OK ||
-        hf_add_sites(solver, &sites, nullptr) != HF_OK ||
-        hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK)
+        hf_add_sites(solver, &sites, nullptr) != HF_OK || hf_solver_solve(solver, OUT(field.data()), nullptr) != HF_OK)
       field.assign(m.count(), NAN);
   }
   hf_solver_destroy(solver);

@@ -29,10 +29,8 @@ void provoke(hf_result got, const char* how) {
 
 hf_surface_desc scene_desc(const Scene& s) {
   hf_surface_desc d = desc<hf_surface_desc>();
-  d.vertex_count = s.vertex_count;
-  d.triangle_count = s.triangle_count;
-  d.positions = s.positions.data();
-  d.triangles = s.triangles.data();
+  d.positions = HF_ARRAY(s.positions.data(), s.vertex_count);
+  d.triangles = HF_ARRAY(s.triangles.data(), s.triangle_count);
   return d;
 }
 
@@ -55,21 +53,20 @@ void arguments(const Scene& s) {
   d.struct_size = 1;
   provoke(hf_surface_create(&d, &surface), "struct_size 1");
   d = scene_desc(s);
-  d.vertex_count = 0;
+  d.positions.count = 0;
   provoke(hf_surface_create(&d, &surface), "no vertices");
   d = scene_desc(s);
   d.vertex_limit = 1;
   provoke(hf_surface_create(&d, &surface), "vertex_limit 1");
   d = scene_desc(s);
-  d.vertex_count = 7;
   provoke(hf_surface_create(&d, &surface), "triangles beyond the vertices");
   d = scene_desc(s);
-  d.position_stride = 1;
+  d.positions.stride = 1;
   provoke(hf_surface_create(&d, &surface), "stride 1");
   std::vector<float> infinite = s.positions;
   infinite[5] = HUGE_VALF;
   d = scene_desc(s);
-  d.positions = infinite.data();
+  d.positions = HF_ARRAY(infinite.data(), 7);
   provoke(hf_surface_create(&d, &surface), "an infinite position");
   Mesh large;
   add_torus(large, 100, 80);
@@ -169,10 +166,8 @@ void indefinite() {
   const double positions[] = {0, 0, 0, -1.0384593717069655e34, 0, 0, 0, 1, 0, -1.038467170729213e34, 0, 0, 0, 0, 1};
   const std::uint32_t triangles[] = {0, 1, 3, 1, 2, 4};
   hf_surface_desc d = desc<hf_surface_desc>();
-  d.vertex_count = 5;
-  d.triangle_count = 2;
-  d.positions_f64 = positions;
-  d.triangles = triangles;
+  d.positions = HF_ARRAY(positions, 5);
+  d.triangles = HF_ARRAY(triangles, 2);
   d.operator_kind = HF_OPERATOR_COTANGENT;
   hf_surface surface = nullptr;
   provoke(hf_surface_create(&d, &surface), "two needles");

@@ -13,6 +13,7 @@
 #include "report.h"
 #include "surfaces.h"
 #include "whole_api.h"
+#include "support/arrays.h"
 
 using namespace reliability;
 
@@ -60,7 +61,7 @@ std::uint64_t large_hash(const Mesh& mesh, std::uint32_t threads, const hf_job_r
   sites.vertices = vertices.data();
   sites.values = values.data();
   must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites");
-  must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
+  must(hf_solver_solve(solver, OUT(field.data()), nullptr), "hf_solver_solve");
   hf_solver_destroy(solver);
   std::uint64_t hash = 14695981039346656037u;
   const unsigned char* bytes = reinterpret_cast<const unsigned char*>(field.data());
@@ -120,11 +121,11 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
   sites.values = values;
   must(hf_add_sites(shared, &sites, nullptr), "hf_add_sites");
   std::vector<double> right(mesh.vertex_count());
-  must(hf_solver_solve_f64(shared, right.data(), 0, nullptr), "hf_solver_solve_f64");
+  must(hf_solver_solve(shared, OUT(right.data()), nullptr), "hf_solver_solve");
   on_eight([&](unsigned) {
     std::vector<double> field(mesh.vertex_count());
     for (int i = 0; i < 20 * rounds; ++i) {
-      different += hf_solver_solve_f64(shared, field.data(), 0, nullptr) != HF_OK || field != right;
+      different += hf_solver_solve(shared, OUT(field.data()), nullptr) != HF_OK || field != right;
       double at = 0;
       const std::uint32_t asked = 700;
       different += hf_solver_solve_at(shared, 1, &asked, &at) != HF_OK || !(std::fabs(at - right[asked]) < 1e-12);
@@ -149,7 +150,7 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
       to.vertices = &moved;
       different += hf_add_sites(copy, &more, &site) != HF_OK || hf_solver_move_sites(copy, 1, &site, &to) != HF_OK;
       std::vector<double> field(mesh.vertex_count());
-      different += hf_solver_solve_f64(copy, field.data(), 0, nullptr) != HF_OK;
+      different += hf_solver_solve(copy, OUT(field.data()), nullptr) != HF_OK;
       if (edited[t].empty()) edited[t] = field;
       different += field != edited[t];
       hf_solver_destroy(copy);
@@ -177,7 +178,7 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
     sites.vertices = vertices;
     sites.values = values;
     must(hf_add_sites(inherited[i], &sites, nullptr), "hf_add_sites");
-    must(hf_solver_solve_f64(inherited[i], field.data(), 0, nullptr), "hf_solver_solve_f64");
+    must(hf_solver_solve(inherited[i], OUT(field.data()), nullptr), "hf_solver_solve");
     right = field;
   }
   fflush(stdout);
@@ -190,7 +191,7 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
       alarm(60);  // the signal ends a child that hangs
       unsigned bad = 0;
       for (const hf_solver solver : inherited) {
-        bad += hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right;
+        bad += hf_solver_solve(solver, OUT(field.data()), nullptr) != HF_OK || field != right;
         hf_solver clone = nullptr;
         bad += hf_solver_clone(solver, &clone) != HF_OK;
         hf_solver_destroy(clone);
@@ -201,7 +202,7 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
     }
     // the parent works on meanwhile
     for (const hf_solver solver : inherited)
-      wrong += hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right;
+      wrong += hf_solver_solve(solver, OUT(field.data()), nullptr) != HF_OK || field != right;
     int status = 0;
     waitpid(child, &status, 0);
     wrong += WIFEXITED(status) ? static_cast<unsigned>(WEXITSTATUS(status)) : 100;
@@ -225,17 +226,17 @@ unsigned different_on_eight_threads(const Scene& scene, std::uint64_t expected, 
   sites.values = values;
   must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites");
   std::vector<double> field(mesh.vertex_count()), right = field;
-  must(hf_solver_solve_f64(solver, right.data(), 0, nullptr), "hf_solver_solve_f64");
+  must(hf_solver_solve(solver, OUT(right.data()), nullptr), "hf_solver_solve");
   fflush(stdout);
   fflush(stderr);
   unsigned wrong = 0;
   for (int i = 0; i < count && wrong < 3; ++i) {  // a child that hangs takes 20 s
-    must(hf_solver_solve_f64(solver, field.data(), 0, nullptr), "hf_solver_solve_f64");
+    must(hf_solver_solve(solver, OUT(field.data()), nullptr), "hf_solver_solve");
     const pid_t child = fork();
     if (child < 0) return wrong + 100;
     if (child == 0) {
       alarm(20);
-      _exit(hf_solver_solve_f64(solver, field.data(), 0, nullptr) != HF_OK || field != right);
+      _exit(hf_solver_solve(solver, OUT(field.data()), nullptr) != HF_OK || field != right);
     }
     int status = 0;
     waitpid(child, &status, 0);

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "sequence_play.h"
+#include "support/arrays.h"
 
 namespace sequences {
 namespace {
@@ -181,7 +182,7 @@ void Player::solve_some() {
   const std::vector<double> field = field_of(here());
   for (unsigned i = 0; i < count; ++i) {
     hold(std::memcmp(&values[std::size_t{i} * m], &field[std::size_t{vertices[i]} * m], m * sizeof(double)) == 0,
-         "hf_solver_solve_at has other bits than hf_solver_solve_f64");
+         "hf_solver_solve_at has other bits than hf_solver_solve");
   }
 }
 
@@ -196,7 +197,7 @@ void Player::solve_single() {
   for (std::size_t v = 0; v < n; ++v) {
     for (std::size_t c = 0; c < m; ++c)
       hold(values[v * width + c] == static_cast<float>(field[v * m + c]),
-           "hf_solve is not hf_solver_solve_f64 rounded");
+           "hf_solve is not hf_solver_solve rounded");
     hold(values[v * width + m] == -9.0f, "hf_solve wrote between the rows");
   }
 }
@@ -205,9 +206,9 @@ void Player::preview() {
   const unsigned corrections = bytes_.take() % 4;
   std::vector<double> field(std::size_t{surface_->vertex_count()} * setting_.channels, -3.0);
   hf_preview_info info = HF_INIT(hf_preview_info);
-  const hf_result got = hf_solver_solve_preview_f64(here().solver, field.data(), 0, corrections, &info);
-  if (here().model.sites().empty()) return expect(HF_ERROR_EMPTY, got, "hf_solver_solve_preview_f64");
-  expect(HF_OK, got, "hf_solver_solve_preview_f64");
+  const hf_result got = hf_solver_solve_preview(here().solver, OUT(field.data()), corrections, &info);
+  if (here().model.sites().empty()) return expect(HF_ERROR_EMPTY, got, "hf_solver_solve_preview");
+  expect(HF_OK, got, "hf_solver_solve_preview");
   if (info.exact) hold(info.correction_count == 0 && info.error_estimate == 0, "an exact preview says it is not");
   const double error = error_of(here(), field);
   const double most = setting_.engine == HF_ENGINE_UPDOWN || info.exact ? penalty_tolerance

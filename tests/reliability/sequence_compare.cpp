@@ -5,20 +5,21 @@
 #include <cstring>
 
 #include "sequence_play.h"
+#include "support/arrays.h"
 
 namespace sequences {
 
 std::vector<double> Player::field_of(Branch& branch) {
   std::vector<double> field(std::size_t{surface_->vertex_count()} * setting_.channels, -123.0);
   hf_solve_info info = HF_INIT(hf_solve_info);
-  const hf_result got = hf_solver_solve_f64(branch.solver, field.data(), 0, &info);
+  const hf_result got = hf_solver_solve(branch.solver, OUT(field.data()), &info);
   if (branch.model.sites().empty()) {
-    expect(HF_ERROR_EMPTY, got, "hf_solver_solve_f64");
+    expect(HF_ERROR_EMPTY, got, "hf_solver_solve");
     hold(std::count(field.begin(), field.end(), -123.0) == static_cast<std::ptrdiff_t>(field.size()),
          "a refused solve wrote");
     return {};
   }
-  expect(HF_OK, got, "hf_solver_solve_f64");
+  expect(HF_OK, got, "hf_solver_solve");
   const Model::Answer& answer = branch.model.answer();
   std::uint32_t unreached = 0, first = HF_NO_INDEX, vertices = 0;
   for (int c = surface_->component_count - 1; c >= 0; --c) {

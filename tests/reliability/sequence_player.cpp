@@ -26,10 +26,8 @@ unsigned kind_of(unsigned byte) {
 
 hf_surface_desc Player::surface_desc(int field_kind) const {
   hf_surface_desc d = HF_INIT(hf_surface_desc);
-  d.vertex_count = surface_->vertex_count();
-  d.triangle_count = surface_->triangle_count();
-  d.positions = surface_->positions.data();
-  d.triangles = surface_->triangles.data();
+  d.positions = HF_ARRAY(surface_->positions.data(), surface_->vertex_count());
+  d.triangles = HF_ARRAY(surface_->triangles.data(), surface_->triangle_count());
   d.operator_kind = operator_kind_;
   d.field_kind = field_kind;
   d.ordering = ordering_;

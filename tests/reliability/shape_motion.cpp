@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "shape_play.h"
+#include "support/arrays.h"
 
 namespace shapes {
 
@@ -59,8 +60,8 @@ bool Player::transfer() {
   const auto frame = [&](const std::vector<double>& source) {
     std::vector<double> out(target.positions.size());
     hf_transfer_frame f = HF_INIT(hf_transfer_frame);
-    f.source_positions_f64 = source.data();
-    f.target_positions_f64 = out.data();
+    f.source_positions = HF_ARRAY(source.data(), source.size() / 3);
+    f.target_positions = ROWS_OUT(out.data());
     expect(HF_OK, hf_transfer_apply(transfer.handle, &f), "hf_transfer_apply");
     hold(finite(out), "hf_transfer_apply: not finite");
     return out;
@@ -236,8 +237,7 @@ bool Player::links() {
   }
   std::vector<double> gaps(found.size());
   const std::vector<double> bent = posed();
-  hf_gaps_desc measured = HF_INIT(hf_gaps_desc);
-  measured.positions_f64 = bent.data();
+  const hf_array measured = HF_ARRAY(bent.data(), bent.size() / 3);
   hf_gaps_info opened = HF_INIT(hf_gaps_info);
   expect(
       HF_OK,

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shape_play.h"
+#include "support/arrays.h"
 
 namespace shapes {
 
@@ -193,7 +194,7 @@ bool Player::region() {
     std::vector<double> out(mesh_.positions.size());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
     morph.weight = weight;
-    morph.positions_f64 = out.data();
+    morph.positions = ROWS_OUT(out.data());
     expect(HF_OK, hf_region_morph(region.handle, &morph), "hf_region_morph");
     hold(finite(out), "hf_region_morph: not finite");
     return out;
@@ -243,7 +244,7 @@ bool Player::region() {
     std::vector<double> carried(rest.size());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
     morph.weight = 1;
-    morph.positions_f64 = carried.data();
+    morph.positions = ROWS_OUT(carried.data());
     expect(HF_OK, hf_detail_morph(detail.handle, &morph), "hf_detail_morph");
     for (std::size_t i = 0; i < rest.size(); ++i)
       hold(std::fabs(carried[i] - rest[i]) <= 1e-6 * diagonal_, "detail carried to its own region is another");

@@ -7,6 +7,7 @@
 #include "headed_blocks.h"
 #include "stories.h"
 #include "support/peers.h"
+#include "support/arrays.h"
 
 namespace refusal {
 namespace {
@@ -40,7 +41,7 @@ const double values[12] = {0, 1, 3, -2, 5, 4, 2, 2.5, -1, 7, 0.5, 6};
 
 void take_field(Story& s, hf_solver solver, std::size_t channels = 1) {
   std::vector<double> field(Tube::vertices * channels);
-  s.call("hf_solver_solve_f64", [&] { return hf_solver_solve_f64(solver, field.data(), 0, nullptr); });
+  s.call("hf_solver_solve", [&] { return hf_solver_solve(solver, OUT(field.data()), nullptr); });
   s.take(field.data(), field.size());
 }
 
@@ -197,8 +198,8 @@ void bytes(Story& s, const Tube& tube, Allocator& memory) {
   const hf_sites_desc sites = sites_at(3, places, values + 1);
   s.call("hf_add_sites", [&] { return hf_add_sites(loaded, &sites, nullptr); });
   std::vector<double> field(Tube::vertices);
-  s.call("hf_solver_solve_preview_f64",
-         [&] { return hf_solver_solve_preview_f64(loaded, field.data(), 0, 2, nullptr); });
+  s.call("hf_solver_solve_preview",
+         [&] { return hf_solver_solve_preview(loaded, OUT(field.data()), 2, nullptr); });
   s.take(field.data(), field.size());
   s.call("hf_solver_release_preview", [&] { return hf_solver_release_preview(loaded); });
   hf_solver_destroy(loaded);
@@ -298,8 +299,8 @@ void vectors(Story& s, const Tube& tube, Allocator& memory) {
   const double angle = 0.7;
   s.call("hf_solver_rotate_vectors", [&] { return hf_solver_rotate_vectors(solver, 1, numbers, &angle); });
   std::vector<double> field(3 * Tube::vertices), normals(3 * Tube::vertices);
-  s.call("hf_solver_solve_vectors_f64",
-         [&] { return hf_solver_solve_vectors_f64(solver, field.data(), 0, normals.data(), nullptr); });
+  s.call("hf_solver_solve_vectors",
+         [&] { return hf_solver_solve_vectors(solver, OUT(field.data()), normals.data(), nullptr); });
   s.take(field.data(), field.size());
   s.take(normals.data(), normals.size());
   hf_solver_destroy(solver);
@@ -333,10 +334,8 @@ Tube::Tube() {
 
 hf_surface_desc Tube::desc(Allocator& memory) const {
   hf_surface_desc d = HF_INIT(hf_surface_desc);
-  d.vertex_count = vertices;
-  d.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
-  d.positions_f64 = positions.data();
-  d.triangles = triangles.data();
+  d.positions = HF_ARRAY(positions.data(), vertices);
+  d.triangles = HF_ARRAY(triangles.data(), triangles.size() / 3);
   d.allocator = memory.hooks();
   return d;
 }

@@ -1,5 +1,6 @@
 // Stories of analysis, directions, poses, transfers, quads, regions and skin weights.
 #include "stories.h"
+#include "support/arrays.h"
 
 namespace refusal {
 namespace {
@@ -13,8 +14,7 @@ hf_surface made(Story& s, const Tube& tube, Allocator& memory) {
 
 void lines(Story& s, const Tube& tube, Allocator& memory) {
   const hf_surface surface = made(s, tube, memory);
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = tube.height.data();
+  const hf_array field = HF_ARRAY(tube.height.data(), tube.height.size());
   double levels[4] = {0, 0, 0, 0};
   s.call("hf_surface_space_levels",
          [&] { return hf_surface_space_levels(surface, &field, HF_LEVELS_LENGTH, 4, levels); });
@@ -40,7 +40,7 @@ void distances(Story& s, const Tube& tube, Allocator& memory) {
   s.make("hf_geodesics_create", geodesics, [&] { return hf_geodesics_create(surface, nullptr, &geodesics); });
   const std::uint32_t sources[2] = {3, 60};
   std::vector<double> distance(Tube::vertices);
-  s.call("hf_geodesics_solve_f64", [&] { return hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0); });
+  s.call("hf_geodesics_solve", [&] { return hf_geodesics_solve(geodesics, 2, sources, OUT(distance.data())); });
   s.take(distance.data(), distance.size());
   for (const int kind : {HF_EXTREMITIES_POISSON, HF_EXTREMITIES_GEODESIC}) {
     hf_extremities_desc wanted = HF_INIT(hf_extremities_desc);
@@ -76,7 +76,7 @@ void directions(Story& s, const Tube& tube, Allocator& memory) {
   s.call("hf_direction_remove_sites", [&] { return hf_direction_remove_sites(copy, 1, numbers); });
   std::vector<double> field(3 * Tube::vertices);
   for (const hf_direction d : {direction, before, copy}) {
-    s.call("hf_direction_solve_f64", [&] { return hf_direction_solve_f64(d, field.data(), 0, nullptr); });
+    s.call("hf_direction_solve", [&] { return hf_direction_solve(d, OUT(field.data()), nullptr); });
     s.take(field.data(), field.size());
   }
   std::uint32_t count = 0;
@@ -107,8 +107,8 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   std::vector<double> posed(3 * Tube::vertices);
   std::vector<float> normals(3 * Tube::vertices);
   hf_deform_desc deform = HF_INIT(hf_deform_desc);
-  deform.positions_f64 = posed.data();
-  deform.normals = normals.data();
+  deform.positions = ROWS_OUT(posed.data());
+  deform.normals = ROWS_OUT(normals.data());
   deform.restart = 1;
   deform.refine = mode == HF_DEFORM_SMOOTH;
   s.call("hf_pose_deform", [&] { return hf_pose_deform(pose, &deform, nullptr); });
@@ -156,8 +156,8 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
   std::vector<double> posed(tube.positions), out(3 * Tube::vertices);
   for (std::size_t v = 0; v < Tube::vertices; ++v) posed[3 * v] += 0.03 * posed[3 * v + 1] * posed[3 * v + 1];
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-  frame.source_positions_f64 = posed.data();
-  frame.target_positions_f64 = out.data();
+  frame.source_positions = HF_ARRAY(posed.data(), posed.size() / 3);
+  frame.target_positions = ROWS_OUT(out.data());
   s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
   s.take(out.data(), out.size());
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
@@ -228,8 +228,7 @@ void flow(Story& s, const Tube& tube, Allocator& memory) {
   hf_flow flow = nullptr;
   s.make("hf_flow_create", flow, [&] { return hf_flow_create(surface, &flow); });
   hf_surface_destroy(surface);
-  hf_scalars field = HF_INIT(hf_scalars);
-  field.values_f64 = tube.height.data();
+  const hf_array field = HF_ARRAY(tube.height.data(), tube.height.size());
   std::vector<double> positions(3 * 2000);
   hf_streamlines lines = HF_INIT(hf_streamlines);
   lines.wanted_count = 6;
@@ -258,7 +257,7 @@ void regions(Story& s, const Tube& tube, Allocator& memory) {
   std::vector<double> out(3 * Tube::vertices);
   hf_morph_desc morph = HF_INIT(hf_morph_desc);
   morph.weight = 0.5;
-  morph.positions_f64 = out.data();
+  morph.positions = ROWS_OUT(out.data());
   s.call("hf_region_morph", [&] { return hf_region_morph(region, &morph); });
   s.take(out.data(), out.size());
   hf_detail detail = nullptr;

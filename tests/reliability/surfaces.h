@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hf/hf.h"
+#include "support/arrays.h"
 
 namespace reliability {
 
@@ -57,10 +58,8 @@ inline void must(hf_result result, const char* what) {
 
 inline hf_surface_desc surface_desc(const Mesh& mesh) {
   hf_surface_desc d = desc<hf_surface_desc>();
-  d.vertex_count = mesh.vertex_count();
-  d.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
-  d.positions = mesh.positions.data();
-  d.triangles = mesh.triangles.data();
+  d.positions = HF_ARRAY(mesh.positions.data(), mesh.vertex_count());
+  d.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangles.size() / 3);
   return d;
 }
 
@@ -154,7 +153,7 @@ class EditedSolver {
   hf_surface surface() const { return surface_; }
   std::vector<double> field() const {
     std::vector<double> values(std::size_t{mesh_.vertex_count()} * m_);
-    must(hf_solver_solve_f64(solver_, values.data(), 0, nullptr), "hf_solver_solve_f64");
+    must(hf_solver_solve(solver_, OUT(values.data()), nullptr), "hf_solver_solve");
     return values;
   }
   // The field of a new solver with the same sites, on the same surface.
@@ -176,7 +175,7 @@ class EditedSolver {
     sites.values = values.data();
     sites.stiffness = stiffness.data();
     must(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, fresh");
-    must(hf_solver_solve_f64(solver, out.data(), 0, nullptr), "hf_solver_solve_f64, fresh");
+    must(hf_solver_solve(solver, OUT(out.data()), nullptr), "hf_solver_solve, fresh");
     hf_solver_destroy(solver);
     return out;
   }

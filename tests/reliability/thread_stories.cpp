@@ -1,5 +1,7 @@
 #include "thread_stories.h"
 
+#include "support/arrays.h"
+
 namespace reliability {
 namespace {
 
@@ -52,7 +54,7 @@ hf_result turn(hf_pose pose, std::uint32_t handle, double angle) {
 void take_pose(const Scene& s, hf_pose pose, Seen& seen) {
   std::vector<double> positions(3 * std::size_t{s.vertex_count});
   hf_deform_desc d = desc<hf_deform_desc>();
-  d.positions_f64 = positions.data();
+  d.positions = ROWS_OUT(positions.data());
   d.refine = 1;
   seen.call(hf_pose_deform(pose, &d, nullptr));
   seen.take(positions);
@@ -60,7 +62,7 @@ void take_pose(const Scene& s, hf_pose pose, Seen& seen) {
 
 void take_field(const Scene& s, hf_solver solver, Seen& seen) {
   std::vector<double> field(s.vertex_count);
-  seen.call(hf_solver_solve_f64(solver, field.data(), 0, nullptr));
+  seen.call(hf_solver_solve(solver, OUT(field.data()), nullptr));
   seen.take(field);
 }
 
@@ -74,14 +76,14 @@ void take_region(const Scene& s, hf_region region, Seen& seen) {
   std::vector<double> positions(3 * std::size_t{s.vertex_count});
   hf_morph_desc morph = desc<hf_morph_desc>();
   morph.weight = 0.5;
-  morph.positions_f64 = positions.data();
+  morph.positions = ROWS_OUT(positions.data());
   seen.call(hf_region_morph(region, &morph));
   seen.take(positions);
 }
 
 void take_direction(const Scene& s, hf_direction direction, Seen& seen) {
   std::vector<double> vectors(3 * std::size_t{s.vertex_count});
-  seen.call(hf_direction_solve_f64(direction, vectors.data(), 0, nullptr));
+  seen.call(hf_direction_solve(direction, OUT(vectors.data()), nullptr));
   seen.take(vectors);
 }
 
@@ -90,10 +92,8 @@ void take_direction(const Scene& s, hf_direction direction, Seen& seen) {
 Objects make_objects(const Scene& s) {
   Objects o;
   hf_surface_desc d = desc<hf_surface_desc>();
-  d.vertex_count = s.vertex_count;
-  d.triangle_count = s.triangle_count;
-  d.positions = s.positions.data();
-  d.triangles = s.triangles.data();
+  d.positions = HF_ARRAY(s.positions.data(), s.vertex_count);
+  d.triangles = HF_ARRAY(s.triangles.data(), s.triangle_count);
   d.thread_count = 3;  // the threads of the surface; eight callers ask for them at once
   o.surface = make_surface(d);
   o.solver = make_solver(o.surface);
@@ -164,7 +164,7 @@ void read_solver(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   take_field(s, o.refactor, seen);
   std::vector<double> preview(s.vertex_count);
   hf_preview_info reached = desc<hf_preview_info>();
-  seen.call(hf_solver_solve_preview_f64(o.solver, preview.data(), 0, 1, &reached));
+  seen.call(hf_solver_solve_preview(o.solver, OUT(preview.data()), 1, &reached));
   seen.take(preview);
   const std::uint32_t asked[2] = {5, 700};
   double at[2];
@@ -192,7 +192,7 @@ void read_surfaces(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   seen.call(hf_surface_cast_ray(o.surface, s.ray.data(), s.ray.data() + 3, nullptr, &hit));
   seen.take(&hit, 1);
   hf_pick_desc posed = desc<hf_pick_desc>();
-  posed.positions = s.posed.data();
+  posed.positions = HF_ARRAY(s.posed.data(), s.posed.size() / 3);
   std::uint32_t nearest = 0;
   seen.call(hf_surface_find_vertex(o.surface, s.points.data(), &posed, &nearest, nullptr));
   seen.take(&nearest, 1);
@@ -243,8 +243,7 @@ void read_transfer(const Scene& s, const Objects& o, unsigned, Seen& seen) {
 }
 
 void read_analysis(const Scene& s, const Objects& o, unsigned, Seen& seen) {
-  hf_scalars field = desc<hf_scalars>();
-  field.values_f64 = s.height.data();
+  const hf_array field = HF_ARRAY(s.height.data(), s.height.size());
   double levels[6];
   seen.call(hf_surface_space_levels(o.surface, &field, HF_LEVELS_AREA, 6, levels));
   seen.take(levels, 6);
@@ -257,7 +256,7 @@ void read_analysis(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   seen.take(points.data(), critical.point_count);
   std::vector<double> distance(s.vertex_count);
   const std::uint32_t sources[2] = {3, 900};
-  seen.call(hf_geodesics_solve_f64(o.geodesics, 2, sources, distance.data(), 0));
+  seen.call(hf_geodesics_solve(o.geodesics, 2, sources, OUT(distance.data())));
   seen.take(distance);
   hf_extremities_desc wanted = desc<hf_extremities_desc>();
   wanted.kind = HF_EXTREMITIES_GEODESIC;
@@ -276,7 +275,7 @@ void read_analysis(const Scene& s, const Objects& o, unsigned, Seen& seen) {
 
 void read_shapes(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   std::vector<float> field(s.vertex_count);
-  seen.call(hf_pose_get_field(o.pose, 1, field.data(), 0));
+  seen.call(hf_pose_get_field(o.pose, 1, OUT(field.data())));
   seen.take(field);
   hf_handle_info handle = desc<hf_handle_info>();
   seen.call(hf_pose_get_handle(o.pose, 1, &handle));
@@ -296,7 +295,7 @@ void read_shapes(const Scene& s, const Objects& o, unsigned, Seen& seen) {
   std::vector<double> positions(3 * std::size_t{s.vertex_count});
   hf_morph_desc morph = desc<hf_morph_desc>();
   morph.weight = 1;
-  morph.positions_f64 = positions.data();
+  morph.positions = ROWS_OUT(positions.data());
   seen.call(hf_detail_morph(o.detail, &morph));
   seen.take(positions);
   hf_quads_info info = desc<hf_quads_info>();
@@ -346,8 +345,8 @@ void make_more(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   seen.call(add_pairs(s, transfer));
   std::vector<double> positions(3 * std::size_t{s.vertex_count});
   hf_transfer_frame frame = desc<hf_transfer_frame>();
-  frame.source_positions = s.posed.data();
-  frame.target_positions_f64 = positions.data();
+  frame.source_positions = HF_ARRAY(s.posed.data(), s.posed.size() / 3);
+  frame.target_positions = ROWS_OUT(positions.data());
   seen.call(hf_transfer_apply(transfer, &frame));
   seen.take(positions);
   hf_direction direction = nullptr;
@@ -378,7 +377,7 @@ void edit_solver(const Scene& s, hf_solver solver, unsigned t, Seen& seen) {
   seen.call(hf_remove_sites(solver, 1, sites + 1));
   take_field(s, solver, seen);
   std::vector<float> preview(s.vertex_count);
-  seen.call(hf_solver_solve_preview(solver, preview.data(), 0, 0, nullptr));
+  seen.call(hf_solver_solve_preview(solver, OUT(preview.data()), 0, nullptr));
   seen.take(preview);
   if (t % 4 == 1) seen.call(hf_solver_release_preview(solver));  // for all solvers that share the factor
   hf_solver_info made = desc<hf_solver_info>();

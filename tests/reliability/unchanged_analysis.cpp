@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/arrays.h"
 #include "unchanged.h"
 
 namespace unchanged {
@@ -38,7 +39,7 @@ class Analysis final : public Subject {
     std::vector<double> distance(world.shape->vertices());
     const std::uint32_t sources[2] = {1, 20};
     state.begin("distances");
-    state.add(hf_geodesics_solve_f64(geodesics_, 2, sources, distance.data(), 0));
+    state.add(hf_geodesics_solve(geodesics_, 2, sources, OUT(distance.data())));
     state.add(distance);
     std::size_t size = 0;
     hf_surface_save(world.surface, world.desc.field_kind, nullptr, 0, nullptr, &size);
@@ -51,10 +52,9 @@ class Analysis final : public Subject {
 
  private:
   friend struct AnalysisCalls;
-  hf_scalars scalars(Random& random) {
-    hf_scalars s = HF_INIT(hf_scalars);
-    s.values_f64 = field_.data();
-    s.value_stride = random.one_in(20) ? 3 : 0;
+  hf_array scalars(Random& random) {
+    hf_array s = HF_ARRAY(field_.data(), field_.size());
+    s.stride = random.one_in(20) ? 3 : 0;
     return s;
   }
   // Geodesics keep the progress object they were made with. The cancel of a call goes to that one.
@@ -70,7 +70,7 @@ class Analysis final : public Subject {
     if (result == HF_ERROR_CANCELLED) return result;
     std::vector<double> distance(world.shape->vertices());  // a cancel that came too late stops this call
     const std::uint32_t source = 1;
-    hf_geodesics_solve_f64(geodesics_, 1, &source, distance.data(), 0);
+    hf_geodesics_solve(geodesics_, 1, &source, OUT(distance.data()));
     return result;
   }
   hf_surface_point point(Random& random) const {
@@ -110,7 +110,7 @@ struct AnalysisCalls {
                                       0};
     const std::uint32_t count = random.below(4), stride = random.one_in(9) ? 4 : 0;
     return s.call_geodesics(
-        [&] { return hf_geodesics_solve_f64(s.geodesics_, count, sources, distance.data(), stride); });
+        [&] { return hf_geodesics_solve(s.geodesics_, count, sources, OUT_ROWS(distance.data(), stride)); });
   }
   static hf_result path(Subject& subject, Random& random) {
     Analysis& s = of(subject);
@@ -151,7 +151,7 @@ struct AnalysisCalls {
     const std::uint32_t at = random.below(s.world.shape->vertices());
     const double kept = s.field_[at];
     if (random.one_in(5)) s.field_[at] = bad;
-    const hf_scalars field = s.scalars(random);
+    const hf_array field = s.scalars(random);
     double levels[5] = {1.5, 7, random.number(), 20, 33};
     std::vector<double> positions(3000);
     std::vector<hf_critical_point> points(20);
@@ -193,8 +193,8 @@ struct AnalysisCalls {
     Shape shape = *s.world.shape;
     if (random.one_in(3)) shape.positions[random.below(3 * shape.vertices())] = static_cast<float>(random.number());
     if (random.one_in(3)) shape.triangles[random.below(3 * shape.count())] = random.index(shape.vertices());
-    desc.positions = shape.positions.data();
-    desc.triangles = shape.triangles.data();
+    desc.positions = HF_ARRAY(shape.positions.data(), shape.positions.size() / 3);
+    desc.triangles = HF_ARRAY(shape.triangles.data(), shape.count());
     desc.progress = s.world.progress();
     desc.weld = random.pick({0, 1, 2, 3});
     desc.field_kind = random.pick({0, 1, 2, 3});
@@ -228,11 +228,10 @@ struct AnalysisCalls {
     if (random.one_in(3)) weights[random.below(static_cast<std::uint32_t>(weights.size()))] = random.number();
     if (random.one_in(5)) masses[random.below(static_cast<std::uint32_t>(masses.size()))] = random.number();
     desc.vertex_count = s.world.shape->vertices();
-    desc.edge_count = static_cast<std::uint32_t>(weights.size());
-    desc.edges = edges.data();
-    desc.weights = weights.data();
+    desc.edges = HF_ARRAY(edges.data(), weights.size());
+    desc.weights = HF_ARRAY(weights.data(), weights.size());
     desc.allow_negative = random.pick({0, 0, 1, 2});
-    if (random.one_in(2)) desc.masses = masses.data();
+    if (random.one_in(2)) desc.masses = HF_ARRAY(masses.data(), masses.size());
     desc.field_kind = random.pick({0, 1, 2, 3});
     desc.progress = s.world.progress();
     desc.memory_limit_mb = s.world.desc.memory_limit_mb;

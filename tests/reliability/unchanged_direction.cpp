@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "unchanged.h"
+#include "support/arrays.h"
 
 namespace unchanged {
 namespace {
@@ -54,8 +55,8 @@ class Directions final : public Subject {
       if (result == HF_OK)
         result = hf_direction_add_sites(fresh, static_cast<std::uint32_t>(sites.numbers.size()), sites.vertices.data(),
                                         sites.vectors.data(), nullptr);
-      if (result == HF_OK) result = hf_direction_solve_f64(fresh, other.data(), 0, nullptr);
-      if (result == HF_OK) result = hf_direction_solve_f64(b.handle, field.data(), 0, nullptr);
+      if (result == HF_OK) result = hf_direction_solve(fresh, OUT(other.data()), nullptr);
+      if (result == HF_OK) result = hf_direction_solve(b.handle, OUT(field.data()), nullptr);
       hf_direction_destroy(fresh);
       if (result != HF_OK) return std::string("a fresh direction field: ") + hf_result_get_name(result);
       const double off = apart(field, other);
@@ -82,7 +83,7 @@ class Directions final : public Subject {
     std::vector<double> field(3 * world.shape->vertices());
     hf_solve_info info = HF_INIT(hf_solve_info);
     state.begin("direction field");
-    state.add(hf_direction_solve_f64(b.handle, field.data(), 0, &info));
+    state.add(hf_direction_solve(b.handle, OUT(field.data()), &info));
     state.add(field);
     add_struct(state, info);
     return state.last();
@@ -202,7 +203,7 @@ struct DirectionCalls {
     hf_singularity one;
     if (random.one_in(3)) return hf_direction_get_singularities(b.handle, random.below(2), &one, &count);
     if (random.one_in(3)) return hf_direction_get_sites(b.handle, 1, &count, nullptr, nullptr, &count);
-    return hf_direction_solve(b.handle, field.data(), random.one_in(9) ? 3 : 0, random.spoiled(info));
+    return hf_direction_solve(b.handle, OUT_ROWS(field.data(), random.one_in(9) ? 3 : 0), random.spoiled(info));
   }
 };
 

@@ -18,10 +18,8 @@ struct Memory {
 bool make_surface(World& world, Random& random) {
   world.shape = &shapes()[random.below(static_cast<std::uint32_t>(shapes().size()))];
   hf_surface_desc& d = world.desc;
-  d.vertex_count = world.shape->vertices();
-  d.triangle_count = world.shape->count();
-  d.positions = world.shape->positions.data();
-  d.triangles = world.shape->triangles.data();
+  d.positions = HF_ARRAY(world.shape->positions.data(), world.shape->vertices());
+  d.triangles = HF_ARRAY(world.shape->triangles.data(), world.shape->count());
   d.operator_kind = random.pick({0, 0, 1, 2});
   d.field_kind = random.pick({0, 0, 0, 1});
   d.memory_limit_mb = random.one_in(4) ? 1 : 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "unchanged.h"
+#include "support/arrays.h"
 
 namespace unchanged {
 namespace {
@@ -55,7 +56,7 @@ class Poses final : public Subject {
         state.add(hf_pose_get_handle(b.handle, h.number, &info));
         add_struct(state, info);
         state.begin("the field of a handle");
-        state.add(hf_pose_get_field(b.handle, h.number, field.data(), 0));
+        state.add(hf_pose_get_field(b.handle, h.number, OUT(field.data())));
         state.add(field);
       }
       look_at_skin(b, state);
@@ -102,8 +103,8 @@ class Poses final : public Subject {
     std::vector<double> positions(3 * world.shape->vertices());
     std::vector<float> normals(positions.size());
     hf_deform_desc frame = HF_INIT(hf_deform_desc);
-    frame.positions_f64 = positions.data();
-    frame.normals = normals.data();
+    frame.positions = ROWS_OUT(positions.data());
+    frame.normals = ROWS_OUT(normals.data());
     state.begin("the next frame of a pose");
     state.add(hf_pose_clone(b.handle, &copy));
     state.add(hf_pose_deform(copy, &frame, nullptr));
@@ -124,7 +125,7 @@ class Poses final : public Subject {
   hf_result frame_of(hf_pose pose, std::int32_t refine, std::int32_t from_last, std::vector<double>& out) const {
     out.assign(3 * world.shape->vertices(), 0.0);
     hf_deform_desc frame = HF_INIT(hf_deform_desc);
-    frame.positions_f64 = out.data();
+    frame.positions = ROWS_OUT(out.data());
     frame.restart = 1;
     frame.iteration_count = 5;
     frame.refine = refine;
@@ -362,14 +363,14 @@ struct PoseCalls {
     std::vector<float> normals(positions.size());
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
     hf_deform_info info = HF_INIT(hf_deform_info);
-    desc.positions_f64 = positions.data();
-    if (random.one_in(2)) desc.normals = normals.data();
+    desc.positions = ROWS_OUT(positions.data());
+    if (random.one_in(2)) desc.normals = ROWS_OUT(normals.data());
     desc.iteration_count = random.pick({0u, 0u, 1u, 7u, 2000u});
     desc.restart = random.pick({0, 0, 0, 1, 2});
     desc.refine = random.pick({0, 0, 1, 3});
     desc.refine_from_last = random.pick({0, 0, 0, 1, 1, 2});
     desc.first_vertex = random.pick({0u, 0u, 0u, 3u, 5000u});
-    if (random.one_in(10)) desc.position_stride = 7;
+    if (random.one_in(10)) desc.positions.stride = 7;
     if (random.one_in(5)) return hf_deform(b.handle, normals.data(), random.spoiled(info));
     return hf_pose_deform(b.handle, random.spoiled(desc), random.spoiled(info));
   }
@@ -407,7 +408,7 @@ struct PoseCalls {
     hf_skin_info skin = HF_INIT(hf_skin_info);
     std::vector<float> field(s.world.shape->vertices());
     if (random.one_in(3)) return hf_pose_get_handle(b.handle, s.number(b, random), random.spoiled(info));
-    if (random.one_in(2)) return hf_pose_get_field(b.handle, s.number(b, random), field.data(), random.pick({0u, 2u}));
+    if (random.one_in(2)) return hf_pose_get_field(b.handle, s.number(b, random), OUT_ROWS(field.data(), random.pick({0u, 2u})));
     skin.influence_count = random.pick({0u, 4u, 5u, 8u});
     return hf_pose_get_skin(b.handle, random.spoiled(skin));
   }

@@ -42,8 +42,7 @@ class Quads final : public Subject {
       state.add(positions);
       state.add(faces);
     }
-    hf_scalars field = HF_INIT(hf_scalars);
-    field.values_f64 = field_.data();
+    const hf_array field = HF_ARRAY(field_.data(), field_.size());
     std::vector<double> positions(3 * 5000);
     hf_streamlines lines = HF_INIT(hf_streamlines);
     lines.wanted_count = 5;
@@ -141,8 +140,7 @@ struct QuadsCalls {
     Quads& s = of(subject);
     std::vector<double> values = s.field_, positions(3 * 500);
     if (random.one_in(5)) values[random.below(static_cast<std::uint32_t>(values.size()))] = random.number();
-    hf_scalars field = HF_INIT(hf_scalars);
-    field.values_f64 = values.data();
+    const hf_array field = HF_ARRAY(values.data(), values.size());
     const std::uint32_t seeds[2] = {random.index(s.world.shape->vertices()), 3};
     hf_streamlines lines = HF_INIT(hf_streamlines);
     lines.wanted_count = random.pick({0u, 3u, 9u});

@@ -1,6 +1,7 @@
 // Regions: curves, rings and lists of vertices, clones, and detail carried from one to another.
 #include <cmath>
 
+#include "support/arrays.h"
 #include "unchanged.h"
 
 namespace unchanged {
@@ -47,7 +48,7 @@ class Regions final : public Subject {
       std::vector<double> positions(3 * world.shape->vertices());
       hf_morph_desc morph = HF_INIT(hf_morph_desc);
       morph.weight = 0.75;
-      morph.positions_f64 = positions.data();
+      morph.positions = ROWS_OUT(positions.data());
       state.begin("detail");
       state.add(hf_detail_morph(detail, &morph));
       state.add(positions);
@@ -88,7 +89,7 @@ class Regions final : public Subject {
     std::vector<double> positions(3 * world.shape->vertices());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
     morph.weight = 1;
-    morph.positions_f64 = positions.data();
+    morph.positions = ROWS_OUT(positions.data());
     return hf_region_morph(b.handle, &morph) == HF_OK ? positions : std::vector<double>{NAN};
   }
   std::uint64_t look_at_base(const RegionBranch& b, State& state) const {
@@ -96,8 +97,8 @@ class Regions final : public Subject {
     std::vector<float> normals(positions.size());
     hf_morph_desc morph = HF_INIT(hf_morph_desc);
     morph.weight = 1;
-    morph.positions_f64 = positions.data();
-    morph.normals = normals.data();
+    morph.positions = ROWS_OUT(positions.data());
+    morph.normals = ROWS_OUT(normals.data());
     state.begin("base of a region");
     state.add(hf_region_morph(b.handle, &morph));
     state.add(positions);
@@ -172,8 +173,8 @@ struct RegionCalls {
     hf_region_desc desc = HF_INIT(hf_region_desc);
     desc.base = random.pick({0, 1, 2, 3, 4});
     desc.progress = s.world.progress();
-    desc.reserved = random.one_in(20);
-    if (random.one_in(2)) desc.positions_f64 = positions.data();
+    if (random.one_in(2)) desc.positions = HF_ARRAY(positions.data(), positions.size() / 3);
+    desc.positions.reserved = random.one_in(20);
     hf_region made = s.branches_[0].handle;
     const hf_result result = hf_region_create(s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused region is no NULL");
@@ -210,10 +211,10 @@ struct RegionCalls {
     std::vector<float> single(positions.size());
     hf_morph_desc desc = HF_INIT(hf_morph_desc);
     desc.weight = random.number();
-    desc.positions_f64 = positions.data();
-    if (random.one_in(4)) desc.normals = single.data();
-    if (random.one_in(9)) desc.positions = single.data();
-    if (random.one_in(9)) desc.position_stride = 5;
+    desc.positions = ROWS_OUT(positions.data());
+    if (random.one_in(4)) desc.normals = ROWS_OUT(single.data());
+    if (random.one_in(9)) desc.positions = ROWS_OUT(single.data());
+    if (random.one_in(9)) desc.positions.stride = 5;
     if (!s.details_.empty() && random.one_in(2)) return hf_detail_morph(s.details_[0], random.spoiled(desc));
     return hf_region_morph(b.handle, random.spoiled(desc));
   }

@@ -1,6 +1,7 @@
 // Solvers on meshes and graphs: sites of every form, batches, clones, screening, a rebase prepared and waiting,
 // previews, certificates.
 #include "unchanged_solver.h"
+#include "support/arrays.h"
 
 #include <cmath>
 
@@ -33,8 +34,8 @@ std::string Solvers::compare_fresh(const SolverBranch& b) const {
     if (result == HF_OK) result = hf_add_sites(fresh, &one.desc, nullptr);
   }
   if (result == HF_OK && !b.screening.strength.empty() && !before) result = b.screening.set(fresh);
-  if (result == HF_OK) result = hf_solver_solve_f64(fresh, other.data(), 0, nullptr);
-  const hf_result own = hf_solver_solve_f64(b.handle, field.data(), 0, nullptr);
+  if (result == HF_OK) result = hf_solver_solve(fresh, OUT(other.data()), nullptr);
+  const hf_result own = hf_solver_solve(b.handle, OUT(field.data()), nullptr);
   hf_solver_destroy(fresh);
   if (count == 0 && result == own && own == HF_ERROR_EMPTY) return {};  // screening of 0 everywhere
   if (result == HF_OK) result = own;
@@ -63,9 +64,8 @@ void Solvers::make_graph(Random& random) {
   }
   hf_graph_desc desc = HF_INIT(hf_graph_desc);
   desc.vertex_count = world.shape->vertices();
-  desc.edge_count = static_cast<std::uint32_t>(weights.size());
-  desc.edges = edges.data();
-  desc.weights = weights.data();
+  desc.edges = HF_ARRAY(edges.data(), weights.size());
+  desc.weights = HF_ARRAY(weights.data(), weights.size());
   desc.field_kind = world.desc.field_kind;
   desc.allocator = world.memory.hooks();
   desc.memory_limit_mb = world.desc.memory_limit_mb;

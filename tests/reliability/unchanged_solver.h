@@ -4,6 +4,7 @@
 #include <set>
 
 #include "unchanged.h"
+#include "support/arrays.h"
 
 namespace unchanged {
 
@@ -144,7 +145,7 @@ class Solvers final : public Subject {
     std::vector<double> field(rows());
     hf_solve_info info = HF_INIT(hf_solve_info);
     state.begin("field of a solver");
-    state.add(hf_solver_solve_f64(b.handle, field.data(), 0, &info));
+    state.add(hf_solver_solve(b.handle, OUT(field.data()), &info));
     state.add(field);
     add_struct(state, info);
     return state.last();

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "unchanged_solver.h"
+#include "support/arrays.h"
 
 namespace unchanged {
 
@@ -205,17 +206,17 @@ struct SolverCalls {
       case 0:
         return hf_solve(b.handle, single.data(), stride, random.spoiled(info));
       case 1:
-        return hf_solver_solve_f64(b.handle, field.data(), stride, random.spoiled(info));
+        return hf_solver_solve(b.handle, OUT_ROWS(field.data(), stride), random.spoiled(info));
       case 2:
         return hf_solver_solve_at(b.handle, 1 + random.below(2), at, field.data());
       case 3:
-        return hf_solver_solve_vectors_f64(b.handle, field.data(), stride, nullptr, nullptr);
+        return hf_solver_solve_vectors(b.handle, OUT_ROWS(field.data(), stride), nullptr, nullptr);
       case 4:
         certificate.tolerance = random.pick({0.0, 1e-6, -1.0});
         return hf_solver_certify(b.handle, random.spoiled(certificate));
       default: {
         const hf_result result =
-            hf_solver_solve_preview_f64(b.handle, field.data(), stride, random.pick({0u, 1u, 9u}), &preview);
+            hf_solver_solve_preview(b.handle, OUT_ROWS(field.data(), stride), random.pick({0u, 1u, 9u}), &preview);
         return hf_solver_release_preview(b.handle), result;
       }
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/arrays.h"
 #include "unchanged.h"
 
 namespace unchanged {
@@ -135,8 +136,8 @@ class Transfers final : public Subject {
   hf_result apply(hf_transfer transfer, const Frame& given, std::vector<double>& out) const {
     out.assign(given.posed.size(), 0.0);
     hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
-    frame.source_positions_f64 = given.posed.data();
-    frame.target_positions_f64 = out.data();
+    frame.source_positions = HF_ARRAY(given.posed.data(), given.posed.size() / 3);
+    frame.target_positions = ROWS_OUT(out.data());
     frame.hold_count = static_cast<std::uint32_t>(given.holds.size());
     frame.hold_pairs = given.holds.data();
     frame.hold_positions = given.places.data();
@@ -197,13 +198,13 @@ struct TransferCalls {
     std::vector<float> normals(frame.posed.size());
     std::vector<double> out(frame.posed.size());
     hf_transfer_frame desc = HF_INIT(hf_transfer_frame);
-    desc.source_positions_f64 = frame.posed.data();
-    desc.target_positions_f64 = out.data();
+    desc.source_positions = HF_ARRAY(frame.posed.data(), frame.posed.size() / 3);
+    desc.target_positions = ROWS_OUT(out.data());
     desc.hold_count = static_cast<std::uint32_t>(frame.holds.size());
     desc.hold_pairs = frame.holds.data();
     desc.hold_positions = frame.places.data();
-    if (random.one_in(3)) desc.target_normals = normals.data();
-    if (random.one_in(20)) desc.source_stride = 5;
+    if (random.one_in(3)) desc.target_normals = ROWS_OUT(normals.data());
+    if (random.one_in(20)) desc.source_positions.stride = 5;
     return hf_transfer_apply(s.handle_, random.spoiled(desc));
   }
   static hf_result dials(Subject& subject, Random& random) {

@@ -6,6 +6,7 @@
 
 #include "report.h"
 #include "surfaces.h"
+#include "support/arrays.h"
 
 using namespace reliability;
 
@@ -44,12 +45,12 @@ struct Walk {
   std::vector<double> field() {
     std::vector<double> u(mesh.vertex_count(), 7e77);
     hf_solve_info info = desc<hf_solve_info>();
-    const hf_result result = hf_solver_solve_f64(solver, u.data(), 0, &info);
+    const hf_result result = hf_solver_solve(solver, OUT(u.data()), &info);
     if (sites.empty()) {
       wrong += result != HF_ERROR_EMPTY || u[0] != 7e77;
       return u;
     }
-    must(result, "hf_solver_solve_f64");
+    must(result, "hf_solver_solve");
     std::uint32_t unreached = 0, first = HF_NO_INDEX;
     for (std::uint32_t c = components; c-- > 0;) {
       const bool reached =

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "../support/stick_man.h"
+#include "support/arrays.h"
 #include "whole_api_run.h"
 
 namespace reliability {
@@ -40,7 +41,7 @@ void Run::surface_and_picking() {
   call(hf_surface_cast_ray(surface, s.ray.data(), s.ray.data() + 3, nullptr, &hit), "hf_surface_cast_ray");
   take(&hit, 1);
   hf_pick_desc posed = desc<hf_pick_desc>();
-  posed.positions = s.posed.data();
+  posed.positions = HF_ARRAY(s.posed.data(), s.posed.size() / 3);
   std::uint32_t vertex = 0;
   double distance = 0;
   call(hf_surface_find_vertex(surface, origin, &posed, &vertex, &distance), "hf_surface_find_vertex");
@@ -58,8 +59,7 @@ void Run::surface_and_picking() {
   call(hf_surface_get_pieces(linked, n, pieces.data(), light.data(), &pieces_count), "hf_surface_get_pieces");
   take(pieces.data(), pieces_count);
   take(light.data(), pieces_count);
-  hf_gaps_desc gaps = desc<hf_gaps_desc>();
-  gaps.positions = s.posed.data();
+  const hf_array gaps = HF_ARRAY(s.posed.data(), s.posed.size() / 3);
   hf_gaps_info opened = desc<hf_gaps_info>();
   call(hf_surface_measure_gaps(linked, &gaps, 0, nullptr, &opened), "hf_surface_measure_gaps");
   take(&opened, 1);
@@ -229,10 +229,10 @@ void Run::vectors() {
   call(hf_solver_move_vectors(solver, 1, &numbers[1], to), "hf_solver_move_vectors");
   call(hf_solver_rotate_vectors(solver, 2, numbers, s.angles.data()), "hf_solver_rotate_vectors");
   Numbers normals(3 * std::size_t{n});
-  call(hf_solver_solve_vectors_f64(solver, doubles.data(), 0, normals.data(), nullptr), "hf_solver_solve_vectors_f64");
+  call(hf_solver_solve_vectors(solver, OUT(doubles.data()), normals.data(), nullptr), "hf_solver_solve_vectors");
   take_doubles();
   take(normals.data(), normals.size());
-  call(hf_solver_solve_vectors(solver, floats.data(), 0, nullptr, nullptr), "hf_solver_solve_vectors");
+  call(hf_solver_solve_vectors(solver, OUT(floats.data()), nullptr, nullptr), "hf_solver_solve_vectors");
   take_floats();
   hf_solver_destroy(solver);
 }
@@ -260,9 +260,9 @@ void Run::factor_and_preview() {
   call(hf_add_sites(loaded, &sites, nullptr), "hf_add_sites, loaded");
   take_field(loaded);
   hf_preview_info info = desc<hf_preview_info>();
-  call(hf_solver_solve_preview(loaded, floats.data(), 0, 0, &info), "hf_solver_solve_preview");
+  call(hf_solver_solve_preview(loaded, OUT(floats.data()), 0, &info), "hf_solver_solve_preview");
   take_floats();
-  call(hf_solver_solve_preview_f64(loaded, doubles.data(), 0, 2, &info), "hf_solver_solve_preview_f64");
+  call(hf_solver_solve_preview(loaded, OUT(doubles.data()), 2, &info), "hf_solver_solve_preview");
   take_doubles();
   call(hf_solver_release_preview(loaded), "hf_solver_release_preview");
   hf_solver_destroy(loaded);
@@ -270,11 +270,9 @@ void Run::factor_and_preview() {
 
 void Run::analysis() {
   hf_surface_desc d = surface_desc();
-  d.positions = nullptr;
-  d.positions_f64 = s.positions_f64.data();
+  d.positions = HF_ARRAY(s.positions_f64.data(), n);
   const hf_surface surface = make(d);
-  hf_scalars field = desc<hf_scalars>();
-  field.values_f64 = s.height.data();
+  const hf_array field = HF_ARRAY(s.height.data(), n);
   Numbers levels(6);
   for (int spacing = 0; spacing < 3; ++spacing) {
     call(hf_surface_space_levels(surface, &field, spacing, 6, levels.data()), "hf_surface_space_levels");
@@ -303,8 +301,8 @@ void Run::analysis() {
   call(hf_geodesics_create(surface, nullptr, &geodesics), "hf_geodesics_create");
   const std::uint32_t sources[2] = {3, 200};
   Numbers distance(n);
-  call(hf_geodesics_solve_f64(geodesics, 2, sources, distance.data(), 0), "hf_geodesics_solve_f64");
-  call(hf_geodesics_solve(geodesics, 1, sources, floats.data(), 12), "hf_geodesics_solve");
+  call(hf_geodesics_solve(geodesics, 2, sources, OUT(distance.data())), "hf_geodesics_solve");
+  call(hf_geodesics_solve(geodesics, 1, sources, OUT_ROWS(floats.data(), 12)), "hf_geodesics_solve");
   take(distance.data(), n);
   take_floats();
   const hf_surface_point from = {{3, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}},
@@ -360,9 +358,9 @@ void Run::directions() {
   call(hf_direction_rotate_sites(direction, 2, sites, s.angles.data()), "hf_direction_rotate_sites");
   call(hf_direction_remove_sites(direction, 1, sites + 3), "hf_direction_remove_sites");
   call(hf_direction_clone(direction, &copy), "hf_direction_clone");
-  call(hf_direction_solve(copy, floats.data(), 0, nullptr), "hf_direction_solve");
+  call(hf_direction_solve(copy, OUT(floats.data()), nullptr), "hf_direction_solve");
   take_floats();
-  call(hf_direction_solve_f64(direction, doubles.data(), 0, nullptr), "hf_direction_solve_f64");
+  call(hf_direction_solve(direction, OUT(doubles.data()), nullptr), "hf_direction_solve");
   take_doubles();
   std::vector<hf_singularity> found(s.triangle_count);
   call(hf_direction_get_singularities(direction, s.triangle_count, found.data(), &count),
@@ -384,9 +382,8 @@ void Run::graph() {
   const double weights[4] = {1, 0.5, 2, 3};
   const std::uint32_t edges[8] = {0, 1, 1, 2, 2, 3, 0, 3};
   d.vertex_count = n;
-  d.edge_count = 4;
-  d.edges = edges;
-  d.weights = weights;
+  d.edges = HF_ARRAY(edges, 4);
+  d.weights = HF_ARRAY(weights, 4);
   d.thread_count = options_.threads;
   if (options_.runner) d.job_runner = *options_.runner;
   if (options_.allocator) d.allocator = *options_.allocator;

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstring>
 
+#include "support/arrays.h"
 #include "whole_api.h"
 
 namespace reliability {
@@ -54,10 +55,8 @@ class Run {
   }
   hf_surface_desc surface_desc() const {
     hf_surface_desc d = desc<hf_surface_desc>();
-    d.vertex_count = n;
-    d.triangle_count = s.triangle_count;
-    d.positions = s.positions.data();
-    d.triangles = s.triangles.data();
+    d.positions = HF_ARRAY(s.positions.data(), n);
+    d.triangles = HF_ARRAY(s.triangles.data(), s.triangle_count);
     d.thread_count = options_.threads;
     if (options_.runner) d.job_runner = *options_.runner;
     if (options_.allocator) d.allocator = *options_.allocator;
@@ -87,7 +86,7 @@ class Run {
   }
   void take_field(hf_solver solver) {
     hf_solve_info info = desc<hf_solve_info>();
-    call(hf_solver_solve_f64(solver, doubles.data(), 0, &info), "hf_solver_solve_f64");
+    call(hf_solver_solve(solver, OUT(doubles.data()), &info), "hf_solver_solve");
     take_doubles();
     take(&info, 1);
   }

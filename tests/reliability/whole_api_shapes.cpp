@@ -1,4 +1,5 @@
 // Poses, transfers, quads, streamlines, regions and their detail, skin weights.
+#include "support/arrays.h"
 #include "whole_api_run.h"
 
 namespace reliability {
@@ -22,13 +23,13 @@ void Run::pose_and_transfer() {
     call(hf_pose_set_matrices(pose, 1, &handles[0], s.matrices.data()), "hf_pose_set_matrices");
     std::vector<float> normals(3 * std::size_t{n});
     hf_deform_desc deform = desc<hf_deform_desc>();
-    deform.positions = floats.data();
-    deform.normals = normals.data();
+    deform.positions = ROWS_OUT(floats.data());
+    deform.normals = ROWS_OUT(normals.data());
     deform.refine = mode == HF_DEFORM_SMOOTH;
     call(hf_pose_deform(pose, &deform, nullptr), "hf_pose_deform");
     take_floats();
     take(normals.data(), normals.size());
-    call(hf_pose_get_field(pose, handles[0], floats.data(), 12), "hf_pose_get_field");
+    call(hf_pose_get_field(pose, handles[0], OUT_ROWS(floats.data(), 12)), "hf_pose_get_field");
     take_floats();
     hf_handle_info info = desc<hf_handle_info>();
     call(hf_pose_get_handle(pose, handles[1], &info), "hf_pose_get_handle");
@@ -78,8 +79,8 @@ void Run::pose_and_transfer() {
     std::uint32_t numbers[2];
     call(hf_transfer_add_pairs(transfer, &pairs, numbers), "hf_transfer_add_pairs");
     hf_transfer_frame frame = desc<hf_transfer_frame>();
-    frame.source_positions = s.posed.data();
-    frame.target_positions = floats.data();
+    frame.source_positions = HF_ARRAY(s.posed.data(), s.posed.size() / 3);
+    frame.target_positions = ROWS_OUT(floats.data());
     call(hf_transfer_apply(transfer, &frame), "hf_transfer_apply");
     take_floats();
     hf_transfer_dials dials = desc<hf_transfer_dials>();
@@ -136,8 +137,7 @@ void Run::quads_and_flow() {
   hf_flow flow = nullptr;
   call(hf_flow_create(surface, &flow), "hf_flow_create");
   hf_surface_destroy(surface);
-  hf_scalars field = desc<hf_scalars>();
-  field.values_f64 = s.height.data();
+  const hf_array field = HF_ARRAY(s.height.data(), n);
   hf_streamlines lines = desc<hf_streamlines>();
   lines.wanted_count = 12;
   call(hf_flow_trace(flow, &field, &lines), "hf_flow_trace");
@@ -153,7 +153,7 @@ void Run::quads_and_flow() {
 void Run::regions() {
   const hf_surface surface = make(surface_desc());
   hf_region_desc wanted = desc<hf_region_desc>();
-  wanted.positions = s.positions.data();
+  wanted.positions = HF_ARRAY(s.positions.data(), s.positions.size() / 3);
   hf_region source = nullptr, target = nullptr;
   call(hf_region_create(surface, &wanted, &source), "hf_region_create");
   // A patch of four by five vertices, and one seven rings higher.
@@ -186,8 +186,8 @@ void Run::regions() {
   take(list.data(), info.rim_count);
   hf_morph_desc morph = desc<hf_morph_desc>();
   morph.weight = 0.5;
-  morph.positions_f64 = doubles.data();
-  morph.normals = floats.data();
+  morph.positions = ROWS_OUT(doubles.data());
+  morph.normals = ROWS_OUT(floats.data());
   call(hf_region_morph(source, &morph), "hf_region_morph");
   take_doubles();
   take_floats();

@@ -81,7 +81,7 @@ inline std::shared_ptr<const hf_inner::Core> make_core(
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = mesh.triangle_count();
   input.positions = hf_inner::ConstRows(mesh.positions.data(), 3 * sizeof(double));
-  input.triangles = mesh.triangles.data();
+  input.triangles = hf_inner::IndexRows(mesh.triangles.data(), 3);
   return hf_inner::Core::make(input, options, std::move(memory), std::make_shared<hf_inner::JobRunner>(threads));
 }
 

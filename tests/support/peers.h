@@ -10,10 +10,8 @@ static inline int has_peers(void) {
   const uint32_t triangle[] = {0, 1, 2};
   hf_surface surface;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = 3;
-  desc.positions = positions;
-  desc.triangle_count = 1;
-  desc.triangles = triangle;
+  desc.positions = HF_ARRAY(positions, 3);
+  desc.triangles = HF_ARRAY(triangle, 1);
   desc.ordering = HF_ORDERING_METIS;
   if (hf_surface_create(&desc, &surface) != HF_OK) return 0;
   hf_surface_destroy(surface);

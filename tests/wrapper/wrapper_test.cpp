@@ -45,10 +45,8 @@ TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
   saved.bytes = bytes.data();
   saved.byte_count = bytes.size();
   auto desc = hf::make<hf_surface_desc>();
-  desc.vertex_count = static_cast<uint32_t>(strip.positions.size() / 3);
-  desc.positions = strip.positions.data();
-  desc.triangle_count = static_cast<uint32_t>(strip.triangles.size() / 3);
-  desc.triangles = strip.triangles.data();
+  desc.positions = HF_ARRAY(strip.positions.data(), strip.positions.size() / 3);
+  desc.triangles = HF_ARRAY(strip.triangles.data(), strip.triangles.size() / 3);
   desc.saved_factor = &saved;
   const hf::Surface again(desc);
   EXPECT_EQ(again.statistics().factor_loaded, 1);
@@ -65,13 +63,15 @@ TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
 TEST(Wrapper, solves_on_a_graph_and_says_what_needs_triangles) {
   hf::GraphOptions graph;
   graph.vertex_count = 4;
-  const hf::Surface surface = hf::Surface::from_graph({0, 1, 1, 2, 2, 3}, {1, 1, 2}, graph);
+  const std::vector<uint32_t> edges = {0, 1, 1, 2, 2, 3};
+  const hf::Surface surface = hf::Surface::from_graph(edges, std::vector<double>{1, 1, 2}, graph);
   hf::Solver solver(surface);
   solver.add_sites({0, 3}, {0, 5});
   EXPECT_NEAR(solver.solve_f64()[2], 4, 1e-12);
   EXPECT_EQ(surface.info().operator_kind, HF_OPERATOR_GRAPH);
   EXPECT_EQ(surface.report().component_count, 1u);
-  EXPECT_THROW(hf::Surface::from_graph({0, 1, 1}, {1, 1}, graph), std::invalid_argument);
+  EXPECT_THROW(hf::Surface::from_graph(std::vector<uint32_t>{0, 1, 1}, std::vector<double>{1, 1}, graph),
+               std::invalid_argument);
   try {
     const hf::Pose pose(surface);
     FAIL();

@@ -1878,6 +1878,40 @@ namespace Hf
         }
     }
 
+    /// <summary>Faces of any number of corners. Set corners, and what your host stores: sizes (Maya, USD), starts and sizes
+    /// (Blender's loops), or starts as offsets (newer Blender). No field depends on how you would cut a face into
+    /// triangles. Operator.IntrinsicDelaunay takes the mean of both cuts of a bent quad, and moves it towards the
+    /// polygon Laplacian of Bunge and others 2020 until a weight would become negative. docs/studies/polygons.md
+    /// compares errors. Operator.Cotangent and Operator.Clamped take that polygon Laplacian, Operator.Uniform the
+    /// sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a cut of the library. It
+    /// does not depend on the order of the corners. Where this interface names a triangle, it names the face then.
+    /// Normals of poses are sums of the area vectors of faces.</summary>
+    public sealed unsafe class FacesDesc
+    {
+        /// <summary>[cornerCount] of uint32_t: vertices, counter-clockwise seen from outside</summary>
+        public uint[] Corners;
+        /// <summary>null, or [faces] of uint32_t: corners of each face, 3 to 65,535. null: starts are enough</summary>
+        public uint[] Sizes;
+        /// <summary>null, or [faces] of uint32_t: first corner of each face. null: the faces follow one another. Without
+        /// sizes [faces + 1]: the corners of face f end where those of f + 1 start</summary>
+        public uint[] Starts;
+
+        public static implicit operator FacesDesc(uint[] corners)
+        {
+            return corners == null ? null : new FacesDesc { Corners = corners };
+        }
+
+        internal IntPtr Fill(Call c, string prefix)
+        {
+            var desc = (hf_faces_desc*)c.New(sizeof(hf_faces_desc));
+            desc->struct_size = (uint)sizeof(hf_faces_desc);
+            desc->corners = c.View(Corners, "corners", "corner_count");
+            desc->sizes = c.View(Sizes, "sizes", "faces");
+            desc->starts = c.View(Starts, "starts", Sizes == null ? new[] { "faces + 1" } : new[] { "faces" });
+            return (IntPtr)desc;
+        }
+    }
+
     /// <summary>Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the
     /// less influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic
     /// disc. A radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its
@@ -2059,13 +2093,10 @@ namespace Hf
     /// any. Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both
     /// sides.
     ///
-    /// positions: [vertexCount x 3], any unit, any offset
-    /// triangles: [triangleCount x 3], counter-clockwise seen from outside
-    /// faceStarts: [faceCount] first corner of each face. null: the faces follow one another. Without face_sizes
-    ///     [faceCount + 1]: the corners of face f end where those of f + 1 start
-    /// faceSizes: [faceCount] corners of each face, 3 to 65,535. null: face_starts is enough
-    /// corners: [cornerCount] vertices, counter-clockwise seen from outside
+    /// positions: [vertexCount x 3] of float or double, any unit, any offset
+    /// triangles: [triangleCount x 3] of uint32_t or uint16_t, counter-clockwise seen from outside
     /// weld: Weld
+    /// faces: faces instead of triangles
     /// weldTolerance: for Weld.Tolerance, in the unit of the positions, &gt; 0
     /// operatorKind: Operator
     /// fieldKind: FieldKind: the factor made now. Others are made when a solver or region asks
@@ -2096,13 +2127,10 @@ namespace Hf
         /// can name any. Vertices of the second side alone get opposite normals from poses, and a ray with
         /// front_only hits both sides.
         ///
-        /// positions: [vertexCount x 3], any unit, any offset
-        /// triangles: [triangleCount x 3], counter-clockwise seen from outside
-        /// faceStarts: [faceCount] first corner of each face. null: the faces follow one another. Without
-        ///     face_sizes [faceCount + 1]: the corners of face f end where those of f + 1 start
-        /// faceSizes: [faceCount] corners of each face, 3 to 65,535. null: face_starts is enough
-        /// corners: [cornerCount] vertices, counter-clockwise seen from outside
+        /// positions: [vertexCount x 3] of float or double, any unit, any offset
+        /// triangles: [triangleCount x 3] of uint32_t or uint16_t, counter-clockwise seen from outside
         /// weld: Weld
+        /// faces: faces instead of triangles
         /// weldTolerance: for Weld.Tolerance, in the unit of the positions, &gt; 0
         /// operatorKind: Operator
         /// fieldKind: FieldKind: the factor made now. Others are made when a solver or region asks
@@ -2121,12 +2149,11 @@ namespace Hf
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
-        public Surface(Reals positions = null, Indices triangles = null, uint[] faceStarts = null,
-                uint[] faceSizes = null, uint[] corners = null, Weld weld = default(Weld), double weldTolerance = 0,
-                Operator operatorKind = default(Operator), FieldKind fieldKind = default(FieldKind),
-                Ordering ordering = default(Ordering), uint threadCount = 0, uint vertexLimit = 0,
-                uint triangleLimit = 0, uint memoryLimitMb = 0, uint workLimitGflop = 0, Progress progress = null,
-                FactorDesc savedFactor = null, LinksDesc links = null)
+        public Surface(Reals positions = null, Indices triangles = null, Weld weld = default(Weld),
+                FacesDesc faces = null, double weldTolerance = 0, Operator operatorKind = default(Operator),
+                FieldKind fieldKind = default(FieldKind), Ordering ordering = default(Ordering), uint threadCount = 0,
+                uint vertexLimit = 0, uint triangleLimit = 0, uint memoryLimitMb = 0, uint workLimitGflop = 0,
+                Progress progress = null, FactorDesc savedFactor = null, LinksDesc links = null)
         {
             using (var c = new Call(null))
             {
@@ -2136,19 +2163,12 @@ namespace Hf
                     triangle_limit = triangleLimit, memory_limit_mb = memoryLimitMb,
                     work_limit_gflop = workLimitGflop };
                 hf_surface_desc* desc = &descStruct;
-                c.Either(positions, "positions", out desc->positions, out desc->positions_f64, "vertex_count", "3");
-                c.Either(triangles, "triangles", out desc->triangles, out desc->triangles_u16, "triangle_count", "3");
-                desc->face_starts = (IntPtr)c.Array(faceStarts, "faceStarts",
-                    faceSizes == null ? new[] { "face_count + 1" } : new[] { "face_count" });
-                desc->face_sizes = (IntPtr)c.Array(faceSizes, "faceSizes", "face_count");
-                desc->corners = (IntPtr)c.Array(corners, "corners", "corner_count");
+                desc->positions = c.View(positions, "positions", "vertex_count", "3");
+                desc->triangles = c.View(triangles, "triangles", "triangle_count", "3");
                 desc->progress = c.Handle(progress);
+                if (faces != null) desc->faces = faces.Fill(c, "faces.");
                 if (savedFactor != null) desc->saved_factor = savedFactor.Fill(c, "saved_factor.");
                 if (links != null) desc->links = links.Fill(c, "links.");
-                desc->vertex_count = (uint)c.Count("vertex_count", 1);
-                desc->triangle_count = (uint)c.Count("triangle_count", 0);
-                desc->face_count = (uint)c.Count("face_count", 0);
-                desc->corner_count = (uint)c.Count("corner_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_surface_create(desc, raw)));
                 Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
@@ -2165,11 +2185,11 @@ namespace Hf
         /// 1e30 from the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-
         /// harmonic fields limit weights to 1e3 times the median.
         ///
-        /// edges: [edgeCount x 2] vertices, in any order. The weights of parallel edges are added up. Self loops
-        ///     are ignored
-        /// weights: [edgeCount] any unit, up to 1e100 in size. An edge of weight 0 is left out
-        /// masses: [vertexCount] M of FieldKind.Biharmonic, any unit, above 0 and up to 1e100; null: all 1. A mass
-        ///     below 1e-4 of the mean of its component counts as that
+        /// edges: [edgeCount x 2] of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges
+        ///     are added up. Self loops are ignored
+        /// weights: [edgeCount] of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left out
+        /// masses: [vertexCount] of float or double: M of FieldKind.Biharmonic, any unit, above 0 and up to 1e100;
+        ///     null: all 1. A mass below 1e-4 of the mean of its component counts as that
         /// vertexCount: &gt;= 1, also without masses
         /// allowNegative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
         ///     tetrahedra do. A field can then leave the range of its sites. 0: they are refused
@@ -2185,7 +2205,7 @@ namespace Hf
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
-        public static Surface FromGraph(uint[] edges = null, double[] weights = null, double[] masses = null,
+        public static Surface FromGraph(Indices edges = null, Reals weights = null, Reals masses = null,
                 uint vertexCount = 0, bool allowNegative = false, FieldKind fieldKind = default(FieldKind),
                 Ordering ordering = default(Ordering), uint threadCount = 0, uint vertexLimit = 0, uint edgeLimit = 0,
                 uint memoryLimitMb = 0, uint workLimitGflop = 0, Progress progress = null,
@@ -2199,12 +2219,11 @@ namespace Hf
                     edge_limit = edgeLimit, memory_limit_mb = memoryLimitMb, work_limit_gflop = workLimitGflop };
                 hf_graph_desc* desc = &descStruct;
                 c.Known("vertex_count", vertexCount);
-                desc->edges = (IntPtr)c.Array(edges, "edges", "edge_count", "2");
-                desc->weights = (IntPtr)c.Array(weights, "weights", "edge_count");
-                desc->masses = (IntPtr)c.Array(masses, "masses", "vertex_count");
+                desc->edges = c.View(edges, "edges", "edge_count", "2");
+                desc->weights = c.View(weights, "weights", "edge_count");
+                desc->masses = c.View(masses, "masses", "vertex_count");
                 desc->progress = c.Handle(progress);
                 if (savedFactor != null) desc->saved_factor = savedFactor.Fill(c, "saved_factor.");
-                desc->edge_count = (uint)c.Count("edge_count", 1);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_surface_create_graph(desc, raw)));
                 var made = new Surface();
@@ -2317,26 +2336,26 @@ namespace Hf
         /// <summary>Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther
         /// its ends are apart than at rest, and 0 if they are nearer.
         ///
-        /// positions: [vertexCount x 3]: of a pose, a frame of a transfer, or any other deformation
+        /// positions: [vertexCount x 3] of float or double: those of a pose, a frame of a transfer, or any other
+        ///     deformation.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
-        public double[] MeasureGaps(Reals positions = null)
+        public double[] MeasureGaps(Reals positions)
         {
             using (var c = new Call(this))
             {
                 var info = new hf_gaps_info { struct_size = (uint)sizeof(hf_gaps_info) };
-                var descStruct = new hf_gaps_desc { struct_size = (uint)sizeof(hf_gaps_desc) };
-                hf_gaps_desc* desc = &descStruct;
-                c.Either(positions, "positions", out desc->positions, out desc->positions_f64, "vertex_count", "3");
+                hf_array positions_Array = c.View(positions, "positions", "vertex_count", "3");
+                hf_array* positions_ = &positions_Array;
                 var found = new Growth(c, this, "hf_surface_measure_gaps");
                 found.Room("capacity", null);
                 found.Array<double>("gaps", "capacity");
                 do
                 {
                         found.Begin();
-                        found.Result = Functions.hf_surface_measure_gaps(RawHandle, desc, (uint)found["capacity"],
-                            found.Place("gaps"), &info);
+                        found.Result = Functions.hf_surface_measure_gaps(RawHandle,
+                            positions == null ? null : positions_, (uint)found["capacity"], found.Place("gaps"), &info);
                         found.Told("capacity", info.link_count);
                 }
                 while (found.Again());
@@ -2434,7 +2453,8 @@ namespace Hf
         ///
         /// origin: [3] in the frame of the positions; the direction can have any length above 0.
         /// direction: [3] in the frame of the positions; the direction can have any length above 0.
-        /// positions: [vertexCount x 3] posed positions (Pose.Deform writes them), or null
+        /// positions: [vertexCount x 3] of float or double: posed positions (Pose.Deform writes them). null: the
+        ///     rest positions
         /// frontOnly: 1: a ray passes triangles seen from behind
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.</summary>
@@ -2447,7 +2467,7 @@ namespace Hf
                 var descStruct = new hf_pick_desc { struct_size = (uint)sizeof(hf_pick_desc),
                     front_only = frontOnly ? 1 : 0 };
                 hf_pick_desc* desc = &descStruct;
-                c.Either(positions, "positions", out desc->positions, out desc->positions_f64, "vertex_count", "3");
+                desc->positions = c.View(positions, "positions", "vertex_count", "3");
                 var hitStruct = new hf_hit { struct_size = (uint)sizeof(hf_hit) };
                 hf_hit* hit = &hitStruct;
                 HfException.Check(Functions.hf_surface_cast_ray(RawHandle, origin_, direction_, desc, hit));
@@ -2458,7 +2478,8 @@ namespace Hf
         /// <summary>Finds the vertex nearest to a point.
         ///
         /// point: [3] in the frame of the positions.
-        /// positions: [vertexCount x 3] posed positions (Pose.Deform writes them), or null
+        /// positions: [vertexCount x 3] of float or double: posed positions (Pose.Deform writes them). null: the
+        ///     rest positions
         /// frontOnly: 1: a ray passes triangles seen from behind
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -2470,7 +2491,7 @@ namespace Hf
                 var descStruct = new hf_pick_desc { struct_size = (uint)sizeof(hf_pick_desc),
                     front_only = frontOnly ? 1 : 0 };
                 hf_pick_desc* desc = &descStruct;
-                c.Either(positions, "positions", out desc->positions, out desc->positions_f64, "vertex_count", "3");
+                desc->positions = c.View(positions, "positions", "vertex_count", "3");
                 uint vertex = 0;
                 double distance = 0;
                 HfException.Check(Functions.hf_surface_find_vertex(RawHandle, point_, desc, &vertex, &distance));
@@ -2487,6 +2508,7 @@ namespace Hf
         /// Levels.Length takes equal steps of the integral of A'(c) / L(c) dc. That integral is the height on a
         /// cylinder and the distance from the pole on a sphere.
         ///
+        /// field: [vertexCount] of float or double.
         /// spacing: Levels.
         /// levelCount: 1 to 1,000,000.
         ///
@@ -2495,9 +2517,8 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                var field_Struct = new hf_scalars { struct_size = (uint)sizeof(hf_scalars) };
-                hf_scalars* field_ = &field_Struct;
-                c.Either(field, "field", out field_->values, out field_->values_f64, "vertex_count");
+                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array* field_ = &field_Array;
                 c.Known("level_count", levelCount);
                 var levels = new double[c.Product("level_count")];
                 var levelsPlace = (double*)c.Pin(levels);
@@ -2514,6 +2535,7 @@ namespace Hf
         /// a triangle without a partner. The function leaves out lines of length zero. Seen from outside a
         /// consistently oriented mesh, the field is higher on the left of a line.
         ///
+        /// field: [vertexCount] of float or double.
         /// levels: [levelCount].
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -2521,9 +2543,8 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                var field_Struct = new hf_scalars { struct_size = (uint)sizeof(hf_scalars) };
-                hf_scalars* field_ = &field_Struct;
-                c.Either(field, "field", out field_->values, out field_->values_f64, "vertex_count");
+                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array* field_ = &field_Array;
                 void* levels_ = c.Array(levels, "levels", "level_count");
                 var linesStruct = new hf_isolines { struct_size = (uint)sizeof(hf_isolines) };
                 hf_isolines* lines = &linesStruct;
@@ -2567,6 +2588,7 @@ namespace Hf
         /// is not Delaunay a harmonic field can show an extremum away from its sites, because the default operator
         /// uses other edges than the mesh. Operator.Clamped uses the edges of the mesh and avoids this.
         ///
+        /// field: [vertexCount] of float or double.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_NON_FINITE.</summary>
@@ -2575,9 +2597,8 @@ namespace Hf
             using (var c = new Call(this))
             {
                 var info = new hf_critical_info { struct_size = (uint)sizeof(hf_critical_info) };
-                var field_Struct = new hf_scalars { struct_size = (uint)sizeof(hf_scalars) };
-                hf_scalars* field_ = &field_Struct;
-                c.Either(field, "field", out field_->values, out field_->values_f64, "vertex_count");
+                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array* field_ = &field_Array;
                 var found = new Growth(c, this, "hf_surface_find_critical_points");
                 found.Room("capacity", null);
                 found.Rows("points", sizeof(hf_critical_point), "capacity");
@@ -3002,10 +3023,10 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves for the field at every vertex of your mesh.
+        /// <summary>Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their
+        /// values exactly. The field is 0 on components without a site.
         ///
-        /// @out: [vertexCount x channelCount]. Hard sites hold their values exactly. The field is 0 on components
-        /// without a site.
+        /// @out: [vertexCount x channelCount] of float or double.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -3016,16 +3037,18 @@ namespace Hf
                 var info = new hf_solve_info { struct_size = (uint)sizeof(hf_solve_info) };
                 var @out = new float[c.Product("vertex_count", "channel_count")];
                 var @outPlace = (float*)c.Pin(@out);
-                HfException.Check(Functions.hf_solve(RawHandle, @outPlace, 0, &info));
+                hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
+                HfException.Check(Functions.hf_solver_solve(RawHandle, outView, &info));
                 lastSolveInfo = info;
                 return @out;
             }
         }
 
-        /// <summary>Solves for the field at every vertex of your mesh.
+        /// <summary>Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their
+        /// values exactly. The field is 0 on components without a site.
         ///
-        /// @out: [vertexCount x channelCount]. Hard sites hold their values exactly. The field is 0 on components
-        /// without a site.
+        /// @out: [vertexCount x channelCount] of float or double.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -3037,16 +3060,18 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "channel_count");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    HfException.Check(Functions.hf_solve(RawHandle, @outPlace, 0, &info));
+                    hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
+                    HfException.Check(Functions.hf_solver_solve(RawHandle, outView, &info));
                     lastSolveInfo = info;
                 }
             }
         }
 
-        /// <summary>Solves for the field at every vertex of your mesh.
+        /// <summary>Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their
+        /// values exactly. The field is 0 on components without a site.
         ///
-        /// @out: [vertexCount x channelCount]. Hard sites hold their values exactly. The field is 0 on components
-        /// without a site.
+        /// @out: [vertexCount x channelCount] of float or double.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -3057,16 +3082,18 @@ namespace Hf
                 var info = new hf_solve_info { struct_size = (uint)sizeof(hf_solve_info) };
                 var @out = new double[c.Product("vertex_count", "channel_count")];
                 var @outPlace = (double*)c.Pin(@out);
-                HfException.Check(Functions.hf_solver_solve_f64(RawHandle, @outPlace, 0, &info));
+                hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
+                HfException.Check(Functions.hf_solver_solve(RawHandle, outView, &info));
                 lastSolveInfo = info;
                 return @out;
             }
         }
 
-        /// <summary>Solves for the field at every vertex of your mesh.
+        /// <summary>Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their
+        /// values exactly. The field is 0 on components without a site.
         ///
-        /// @out: [vertexCount x channelCount]. Hard sites hold their values exactly. The field is 0 on components
-        /// without a site.
+        /// @out: [vertexCount x channelCount] of float or double.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
@@ -3078,17 +3105,19 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "channel_count");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    HfException.Check(Functions.hf_solver_solve_f64(RawHandle, @outPlace, 0, &info));
+                    hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
+                    HfException.Check(Functions.hf_solver_solve(RawHandle, outView, &info));
                     lastSolveInfo = info;
                 }
             }
         }
 
-        /// <summary>Solves for the field at chosen vertices only, with the same bits as Solver.Solve. The call reads only
-        /// those columns of the factor on which these vertices depend (elimination paths), on the calling thread.
-        /// One path is up to a sixth of the factor, but the paths of many vertices share most of their columns. The
-        /// call costs a whole solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see
-        /// hf_solver_rebase). A vertex of a component without a site gets 0.
+        /// <summary>Solves for the field at chosen vertices only, with the same bits as Solver.Solve in double. The call
+        /// reads only those columns of the factor on which these vertices depend (elimination paths), on the
+        /// calling thread. One path is up to a sixth of the factor, but the paths of many vertices share most of
+        /// their columns. The call costs a whole solve for bi-harmonic fields, and whenever sites are eliminated in
+        /// the factor (see hf_solver_rebase). A vertex of a component without a site gets 0.
         ///
         /// vertices: [vertexCount].
         ///
@@ -3112,7 +3141,7 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// @out: [vertexCount x 3], not normalised.
+        /// @out: [vertexCount x 3] of float or double, not normalised.
         /// normals: [vertexCount x 3], packed: the normals used.
         /// info: filled in when given
         ///
@@ -3124,11 +3153,13 @@ namespace Hf
                 var info = new hf_solve_info { struct_size = (uint)sizeof(hf_solve_info) };
                 var @out = new float[c.Product("vertex_count", "3")];
                 var @outPlace = (float*)c.Pin(@out);
+                hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
                 if (!normals.IsEmpty)
                     c.Need(normals.Length, "normals", "vertex_count", "3");
                 fixed (double* normalsPlace = &MemoryMarshal.GetReference(normals))
                 {
-                    HfException.Check(Functions.hf_solver_solve_vectors(RawHandle, @outPlace, 0, normalsPlace, &info));
+                    HfException.Check(Functions.hf_solver_solve_vectors(RawHandle, outView, normalsPlace, &info));
                     lastSolveInfo = info;
                     return @out;
                 }
@@ -3140,7 +3171,7 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// @out: [vertexCount x 3], not normalised.
+        /// @out: [vertexCount x 3] of float or double, not normalised.
         /// normals: [vertexCount x 3], packed: the normals used.
         /// info: filled in when given
         ///
@@ -3153,12 +3184,13 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
+                    hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
                     if (!normals.IsEmpty)
                         c.Need(normals.Length, "normals", "vertex_count", "3");
                     fixed (double* normalsPlace = &MemoryMarshal.GetReference(normals))
                     {
-                        HfException.Check(Functions.hf_solver_solve_vectors(RawHandle, @outPlace, 0, normalsPlace,
-                            &info));
+                        HfException.Check(Functions.hf_solver_solve_vectors(RawHandle, outView, normalsPlace, &info));
                         lastSolveInfo = info;
                     }
                 }
@@ -3170,7 +3202,7 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// @out: [vertexCount x 3], not normalised.
+        /// @out: [vertexCount x 3] of float or double, not normalised.
         /// normals: [vertexCount x 3], packed: the normals used.
         /// info: filled in when given
         ///
@@ -3182,12 +3214,13 @@ namespace Hf
                 var info = new hf_solve_info { struct_size = (uint)sizeof(hf_solve_info) };
                 var @out = new double[c.Product("vertex_count", "3")];
                 var @outPlace = (double*)c.Pin(@out);
+                hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
                 if (!normals.IsEmpty)
                     c.Need(normals.Length, "normals", "vertex_count", "3");
                 fixed (double* normalsPlace = &MemoryMarshal.GetReference(normals))
                 {
-                    HfException.Check(Functions.hf_solver_solve_vectors_f64(RawHandle, @outPlace, 0, normalsPlace,
-                        &info));
+                    HfException.Check(Functions.hf_solver_solve_vectors(RawHandle, outView, normalsPlace, &info));
                     lastSolveInfo = info;
                     return @out;
                 }
@@ -3199,7 +3232,7 @@ namespace Hf
         /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
         /// area-weighted normal.
         ///
-        /// @out: [vertexCount x 3], not normalised.
+        /// @out: [vertexCount x 3] of float or double, not normalised.
         /// normals: [vertexCount x 3], packed: the normals used.
         /// info: filled in when given
         ///
@@ -3212,12 +3245,13 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
+                    hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
                     if (!normals.IsEmpty)
                         c.Need(normals.Length, "normals", "vertex_count", "3");
                     fixed (double* normalsPlace = &MemoryMarshal.GetReference(normals))
                     {
-                        HfException.Check(Functions.hf_solver_solve_vectors_f64(RawHandle, @outPlace, 0, normalsPlace,
-                            &info));
+                        HfException.Check(Functions.hf_solver_solve_vectors(RawHandle, outView, normalsPlace, &info));
                         lastSolveInfo = info;
                     }
                 }
@@ -3237,7 +3271,8 @@ namespace Hf
         /// factor eliminates sites. info.exact is then 1.
         ///
         /// correctionCount: 0 to 8.
-        /// @out: [vertexCount x channelCount], as Solver.Solve.
+        /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
+        /// corrections away.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -3248,7 +3283,9 @@ namespace Hf
                 var info = new hf_preview_info { struct_size = (uint)sizeof(hf_preview_info) };
                 var @out = new float[c.Product("vertex_count", "channel_count")];
                 var @outPlace = (float*)c.Pin(@out);
-                HfException.Check(Functions.hf_solver_solve_preview(RawHandle, @outPlace, 0, correctionCount, &info));
+                hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
+                HfException.Check(Functions.hf_solver_solve_preview(RawHandle, outView, correctionCount, &info));
                 lastPreviewInfo = info;
                 return @out;
             }
@@ -3267,7 +3304,8 @@ namespace Hf
         /// factor eliminates sites. info.exact is then 1.
         ///
         /// correctionCount: 0 to 8.
-        /// @out: [vertexCount x channelCount], as Solver.Solve.
+        /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
+        /// corrections away.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -3279,8 +3317,9 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "channel_count");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    HfException.Check(Functions.hf_solver_solve_preview(RawHandle, @outPlace, 0, correctionCount,
-                        &info));
+                    hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
+                    HfException.Check(Functions.hf_solver_solve_preview(RawHandle, outView, correctionCount, &info));
                     lastPreviewInfo = info;
                 }
             }
@@ -3299,7 +3338,8 @@ namespace Hf
         /// factor eliminates sites. info.exact is then 1.
         ///
         /// correctionCount: 0 to 8.
-        /// @out: [vertexCount x channelCount], as Solver.Solve.
+        /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
+        /// corrections away.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -3310,8 +3350,9 @@ namespace Hf
                 var info = new hf_preview_info { struct_size = (uint)sizeof(hf_preview_info) };
                 var @out = new double[c.Product("vertex_count", "channel_count")];
                 var @outPlace = (double*)c.Pin(@out);
-                HfException.Check(Functions.hf_solver_solve_preview_f64(RawHandle, @outPlace, 0, correctionCount,
-                    &info));
+                hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
+                HfException.Check(Functions.hf_solver_solve_preview(RawHandle, outView, correctionCount, &info));
                 lastPreviewInfo = info;
                 return @out;
             }
@@ -3330,7 +3371,8 @@ namespace Hf
         /// factor eliminates sites. info.exact is then 1.
         ///
         /// correctionCount: 0 to 8.
-        /// @out: [vertexCount x channelCount], as Solver.Solve.
+        /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
+        /// corrections away.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
@@ -3342,8 +3384,9 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "channel_count");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    HfException.Check(Functions.hf_solver_solve_preview_f64(RawHandle, @outPlace, 0, correctionCount,
-                        &info));
+                    hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
+                    HfException.Check(Functions.hf_solver_solve_preview(RawHandle, outView, correctionCount, &info));
                     lastPreviewInfo = info;
                 }
             }
@@ -3500,13 +3543,14 @@ namespace Hf
         }
 
         /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+        /// The distance is 0 at the sources, and -1 at vertices that no source can reach.
         ///
         /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
         ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
         ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
         ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
         ///     where two shortest paths meet.
-        /// @out: [vertexCount]. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+        /// @out: [vertexCount] of float or double.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public float[] Solve(uint[] sources)
@@ -3516,20 +3560,23 @@ namespace Hf
                 void* sources_ = c.Array(sources, "sources", "source_count");
                 var @out = new float[c.Product("vertex_count")];
                 var @outPlace = (float*)c.Pin(@out);
+                hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
                 HfException.Check(Functions.hf_geodesics_solve(RawHandle, (uint)c.Count("source_count", 1), sources_,
-                    @outPlace, 0));
+                    outView));
                 return @out;
             }
         }
 
         /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+        /// The distance is 0 at the sources, and -1 at vertices that no source can reach.
         ///
         /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
         ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
         ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
         ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
         ///     where two shortest paths meet.
-        /// @out: [vertexCount]. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+        /// @out: [vertexCount] of float or double.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public void Solve(uint[] sources, Span<float> into)
@@ -3540,20 +3587,23 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
+                    hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
                     HfException.Check(Functions.hf_geodesics_solve(RawHandle, (uint)c.Count("source_count", 1),
-                        sources_, @outPlace, 0));
+                        sources_, outView));
                 }
             }
         }
 
         /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+        /// The distance is 0 at the sources, and -1 at vertices that no source can reach.
         ///
         /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
         ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
         ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
         ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
         ///     where two shortest paths meet.
-        /// @out: [vertexCount]. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+        /// @out: [vertexCount] of float or double.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public double[] SolveDouble(uint[] sources)
@@ -3563,20 +3613,23 @@ namespace Hf
                 void* sources_ = c.Array(sources, "sources", "source_count");
                 var @out = new double[c.Product("vertex_count")];
                 var @outPlace = (double*)c.Pin(@out);
-                HfException.Check(Functions.hf_geodesics_solve_f64(RawHandle, (uint)c.Count("source_count", 1),
-                    sources_, @outPlace, 0));
+                hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
+                HfException.Check(Functions.hf_geodesics_solve(RawHandle, (uint)c.Count("source_count", 1), sources_,
+                    outView));
                 return @out;
             }
         }
 
         /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+        /// The distance is 0 at the sources, and -1 at vertices that no source can reach.
         ///
         /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
         ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
         ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
         ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
         ///     where two shortest paths meet.
-        /// @out: [vertexCount]. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+        /// @out: [vertexCount] of float or double.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public void Solve(uint[] sources, Span<double> into)
@@ -3587,8 +3640,10 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    HfException.Check(Functions.hf_geodesics_solve_f64(RawHandle, (uint)c.Count("source_count", 1),
-                        sources_, @outPlace, 0));
+                    hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
+                    HfException.Check(Functions.hf_geodesics_solve(RawHandle, (uint)c.Count("source_count", 1),
+                        sources_, outView));
                 }
             }
         }
@@ -3833,7 +3888,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// @out: [vertexCount x 3].
+        /// @out: [vertexCount x 3] of float or double.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3844,7 +3899,9 @@ namespace Hf
                 var info = new hf_solve_info { struct_size = (uint)sizeof(hf_solve_info) };
                 var @out = new float[c.Product("vertex_count", "3")];
                 var @outPlace = (float*)c.Pin(@out);
-                HfException.Check(Functions.hf_direction_solve(RawHandle, @outPlace, 0, &info));
+                hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
+                HfException.Check(Functions.hf_direction_solve(RawHandle, outView, &info));
                 lastSolveInfo = info;
                 return @out;
             }
@@ -3854,7 +3911,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// @out: [vertexCount x 3].
+        /// @out: [vertexCount x 3] of float or double.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3866,7 +3923,9 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    HfException.Check(Functions.hf_direction_solve(RawHandle, @outPlace, 0, &info));
+                    hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
+                    HfException.Check(Functions.hf_direction_solve(RawHandle, outView, &info));
                     lastSolveInfo = info;
                 }
             }
@@ -3876,7 +3935,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// @out: [vertexCount x 3].
+        /// @out: [vertexCount x 3] of float or double.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3887,7 +3946,9 @@ namespace Hf
                 var info = new hf_solve_info { struct_size = (uint)sizeof(hf_solve_info) };
                 var @out = new double[c.Product("vertex_count", "3")];
                 var @outPlace = (double*)c.Pin(@out);
-                HfException.Check(Functions.hf_direction_solve_f64(RawHandle, @outPlace, 0, &info));
+                hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
+                HfException.Check(Functions.hf_direction_solve(RawHandle, outView, &info));
                 lastSolveInfo = info;
                 return @out;
             }
@@ -3897,7 +3958,7 @@ namespace Hf
         /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
         /// their vectors; vertices that no constraint reaches get 0.
         ///
-        /// @out: [vertexCount x 3].
+        /// @out: [vertexCount x 3] of float or double.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY.</summary>
@@ -3909,7 +3970,9 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    HfException.Check(Functions.hf_direction_solve_f64(RawHandle, @outPlace, 0, &info));
+                    hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
+                    HfException.Check(Functions.hf_direction_solve(RawHandle, outView, &info));
                     lastSolveInfo = info;
                 }
             }
@@ -4226,7 +4289,7 @@ namespace Hf
         /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
         /// handle reaches, the fields of all handles sum to 1.
         ///
-        /// @out: [vertexCount].
+        /// @out: [vertexCount] of float or double.
         ///
         /// Throws HF_ERROR_NOT_FOUND.</summary>
         public float[] Field(uint handle)
@@ -4235,7 +4298,9 @@ namespace Hf
             {
                 var @out = new float[c.Product("vertex_count")];
                 var @outPlace = (float*)c.Pin(@out);
-                HfException.Check(Functions.hf_pose_get_field(RawHandle, handle, @outPlace, 0));
+                hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
+                HfException.Check(Functions.hf_pose_get_field(RawHandle, handle, outView));
                 return @out;
             }
         }
@@ -4243,7 +4308,7 @@ namespace Hf
         /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
         /// handle reaches, the fields of all handles sum to 1.
         ///
-        /// @out: [vertexCount].
+        /// @out: [vertexCount] of float or double.
         ///
         /// Throws HF_ERROR_NOT_FOUND.</summary>
         public void Field(uint handle, Span<float> into)
@@ -4253,7 +4318,48 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    HfException.Check(Functions.hf_pose_get_field(RawHandle, handle, @outPlace, 0));
+                    hf_array_out outViewArray = Call.Out(@outPlace, false, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
+                    HfException.Check(Functions.hf_pose_get_field(RawHandle, handle, outView));
+                }
+            }
+        }
+
+        /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
+        /// handle reaches, the fields of all handles sum to 1.
+        ///
+        /// @out: [vertexCount] of float or double.
+        ///
+        /// Throws HF_ERROR_NOT_FOUND.</summary>
+        public double[] FieldDouble(uint handle)
+        {
+            using (var c = new Call(this))
+            {
+                var @out = new double[c.Product("vertex_count")];
+                var @outPlace = (double*)c.Pin(@out);
+                hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                hf_array_out* outView = &outViewArray;
+                HfException.Check(Functions.hf_pose_get_field(RawHandle, handle, outView));
+                return @out;
+            }
+        }
+
+        /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
+        /// handle reaches, the fields of all handles sum to 1.
+        ///
+        /// @out: [vertexCount] of float or double.
+        ///
+        /// Throws HF_ERROR_NOT_FOUND.</summary>
+        public void Field(uint handle, Span<double> into)
+        {
+            using (var c = new Call(this))
+            {
+                c.Need(into.Length, "into", "vertex_count");
+                fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
+                {
+                    hf_array_out outViewArray = Call.Out(@outPlace, true, c.Size("vertex_count"));
+                    hf_array_out* outView = &outViewArray;
+                    HfException.Check(Functions.hf_pose_get_field(RawHandle, handle, outView));
                 }
             }
         }
@@ -4273,8 +4379,8 @@ namespace Hf
         ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: [vertexCount x 3] posed positions, or null
-        /// normals: [vertexCount x 3] unit normals of the posed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double: posed positions
+        /// normals: [vertexCount x 3] of float or double: unit normals of the posed surface, shared across seams
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
@@ -4292,12 +4398,12 @@ namespace Hf
                 c.Known("vertex_count", vertexCount);
                 var @out = new float[c.Product("vertex_count", "3")];
                 var @outPlace = (float*)c.Pin(@out);
-                desc->positions = (IntPtr)@outPlace;
+                desc->positions = Call.Out(@outPlace, false, c.Size("vertex_count"));
                 if (!normals.IsEmpty)
                     c.Need(normals.Length, "normals", "vertex_count", "3");
                 fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                 {
-                    desc->normals = (IntPtr)normalsPlace;
+                    desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                     HfException.Check(Functions.hf_pose_deform(RawHandle, desc, &info));
                     lastDeformInfo = info;
                     return @out;
@@ -4320,8 +4426,8 @@ namespace Hf
         ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: [vertexCount x 3] posed positions, or null
-        /// normals: [vertexCount x 3] unit normals of the posed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double: posed positions
+        /// normals: [vertexCount x 3] of float or double: unit normals of the posed surface, shared across seams
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
@@ -4340,12 +4446,12 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    desc->positions = (IntPtr)@outPlace;
+                    desc->positions = Call.Out(@outPlace, false, c.Size("vertex_count"));
                     if (!normals.IsEmpty)
                         c.Need(normals.Length, "normals", "vertex_count", "3");
                     fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                     {
-                        desc->normals = (IntPtr)normalsPlace;
+                        desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                         HfException.Check(Functions.hf_pose_deform(RawHandle, desc, &info));
                         lastDeformInfo = info;
                     }
@@ -4368,8 +4474,8 @@ namespace Hf
         ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: [vertexCount x 3] posed positions, or null
-        /// normals: [vertexCount x 3] unit normals of the posed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double: posed positions
+        /// normals: [vertexCount x 3] of float or double: unit normals of the posed surface, shared across seams
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
@@ -4387,12 +4493,12 @@ namespace Hf
                 c.Known("vertex_count", vertexCount);
                 var @out = new double[c.Product("vertex_count", "3")];
                 var @outPlace = (double*)c.Pin(@out);
-                desc->positions_f64 = (IntPtr)@outPlace;
+                desc->positions = Call.Out(@outPlace, true, c.Size("vertex_count"));
                 if (!normals.IsEmpty)
                     c.Need(normals.Length, "normals", "vertex_count", "3");
                 fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                 {
-                    desc->normals = (IntPtr)normalsPlace;
+                    desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                     HfException.Check(Functions.hf_pose_deform(RawHandle, desc, &info));
                     lastDeformInfo = info;
                     return @out;
@@ -4415,8 +4521,8 @@ namespace Hf
         ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: [vertexCount x 3] posed positions, or null
-        /// normals: [vertexCount x 3] unit normals of the posed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double: posed positions
+        /// normals: [vertexCount x 3] of float or double: unit normals of the posed surface, shared across seams
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
@@ -4435,12 +4541,12 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    desc->positions_f64 = (IntPtr)@outPlace;
+                    desc->positions = Call.Out(@outPlace, true, c.Size("vertex_count"));
                     if (!normals.IsEmpty)
                         c.Need(normals.Length, "normals", "vertex_count", "3");
                     fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                     {
-                        desc->normals = (IntPtr)normalsPlace;
+                        desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                         HfException.Check(Functions.hf_pose_deform(RawHandle, desc, &info));
                         lastDeformInfo = info;
                     }
@@ -4786,6 +4892,7 @@ namespace Hf
         /// Operator.Clamped the lines are denser where the field is steeper. Surface.TraceIsolines gives the lines
         /// that cross the streamlines.
         ///
+        /// field: [vertexCount] of float or double.
         /// seeds: [seedCount] vertices as given
         /// wantedCount: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
         ///
@@ -4794,9 +4901,8 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                var field_Struct = new hf_scalars { struct_size = (uint)sizeof(hf_scalars) };
-                hf_scalars* field_ = &field_Struct;
-                c.Either(field, "field", out field_->values, out field_->values_f64, "vertex_count");
+                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array* field_ = &field_Array;
                 var linesStruct = new hf_streamlines { struct_size = (uint)sizeof(hf_streamlines),
                     wanted_count = wantedCount };
                 hf_streamlines* lines = &linesStruct;
@@ -4837,8 +4943,8 @@ namespace Hf
     ///
     /// Creates a region without vertices.
     ///
-    /// positions: [vertexCount x 3] the surface of weight 0, bit for bit: the positions of the mesh or any pose of
-    ///     them. null: the mesh's own to 1e-15 of the box. Copied
+    /// positions: [vertexCount x 3] of float or double: the surface of weight 0, bit for bit, as the positions of
+    ///     the mesh or any pose of them. null: the mesh's own to 1e-15 of the box. Copied
     /// @base: Base. If the surface has no factor for it yet, it is made now
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Region : Recorded
@@ -4847,8 +4953,8 @@ namespace Hf
 
         /// <summary>Creates a region without vertices.
         ///
-        /// positions: [vertexCount x 3] the surface of weight 0, bit for bit: the positions of the mesh or any pose
-        ///     of them. null: the mesh's own to 1e-15 of the box. Copied
+        /// positions: [vertexCount x 3] of float or double: the surface of weight 0, bit for bit, as the positions
+        ///     of the mesh or any pose of them. null: the mesh's own to 1e-15 of the box. Copied
         /// @base: Base. If the surface has no factor for it yet, it is made now
         /// progress: an object to poll and cancel through
         ///
@@ -4861,7 +4967,7 @@ namespace Hf
                 c.Parent("surface", surface);
                 var descStruct = new hf_region_desc { struct_size = (uint)sizeof(hf_region_desc), @base = (int)@base };
                 hf_region_desc* desc = &descStruct;
-                c.Either(positions, "positions", out desc->positions, out desc->positions_f64, "vertex_count", "3");
+                desc->positions = c.View(positions, "positions", "vertex_count", "3");
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_region_create(c.Handle(surface), desc, raw)));
@@ -4985,10 +5091,10 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
-        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
         ///
-        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public float[] Morph(double weight = 0, Span<float> normals = default(Span<float>))
         {
             using (var c = new Call(this))
@@ -4997,12 +5103,12 @@ namespace Hf
                 hf_morph_desc* desc = &descStruct;
                 var @out = new float[c.Product("vertex_count", "3")];
                 var @outPlace = (float*)c.Pin(@out);
-                desc->positions = (IntPtr)@outPlace;
+                desc->positions = Call.Out(@outPlace, false, c.Size("vertex_count"));
                 if (!normals.IsEmpty)
                     c.Need(normals.Length, "normals", "vertex_count", "3");
                 fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                 {
-                    desc->normals = (IntPtr)normalsPlace;
+                    desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                     HfException.Check(Functions.hf_region_morph(RawHandle, desc));
                     return @out;
                 }
@@ -5015,10 +5121,10 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
-        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
         ///
-        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public void Morph(Span<float> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
@@ -5028,12 +5134,12 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    desc->positions = (IntPtr)@outPlace;
+                    desc->positions = Call.Out(@outPlace, false, c.Size("vertex_count"));
                     if (!normals.IsEmpty)
                         c.Need(normals.Length, "normals", "vertex_count", "3");
                     fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                     {
-                        desc->normals = (IntPtr)normalsPlace;
+                        desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                         HfException.Check(Functions.hf_region_morph(RawHandle, desc));
                     }
                 }
@@ -5046,10 +5152,10 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
-        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
         ///
-        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public double[] MorphDouble(double weight = 0, Span<float> normals = default(Span<float>))
         {
             using (var c = new Call(this))
@@ -5058,12 +5164,12 @@ namespace Hf
                 hf_morph_desc* desc = &descStruct;
                 var @out = new double[c.Product("vertex_count", "3")];
                 var @outPlace = (double*)c.Pin(@out);
-                desc->positions_f64 = (IntPtr)@outPlace;
+                desc->positions = Call.Out(@outPlace, true, c.Size("vertex_count"));
                 if (!normals.IsEmpty)
                     c.Need(normals.Length, "normals", "vertex_count", "3");
                 fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                 {
-                    desc->normals = (IntPtr)normalsPlace;
+                    desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                     HfException.Check(Functions.hf_region_morph(RawHandle, desc));
                     return @out;
                 }
@@ -5076,10 +5182,10 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
-        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
         ///
-        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public void Morph(Span<double> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
@@ -5089,12 +5195,12 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    desc->positions_f64 = (IntPtr)@outPlace;
+                    desc->positions = Call.Out(@outPlace, true, c.Size("vertex_count"));
                     if (!normals.IsEmpty)
                         c.Need(normals.Length, "normals", "vertex_count", "3");
                     fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                     {
-                        desc->normals = (IntPtr)normalsPlace;
+                        desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                         HfException.Check(Functions.hf_region_morph(RawHandle, desc));
                     }
                 }
@@ -5168,10 +5274,10 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
-        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
         ///
-        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public float[] Morph(double weight = 0, Span<float> normals = default(Span<float>))
         {
             using (var c = new Call(this))
@@ -5180,12 +5286,12 @@ namespace Hf
                 hf_morph_desc* desc = &descStruct;
                 var @out = new float[c.Product("vertex_count", "3")];
                 var @outPlace = (float*)c.Pin(@out);
-                desc->positions = (IntPtr)@outPlace;
+                desc->positions = Call.Out(@outPlace, false, c.Size("vertex_count"));
                 if (!normals.IsEmpty)
                     c.Need(normals.Length, "normals", "vertex_count", "3");
                 fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                 {
-                    desc->normals = (IntPtr)normalsPlace;
+                    desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                     HfException.Check(Functions.hf_detail_morph(RawHandle, desc));
                     return @out;
                 }
@@ -5198,10 +5304,10 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
-        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
         ///
-        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public void Morph(Span<float> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
@@ -5211,12 +5317,12 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    desc->positions = (IntPtr)@outPlace;
+                    desc->positions = Call.Out(@outPlace, false, c.Size("vertex_count"));
                     if (!normals.IsEmpty)
                         c.Need(normals.Length, "normals", "vertex_count", "3");
                     fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                     {
-                        desc->normals = (IntPtr)normalsPlace;
+                        desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                         HfException.Check(Functions.hf_detail_morph(RawHandle, desc));
                     }
                 }
@@ -5229,10 +5335,10 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
-        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
         ///
-        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public double[] MorphDouble(double weight = 0, Span<float> normals = default(Span<float>))
         {
             using (var c = new Call(this))
@@ -5241,12 +5347,12 @@ namespace Hf
                 hf_morph_desc* desc = &descStruct;
                 var @out = new double[c.Product("vertex_count", "3")];
                 var @outPlace = (double*)c.Pin(@out);
-                desc->positions_f64 = (IntPtr)@outPlace;
+                desc->positions = Call.Out(@outPlace, true, c.Size("vertex_count"));
                 if (!normals.IsEmpty)
                     c.Need(normals.Length, "normals", "vertex_count", "3");
                 fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                 {
-                    desc->normals = (IntPtr)normalsPlace;
+                    desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                     HfException.Check(Functions.hf_detail_morph(RawHandle, desc));
                     return @out;
                 }
@@ -5259,10 +5365,10 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// @out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
-        /// normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
+        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
         ///
-        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public void Morph(Span<double> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
@@ -5272,12 +5378,12 @@ namespace Hf
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    desc->positions_f64 = (IntPtr)@outPlace;
+                    desc->positions = Call.Out(@outPlace, true, c.Size("vertex_count"));
                     if (!normals.IsEmpty)
                         c.Need(normals.Length, "normals", "vertex_count", "3");
                     fixed (float* normalsPlace = &MemoryMarshal.GetReference(normals))
                     {
-                        desc->normals = (IntPtr)normalsPlace;
+                        desc->normals = Call.Out(normalsPlace, false, c.Size("vertex_count"));
                         HfException.Check(Functions.hf_detail_morph(RawHandle, desc));
                     }
                 }
@@ -5651,10 +5757,10 @@ namespace Hf
     ///
     /// Creates a transfer between two surfaces; both may be the same.
     ///
-    /// sourceRest: [source.vertexCount x 3], or null Poses in which the two bodies correspond, in each surface's
-    ///     unit, read by the call, or null for the positions of the surface. A character bound in a crouch gets a
-    ///     standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
-    /// targetRest: [target.vertexCount x 3], or null
+    /// sourceRest: [source.vertexCount x 3] of float or double Poses in which the two bodies correspond, in each
+    ///     surface's unit, read by the call, or null for the positions of the surface. A character bound in a
+    ///     crouch gets a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+    /// targetRest: [target.vertexCount x 3] of float or double
     /// mode: TransferMode
     /// clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
     /// ground: Ground
@@ -5672,11 +5778,11 @@ namespace Hf
     {
         /// <summary>Creates a transfer between two surfaces; both may be the same.
         ///
-        /// sourceRest: [source.vertexCount x 3], or null Poses in which the two bodies correspond, in each
-        ///     surface's unit, read by the call, or null for the positions of the surface. A character bound in a
-        ///     crouch gets a standing pose here. Motion counts from these poses; the fields stay those of the
+        /// sourceRest: [source.vertexCount x 3] of float or double Poses in which the two bodies correspond, in
+        ///     each surface's unit, read by the call, or null for the positions of the surface. A character bound
+        ///     in a crouch gets a standing pose here. Motion counts from these poses; the fields stay those of the
         ///     surfaces.
-        /// targetRest: [target.vertexCount x 3], or null
+        /// targetRest: [target.vertexCount x 3] of float or double
         /// mode: TransferMode
         /// clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
         /// ground: Ground
@@ -5692,7 +5798,7 @@ namespace Hf
         ///     rotation.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_OBJECT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
-        public Transfer(Surface source, Surface target, float[] sourceRest = null, float[] targetRest = null,
+        public Transfer(Surface source, Surface target, Reals sourceRest = null, Reals targetRest = null,
                 TransferMode mode = default(TransferMode), uint clusterCount = 0, Ground ground = default(Ground),
                 double kernelWidth = 0, double scale = 0, double alignmentAngle = 0, double[] sourceAxes = null,
                 double[] targetAxes = null)
@@ -5705,8 +5811,8 @@ namespace Hf
                     cluster_count = clusterCount, ground = (int)ground, kernel_width = kernelWidth, scale = scale,
                     alignment_angle = alignmentAngle };
                 hf_transfer_desc* desc = &descStruct;
-                desc->source_rest = (IntPtr)c.Array(sourceRest, "sourceRest", "source.vertex_count", "3");
-                desc->target_rest = (IntPtr)c.Array(targetRest, "targetRest", "target.vertex_count", "3");
+                desc->source_rest = c.View(sourceRest, "sourceRest", "source.vertex_count", "3");
+                desc->target_rest = c.View(targetRest, "targetRest", "target.vertex_count", "3");
                 c.Fixed(sourceAxes, "sourceAxes", 9, desc->source_axes);
                 c.Fixed(targetAxes, "targetAxes", 9, desc->target_axes);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
@@ -5858,11 +5964,13 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// sourcePositions: [source.vertexCount x 3] the posed source, its own vertex order
-        /// holdPairs: [holdCount] each pair at most once
+        /// sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
+        /// holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a
+        ///     position of yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices
+        ///     lands there; welded copies count once. The rest of the surface follows.
         /// holdPositions: [holdCount x 3] in the target's unit and frame
-        /// @out: [target.vertexCount x 3], or null
-        /// targetNormals: [target.vertexCount x 3], or null
+        /// @out: [target.vertexCount x 3] of float or double
+        /// targetNormals: [target.vertexCount x 3] of float or double
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -5873,19 +5981,18 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                c.Either(sourcePositions, "sourcePositions", out desc->source_positions, out desc->source_positions_f64,
-                    "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
                 var @out = new float[c.Product("target.vertex_count", "3")];
                 var @outPlace = (float*)c.Pin(@out);
-                desc->target_positions = (IntPtr)@outPlace;
+                desc->target_positions = Call.Out(@outPlace, false, c.Size("target.vertex_count"));
                 if (!targetNormals.IsEmpty)
                     c.Need(targetNormals.Length, "targetNormals", "target.vertex_count", "3");
                 fixed (float* targetNormalsPlace = &MemoryMarshal.GetReference(targetNormals))
                 {
-                    desc->target_normals = (IntPtr)targetNormalsPlace;
+                    desc->target_normals = Call.Out(targetNormalsPlace, false, c.Size("target.vertex_count"));
                     HfException.Check(Functions.hf_transfer_apply(RawHandle, desc));
                     return @out;
                 }
@@ -5909,11 +6016,13 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// sourcePositions: [source.vertexCount x 3] the posed source, its own vertex order
-        /// holdPairs: [holdCount] each pair at most once
+        /// sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
+        /// holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a
+        ///     position of yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices
+        ///     lands there; welded copies count once. The rest of the surface follows.
         /// holdPositions: [holdCount x 3] in the target's unit and frame
-        /// @out: [target.vertexCount x 3], or null
-        /// targetNormals: [target.vertexCount x 3], or null
+        /// @out: [target.vertexCount x 3] of float or double
+        /// targetNormals: [target.vertexCount x 3] of float or double
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -5924,20 +6033,19 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                c.Either(sourcePositions, "sourcePositions", out desc->source_positions, out desc->source_positions_f64,
-                    "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
                 c.Need(into.Length, "into", "target.vertex_count", "3");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    desc->target_positions = (IntPtr)@outPlace;
+                    desc->target_positions = Call.Out(@outPlace, false, c.Size("target.vertex_count"));
                     if (!targetNormals.IsEmpty)
                         c.Need(targetNormals.Length, "targetNormals", "target.vertex_count", "3");
                     fixed (float* targetNormalsPlace = &MemoryMarshal.GetReference(targetNormals))
                     {
-                        desc->target_normals = (IntPtr)targetNormalsPlace;
+                        desc->target_normals = Call.Out(targetNormalsPlace, false, c.Size("target.vertex_count"));
                         HfException.Check(Functions.hf_transfer_apply(RawHandle, desc));
                     }
                 }
@@ -5961,11 +6069,13 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// sourcePositions: [source.vertexCount x 3] the posed source, its own vertex order
-        /// holdPairs: [holdCount] each pair at most once
+        /// sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
+        /// holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a
+        ///     position of yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices
+        ///     lands there; welded copies count once. The rest of the surface follows.
         /// holdPositions: [holdCount x 3] in the target's unit and frame
-        /// @out: [target.vertexCount x 3], or null
-        /// targetNormals: [target.vertexCount x 3], or null
+        /// @out: [target.vertexCount x 3] of float or double
+        /// targetNormals: [target.vertexCount x 3] of float or double
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -5976,19 +6086,18 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                c.Either(sourcePositions, "sourcePositions", out desc->source_positions, out desc->source_positions_f64,
-                    "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
                 var @out = new double[c.Product("target.vertex_count", "3")];
                 var @outPlace = (double*)c.Pin(@out);
-                desc->target_positions_f64 = (IntPtr)@outPlace;
+                desc->target_positions = Call.Out(@outPlace, true, c.Size("target.vertex_count"));
                 if (!targetNormals.IsEmpty)
                     c.Need(targetNormals.Length, "targetNormals", "target.vertex_count", "3");
                 fixed (float* targetNormalsPlace = &MemoryMarshal.GetReference(targetNormals))
                 {
-                    desc->target_normals = (IntPtr)targetNormalsPlace;
+                    desc->target_normals = Call.Out(targetNormalsPlace, false, c.Size("target.vertex_count"));
                     HfException.Check(Functions.hf_transfer_apply(RawHandle, desc));
                     return @out;
                 }
@@ -6012,11 +6121,13 @@ namespace Hf
         /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
         /// off.
         ///
-        /// sourcePositions: [source.vertexCount x 3] the posed source, its own vertex order
-        /// holdPairs: [holdCount] each pair at most once
+        /// sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
+        /// holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a
+        ///     position of yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices
+        ///     lands there; welded copies count once. The rest of the surface follows.
         /// holdPositions: [holdCount x 3] in the target's unit and frame
-        /// @out: [target.vertexCount x 3], or null
-        /// targetNormals: [target.vertexCount x 3], or null
+        /// @out: [target.vertexCount x 3] of float or double
+        /// targetNormals: [target.vertexCount x 3] of float or double
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -6027,20 +6138,19 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                c.Either(sourcePositions, "sourcePositions", out desc->source_positions, out desc->source_positions_f64,
-                    "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
                 c.Need(into.Length, "into", "target.vertex_count", "3");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
-                    desc->target_positions_f64 = (IntPtr)@outPlace;
+                    desc->target_positions = Call.Out(@outPlace, true, c.Size("target.vertex_count"));
                     if (!targetNormals.IsEmpty)
                         c.Need(targetNormals.Length, "targetNormals", "target.vertex_count", "3");
                     fixed (float* targetNormalsPlace = &MemoryMarshal.GetReference(targetNormals))
                     {
-                        desc->target_normals = (IntPtr)targetNormalsPlace;
+                        desc->target_normals = Call.Out(targetNormalsPlace, false, c.Size("target.vertex_count"));
                         HfException.Check(Functions.hf_transfer_apply(RawHandle, desc));
                     }
                 }

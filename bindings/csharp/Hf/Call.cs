@@ -160,18 +160,35 @@ namespace Hf
             return (void*)Pin(values);
         }
 
-        public void Either(Reals values, string name, out IntPtr first, out IntPtr second, params string[] dims)
+        /// <summary>An hf_array: rows of the numbers that the caller has.</summary>
+        hf_array ViewOf(Array values, string name, string[] dims)
         {
-            first = values == null ? IntPtr.Zero : (IntPtr)Array(values.Values, name, dims);
-            second = IntPtr.Zero;
-            if (values != null && values.Values is double[]) { second = first; first = IntPtr.Zero; }
+            if (values == null) return default(hf_array);
+            Fit(values.Length, name, dims);
+            int type = values is double[] ? Constants.HF_TYPE_DOUBLE : values is ushort[] ? Constants.HF_TYPE_UINT16 : Constants.HF_TYPE_PLAIN;
+            return new hf_array { data = Pin(values), count = (uint)Size(dims[0]), type = type };
         }
 
-        public void Either(Indices values, string name, out IntPtr first, out IntPtr second, params string[] dims)
+        public hf_array View(Reals values, string name, params string[] dims)
         {
-            first = values == null ? IntPtr.Zero : (IntPtr)Array(values.Values, name, dims);
-            second = IntPtr.Zero;
-            if (values != null && values.Values is ushort[]) { second = first; first = IntPtr.Zero; }
+            return ViewOf(values == null ? null : values.Values, name, dims);
+        }
+
+        public hf_array View(Indices values, string name, params string[] dims)
+        {
+            return ViewOf(values == null ? null : values.Values, name, dims);
+        }
+
+        public hf_array View(uint[] values, string name, params string[] dims) { return ViewOf(values, name, dims); }
+
+        /// <summary>An array for the library to fill; none where it has no place.</summary>
+        public static hf_array_out Out(void* place, bool isDouble, int rows)
+        {
+            if (place == null) return default(hf_array_out);
+            return new hf_array_out
+            {
+                data = (IntPtr)place, count = (uint)rows, type = isDouble ? Constants.HF_TYPE_DOUBLE : Constants.HF_TYPE_PLAIN
+            };
         }
 
         /// <summary>Memory of zeros until the call is over.</summary>

@@ -33,6 +33,9 @@ namespace Hf.Native
         public const int HF_ERROR_NOT_POSITIVE_DEFINITE = -200;
         public const int HF_ERROR_INACCURATE = -201;
         public const int HF_ERROR_INTERNAL = -300;
+        public const int HF_TYPE_PLAIN = 0;
+        public const int HF_TYPE_DOUBLE = 1;
+        public const int HF_TYPE_UINT16 = 2;
         public const int HF_WELD_EXACT = 0;
         public const int HF_WELD_NONE = 1;
         public const int HF_WELD_TOLERANCE = 2;
@@ -179,6 +182,26 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_array
+    {
+        public IntPtr data;
+        public uint count;
+        public uint stride;
+        public int type;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_array_out
+    {
+        public IntPtr data;
+        public uint count;
+        public uint stride;
+        public int type;
+        public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_error_detail
     {
         public int code;
@@ -244,18 +267,23 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_faces_desc
+    {
+        public uint struct_size;
+        public uint reserved;
+        public hf_array corners;
+        public hf_array sizes;
+        public hf_array starts;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_surface_desc
     {
         public uint struct_size;
-        public uint vertex_count;
-        public uint triangle_count;
-        public uint position_stride;
-        public IntPtr positions;
-        public IntPtr positions_f64;
-        public IntPtr triangles;
-        public IntPtr triangles_u16;
-        public uint triangle_stride;
         public int weld;
+        public hf_array positions;
+        public hf_array triangles;
+        public IntPtr faces;
         public double weld_tolerance;
         public int operator_kind;
         public int field_kind;
@@ -270,13 +298,6 @@ namespace Hf.Native
         public IntPtr progress;
         public IntPtr saved_factor;
         public IntPtr links;
-        public uint face_count;
-        public uint corner_count;
-        public IntPtr face_starts;
-        public IntPtr face_sizes;
-        public IntPtr corners;
-        public uint face_stride;
-        public uint corner_stride;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -284,11 +305,10 @@ namespace Hf.Native
     {
         public uint struct_size;
         public uint vertex_count;
-        public uint edge_count;
+        public hf_array edges;
+        public hf_array weights;
+        public hf_array masses;
         public int allow_negative;
-        public IntPtr edges;
-        public IntPtr weights;
-        public IntPtr masses;
         public int field_kind;
         public int ordering;
         public uint thread_count;
@@ -296,7 +316,6 @@ namespace Hf.Native
         public uint edge_limit;
         public uint memory_limit_mb;
         public uint work_limit_gflop;
-        public uint reserved;
         public hf_allocator allocator;
         public hf_job_runner job_runner;
         public IntPtr progress;
@@ -360,15 +379,6 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_gaps_desc
-    {
-        public uint struct_size;
-        public uint position_stride;
-        public IntPtr positions;
-        public IntPtr positions_f64;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_gaps_info
     {
         public uint struct_size;
@@ -404,11 +414,8 @@ namespace Hf.Native
     public unsafe struct hf_pick_desc
     {
         public uint struct_size;
-        public uint position_stride;
-        public IntPtr positions;
-        public IntPtr positions_f64;
         public int front_only;
-        public uint reserved;
+        public hf_array positions;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -552,15 +559,6 @@ namespace Hf.Native
         public double site_memory_bytes;
         public double predicted_dense_ms;
         public double predicted_rebase_ms;
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_scalars
-    {
-        public uint struct_size;
-        public uint value_stride;
-        public IntPtr values;
-        public IntPtr values_f64;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -773,12 +771,9 @@ namespace Hf.Native
     public unsafe struct hf_deform_desc
     {
         public uint struct_size;
-        public uint position_stride;
-        public IntPtr positions;
-        public IntPtr positions_f64;
-        public IntPtr normals;
-        public uint normal_stride;
         public uint iteration_count;
+        public hf_array_out positions;
+        public hf_array_out normals;
         public int restart;
         public int refine;
         public int refine_from_last;
@@ -904,10 +899,7 @@ namespace Hf.Native
     {
         public uint struct_size;
         public int @base;
-        public IntPtr positions;
-        public IntPtr positions_f64;
-        public uint position_stride;
-        public uint reserved;
+        public hf_array positions;
         public IntPtr progress;
     }
 
@@ -962,13 +954,10 @@ namespace Hf.Native
     public unsafe struct hf_morph_desc
     {
         public uint struct_size;
-        public uint position_stride;
-        public double weight;
-        public IntPtr positions;
-        public IntPtr positions_f64;
-        public IntPtr normals;
-        public uint normal_stride;
         public uint reserved;
+        public double weight;
+        public hf_array_out positions;
+        public hf_array_out normals;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1113,8 +1102,8 @@ namespace Hf.Native
         public double alignment_angle;
         public fixed double source_axes[9];
         public fixed double target_axes[9];
-        public IntPtr source_rest;
-        public IntPtr target_rest;
+        public hf_array source_rest;
+        public hf_array target_rest;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1175,16 +1164,10 @@ namespace Hf.Native
     public unsafe struct hf_transfer_frame
     {
         public uint struct_size;
-        public uint source_stride;
-        public IntPtr source_positions;
-        public IntPtr source_positions_f64;
-        public uint target_stride;
-        public uint normal_stride;
-        public IntPtr target_positions;
-        public IntPtr target_positions_f64;
-        public IntPtr target_normals;
         public uint hold_count;
-        public uint reserved;
+        public hf_array source_positions;
+        public hf_array_out target_positions;
+        public hf_array_out target_normals;
         public IntPtr hold_pairs;
         public IntPtr hold_positions;
     }
@@ -1358,7 +1341,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_components(IntPtr surface, uint capacity, void* out_components, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_links(IntPtr surface, uint capacity, void* out_links, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_pieces(IntPtr surface, uint capacity, void* out_pieces, void* out_light, void* out_count);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_measure_gaps(IntPtr surface, void* desc, uint capacity, void* out_gaps, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_measure_gaps(IntPtr surface, void* positions, uint capacity, void* out_gaps, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_relink(IntPtr surface, void* links, IntPtr progress, void* out_surface);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_statistics(IntPtr surface, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_save(IntPtr surface, int field_kind, IntPtr progress, UIntPtr capacity, void* out_bytes, void* out_size);
@@ -1378,12 +1361,10 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_get_sites(IntPtr solver, void* inout_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_set_screening(IntPtr solver, void* screening, void* targets);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solve(IntPtr solver, void* out_values, uint value_stride, void* out_info);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_f64(IntPtr solver, void* out_values, uint value_stride, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve(IntPtr solver, void* out_values, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_at(IntPtr solver, uint vertex_count, void* vertices, void* out_values);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_vectors(IntPtr solver, void* out_vectors, uint vector_stride, void* out_normals, void* out_info);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_vectors_f64(IntPtr solver, void* out_vectors, uint vector_stride, void* out_normals, void* out_info);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_preview(IntPtr solver, void* out_values, uint value_stride, uint correction_count, void* out_info);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_preview_f64(IntPtr solver, void* out_values, uint value_stride, uint correction_count, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_vectors(IntPtr solver, void* out_vectors, void* out_normals, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_solve_preview(IntPtr solver, void* out_values, uint correction_count, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_release_preview(IntPtr solver);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_move_vectors(IntPtr solver, uint site_count, void* sites, void* vertices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_rotate_vectors(IntPtr solver, uint site_count, void* sites, void* angles);
@@ -1395,8 +1376,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_find_critical_points(IntPtr surface, void* field, uint capacity, void* out_points, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_create(IntPtr surface, void* desc, void* out_geodesics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_geodesics_destroy(IntPtr geodesics);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_solve(IntPtr geodesics, uint source_count, void* sources, void* out_distances, uint value_stride);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_solve_f64(IntPtr geodesics, uint source_count, void* sources, void* out_distances, uint value_stride);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_solve(IntPtr geodesics, uint source_count, void* sources, void* out_distances);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_find_path(IntPtr geodesics, void* from, void* to, void* inout_path);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_geodesics_get_map(IntPtr geodesics, void* centre, double radius, void* out_map, void* out_frame);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_find_extremities(IntPtr surface, void* desc, uint capacity, void* out_extremities, void* out_count);
@@ -1410,8 +1390,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_rotate_sites(IntPtr direction, uint site_count, void* sites, void* angles);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_direction_get_site_count(IntPtr direction);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_sites(IntPtr direction, uint capacity, void* out_sites, void* out_vertices, void* out_vectors, void* out_count);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_solve(IntPtr direction, void* out_vectors, uint vector_stride, void* out_info);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_solve_f64(IntPtr direction, void* out_vectors, uint vector_stride, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_solve(IntPtr direction, void* out_vectors, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_singularities(IntPtr direction, uint capacity, void* out_singularities, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_statistics(IntPtr direction, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_create(IntPtr surface, void* desc, void* out_pose);
@@ -1427,7 +1406,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_matrices(IntPtr pose, uint handle_count, void* handles, void* matrices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_handle(IntPtr pose, uint handle, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern uint hf_pose_get_handle_count(IntPtr pose);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_field(IntPtr pose, uint handle, void* out_values, uint value_stride);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_field(IntPtr pose, uint handle, void* out_values);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_deform(IntPtr pose, void* out_positions, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_deform(IntPtr pose, void* desc, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* inout_skin);

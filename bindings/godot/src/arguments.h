@@ -66,6 +66,12 @@ inline const double* doubles(const Argument& argument, size_t count, const char*
   return argument.list.empty() ? nullptr : argument.list.data();
 }
 
+// Rows of `width` numbers; none for null.
+inline hf_array rows_of(const Argument& argument, size_t width, size_t rows, const char* name) {
+  const double* const numbers = doubles(argument, width * rows, name);
+  return HF_ARRAY(numbers, numbers ? rows : 0);
+}
+
 // Lists of vertices one after the other.
 struct Regions {
   Numbers counts, vertices;

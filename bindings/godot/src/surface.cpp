@@ -25,8 +25,7 @@ Value create_of(Surface& s, hf_surface_desc& desc, const Argument& positions_giv
   if (positions_given.null) fail("positions are null", HF_ERROR_NULL_POINTER);
   const Doubles& positions = positions_given.list;
   if (positions.size() % 3) fail("positions hold three numbers each");
-  desc.vertex_count = static_cast<uint32_t>(positions.size() / 3);
-  desc.positions_f64 = positions.data();
+  desc.positions = HF_ARRAY(positions.data(), positions.size() / 3);
   auto factor = make<hf_factor_desc>();
   if (!saved.bytes.empty()) {
     factor.bytes = saved.bytes.data();
@@ -37,7 +36,7 @@ Value create_of(Surface& s, hf_surface_desc& desc, const Argument& positions_giv
   check(hf_surface_create(&desc, &raw));
   s.forget();
   s.mesh = std::make_shared<hf::Handle<hf_surface, hf_surface_destroy>>(raw);
-  s.vertex_count = desc.vertex_count;
+  s.vertex_count = desc.positions.count;
   return done();
 }
 
@@ -46,8 +45,7 @@ Value create(Surface& s, const Arguments& a) {
   auto desc = make<hf_surface_desc>();
   const List triangles = integers(at(a, 1), "triangles");
   if (triangles.values.size() % 3) fail("triangles hold three numbers each");
-  desc.triangle_count = static_cast<uint32_t>(triangles.values.size() / 3);
-  desc.triangles = triangles.data();
+  desc.triangles = HF_ARRAY(triangles.data(), triangles.values.size() / 3);
   return create_of(s, desc, at(a, 0), at(a, 2), at(a, 3));
 }
 
@@ -56,10 +54,10 @@ Value create(Surface& s, const Arguments& a) {
 Value create_faces(Surface& s, const Arguments& a) {
   auto desc = make<hf_surface_desc>();
   const List offsets = integers(at(a, 1), "offsets"), corners = integers(at(a, 2), "corners");
-  desc.face_count = offsets.values.empty() ? 0 : static_cast<uint32_t>(offsets.values.size() - 1);
-  desc.corner_count = static_cast<uint32_t>(corners.values.size());
-  desc.face_starts = offsets.data();
-  desc.corners = corners.data();
+  auto faces = make<hf_faces_desc>();
+  faces.starts = HF_ARRAY(offsets.data(), offsets.values.size());
+  faces.corners = HF_ARRAY(corners.data(), corners.values.size());
+  desc.faces = &faces;
   return create_of(s, desc, at(a, 0), at(a, 3), at(a, 4));
 }
 
@@ -154,7 +152,7 @@ Value save(Surface& s, const Arguments& a) {
 
 hf_pick_desc pick_of(const Surface& s, const Argument& positions) {
   auto desc = make<hf_pick_desc>();
-  desc.positions_f64 = doubles(positions, 3 * s.vertex_count, "positions");
+  desc.positions = rows_of(positions, 3, s.vertex_count, "positions");
   return desc;
 }
 

@@ -6,12 +6,6 @@
 namespace hf_godot {
 namespace {
 
-hf_scalars scalars_of(const Surface& s, const Argument& argument) {
-  auto desc = make<hf_scalars>();
-  desc.values_f64 = doubles(argument, s.vertex_count, "field");
-  return desc;
-}
-
 // points and starts of polylines as lists of vectors
 Value lines_of(const Doubles& positions, const Numbers& starts) {
   Value value;
@@ -41,7 +35,8 @@ Value distance(Surface& s, const Arguments& a) {
   Value value;
   value.kind = Value::reals;
   value.floats.resize(s.vertex_count + 1);
-  check(hf_geodesics_solve(geodesics, sources.count(), sources.data(), value.floats.data(), 0));
+  const hf_array_out out = HF_ARRAY_OUT(value.floats.data(), s.vertex_count);
+  check(hf_geodesics_solve(geodesics, sources.count(), sources.data(), &out));
   value.floats.resize(s.vertex_count);
   return value;
 }
@@ -86,7 +81,7 @@ Value map_around(Surface& s, const Arguments& a) {
 
 // space_levels(field, count, spacing = 0)
 Value space_levels(Surface& s, const Arguments& a) {
-  const hf_scalars field = scalars_of(s, at(a, 0));
+  const hf_array field = rows_of(at(a, 0), 1, s.vertex_count, "field");
   const uint32_t count = whole(at(a, 1).number, "count");
   Doubles levels(std::min(count, 1000000u) + 1);
   check(hf_surface_space_levels(s.get(), &field, signed_whole(at(a, 2).number, "spacing"), count, levels.data()));
@@ -98,7 +93,7 @@ Value space_levels(Surface& s, const Arguments& a) {
 
 // trace_isolines(field, levels): a list of points for every line
 Value trace_isolines(Surface& s, const Arguments& a) {
-  const hf_scalars field = scalars_of(s, at(a, 0));
+  const hf_array field = rows_of(at(a, 0), 1, s.vertex_count, "field");
   const Doubles& levels = at(a, 1).list;
   const uint32_t count = at(a, 1).null ? 1u : static_cast<uint32_t>(levels.size());
   const double* given = levels.empty() ? nullptr : levels.data();
@@ -116,7 +111,7 @@ Value trace_isolines(Surface& s, const Arguments& a) {
 
 // find_critical_points(field): { vertex, kind, index, value } each
 Value find_critical_points(Surface& s, const Arguments& a) {
-  const hf_scalars field = scalars_of(s, at(a, 0));
+  const hf_array field = rows_of(at(a, 0), 1, s.vertex_count, "field");
   auto info = make<hf_critical_info>();
   check(hf_surface_find_critical_points(s.get(), &field, 0, nullptr, &info));
   std::vector<hf_critical_point> points(info.point_count);
@@ -232,7 +227,8 @@ Value direction_solve(Surface& s, const Arguments&) {
   Value value;
   value.kind = Value::vectors;
   value.floats.resize(3 * s.vertex_count + 1);
-  check(hf_direction_solve(s.direction.get(), value.floats.data(), 0, nullptr));
+  const hf_array_out out = HF_ARRAY_OUT(value.floats.data(), s.vertex_count);
+  check(hf_direction_solve(s.direction.get(), &out, nullptr));
   value.floats.resize(3 * s.vertex_count);
   return value;
 }
@@ -333,7 +329,7 @@ Value quads_faces(Surface& s, const Arguments&) {
 
 // streamlines(field, count, seeds = null): lines of equal flux from the minima, or one through every seed
 Value streamlines(Surface& s, const Arguments& a) {
-  const hf_scalars field = scalars_of(s, at(a, 0));
+  const hf_array field = rows_of(at(a, 0), 1, s.vertex_count, "field");
   const List seeds = integers(at(a, 2), "seeds");
   hf_flow flow = make_once(s.flow, [&](hf_flow* out) { return hf_flow_create(s.get(), out); });
   auto lines = make<hf_streamlines>();

@@ -134,7 +134,8 @@ Value handle_field(Surface& s, const Arguments& a) {
   Value value;
   value.kind = Value::reals;
   value.floats.resize(s.vertex_count + 1);
-  check(hf_pose_get_field(pose_of(s), whole(at(a, 0).number, "handle"), value.floats.data(), 0));
+  const hf_array_out out = HF_ARRAY_OUT(value.floats.data(), s.vertex_count);
+  check(hf_pose_get_field(pose_of(s), whole(at(a, 0).number, "handle"), &out));
   value.floats.resize(s.vertex_count);
   return value;
 }
@@ -149,8 +150,8 @@ Value deform(Surface& s, const Arguments& a) {
   value.kind = Value::vectors;
   value.floats.resize(3 * s.vertex_count + 1);
   std::vector<float> normals(3 * s.vertex_count + 1);
-  desc.positions = value.floats.data();
-  desc.normals = normals.data();
+  desc.positions = HF_ARRAY_OUT(value.floats.data(), s.vertex_count);
+  desc.normals = HF_ARRAY_OUT(normals.data(), s.vertex_count);
   check(hf_pose_deform(pose_of(s), &desc, nullptr));
   value.floats.resize(3 * s.vertex_count);
   normals.resize(3 * s.vertex_count);
@@ -279,11 +280,11 @@ Value transfer_sinking(Surface& s, const Arguments&) {
 
 Value transfer_apply(Surface& s, const Arguments& a) {
   auto frame = make<hf_transfer_frame>();
-  frame.source_positions_f64 = doubles(at(a, 0), 3 * s.vertex_count, "positions");
+  frame.source_positions = rows_of(at(a, 0), 3, s.vertex_count, "positions");
   Value value;
   value.kind = Value::vectors;
   value.floats.resize(3 * s.target_count + 1);
-  frame.target_positions = value.floats.data();
+  frame.target_positions = HF_ARRAY_OUT(value.floats.data(), s.target_count);
   check(hf_transfer_apply(s.transfer.get(), &frame));
   value.floats.resize(3 * s.target_count);
   return value;

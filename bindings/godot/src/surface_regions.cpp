@@ -9,7 +9,7 @@ namespace {
 // positions
 Value region_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_region_desc>();
-  desc.positions_f64 = doubles(at(a, 0), 3 * s.vertex_count, "positions");
+  desc.positions = rows_of(at(a, 0), 3, s.vertex_count, "positions");
   desc.base = signed_whole(at(a, 1).number, "base");
   make_again(s.region, [&](hf_region* out) { return hf_region_create(s.get(), &desc, out); });
   s.detail = {};
@@ -92,7 +92,7 @@ Value morph(Surface& s, const Arguments& a, Raw from, hf_result (*write)(Raw, co
   value.floats.resize(3 * s.vertex_count + 1);
   auto desc = make<hf_morph_desc>();
   desc.weight = at(a, 0).number;
-  desc.positions = value.floats.data();
+  desc.positions = HF_ARRAY_OUT(value.floats.data(), s.vertex_count);
   check(write(from, &desc));
   value.floats.pop_back();
   return value;

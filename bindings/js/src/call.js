@@ -3,7 +3,6 @@ import { constants } from './raw.js';
 import { Struct, doubles, fail, integers, read, rows, scalar, written } from './marshal.js';
 
 const types = { f4: Float32Array, f8: Float64Array, u4: Uint32Array, u2: Uint16Array, u1: Uint8Array, i4: Int32Array };
-const suffix = { f8: '_f64', u2: '_u16' }; // the field that takes the other type of array
 
 const split = new Map(); // 'f4 f8' -> its parts, read once
 function parts(text, separator) {
@@ -101,8 +100,25 @@ export function callClass(backend) {
       if (values === null || values === undefined) return;
       const array = converted(values, name, kinds);
       this.fit(array.length, name, dims);
-      const [, second] = parts(kinds, ' ');
-      struct.set(second && array instanceof types[second] ? field + suffix[second] : field, read(array));
+      struct.set(field, read(array));
+    }
+
+    /** An hf_array of numbers, or null. */
+    view(name, values, kinds, dims) {
+      if (values === null || values === undefined) return null;
+      const array = converted(values, name, kinds);
+      this.fit(array.length, name, dims);
+      return this.viewOf('hf_array', array, dims, read);
+    }
+
+    viewOut(array, dims) {
+      return this.viewOf('hf_array_out', array, dims, written);
+    }
+
+    viewOf(struct, array, dims, mark) {
+      const doubled = array instanceof Float64Array && constants.HF_TYPE_DOUBLE;
+      const type = doubled || (array instanceof Uint16Array && constants.HF_TYPE_UINT16) || constants.HF_TYPE_PLAIN;
+      return make(struct, { data: mark(array), count: this.size(dims[0]) ?? 0, type });
     }
 
     counts(struct, fields) {

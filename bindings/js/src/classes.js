@@ -26,26 +26,30 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     return desc;
   };
 
+  const facesDesc = (c, prefix, options) => {
+    const { corners = null, sizes = null, starts = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_faces_desc', {});
+    desc.set('corners', c.view('corners', corners, 'u4', ['corner_count']));
+    desc.set('sizes', c.view('sizes', sizes, 'u4', ['faces']));
+    desc.set('starts', c.view('starts', starts, 'u4', sizes ? ['faces'] : ['faces + 1']));
+    return desc;
+  };
+
   const surfaceDesc = (c, prefix, options) => {
-    const { positions = null, triangles = null, faceStarts = null, faceSizes = null, corners = null, weld = 0,
-            weldTolerance = 0, operatorKind = 0, fieldKind = 0, ordering = 0, threadCount = 0, vertexLimit = 0,
-            triangleLimit = 0, memoryLimitMb = 0, workLimitGflop = 0, progress = null, savedFactor = null, links = null,
-            ...more } = options;
+    const { positions = null, triangles = null, weld = 0, faces = null, weldTolerance = 0, operatorKind = 0,
+            fieldKind = 0, ordering = 0, threadCount = 0, vertexLimit = 0, triangleLimit = 0, memoryLimitMb = 0,
+            workLimitGflop = 0, progress = null, savedFactor = null, links = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_surface_desc', { weld, weld_tolerance: weldTolerance, operator_kind: operatorKind,
             field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
             triangle_limit: triangleLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
-    c.rows(desc, 'positions', 'positions', positions, 'f4 f8', [prefix + 'vertex_count', 3]);
-    c.rows(desc, 'triangles', 'triangles', triangles, 'u4 u2', [prefix + 'triangle_count', 3]);
-    c.rows(desc, 'face_starts', 'faceStarts', faceStarts, 'u4',
-            faceSizes ? [prefix + 'face_count'] : [prefix + 'face_count + 1']);
-    c.rows(desc, 'face_sizes', 'faceSizes', faceSizes, 'u4', [prefix + 'face_count']);
-    c.rows(desc, 'corners', 'corners', corners, 'u4', [prefix + 'corner_count']);
+    desc.set('positions', c.view('positions', positions, 'f4 f8', ['vertex_count', 3]));
+    desc.set('triangles', c.view('triangles', triangles, 'u4 u2', ['triangle_count', 3]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    desc.set('faces', c.inner(faces, 'corners', facesDesc, 'faces.'));
     desc.set('saved_factor', c.inner(savedFactor, 'bytes', factorDesc, 'saved_factor.'));
     desc.set('links', c.inner(links, 'joints', linksDesc, 'links.'));
-    c.counts(desc, { vertex_count: [prefix + 'vertex_count', 1], triangle_count: [prefix + 'triangle_count', 0],
-            face_count: [prefix + 'face_count', 0], corner_count: [prefix + 'corner_count', 0] });
     return desc;
   };
 
@@ -58,20 +62,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
             edge_limit: edgeLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
     c.known('vertex_count', vertexCount);
-    c.rows(desc, 'edges', 'edges', edges, 'u4', [prefix + 'edge_count', 2]);
-    c.rows(desc, 'weights', 'weights', weights, 'f8', [prefix + 'edge_count']);
-    c.rows(desc, 'masses', 'masses', masses, 'f8', ['vertex_count']);
+    desc.set('edges', c.view('edges', edges, 'u4 u2', ['edge_count', 2]));
+    desc.set('weights', c.view('weights', weights, 'f4 f8', ['edge_count']));
+    desc.set('masses', c.view('masses', masses, 'f4 f8', ['vertex_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('saved_factor', c.inner(savedFactor, 'bytes', factorDesc, 'saved_factor.'));
-    c.counts(desc, { edge_count: [prefix + 'edge_count', 1] });
-    return desc;
-  };
-
-  const gapsDesc = (c, prefix, options) => {
-    const { positions = null, ...more } = options;
-    none(more);
-    const desc = c.struct('hf_gaps_desc', {});
-    c.rows(desc, 'positions', 'positions', positions, 'f4 f8', ['vertex_count', 3]);
     return desc;
   };
 
@@ -79,7 +74,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { positions = null, frontOnly = false, ...more } = options;
     none(more);
     const desc = c.struct('hf_pick_desc', { front_only: frontOnly });
-    c.rows(desc, 'positions', 'positions', positions, 'f4 f8', ['vertex_count', 3]);
+    desc.set('positions', c.view('positions', positions, 'f4 f8', ['vertex_count', 3]));
     return desc;
   };
 
@@ -223,7 +218,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { positions = null, base = 0, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_region_desc', { base });
-    c.rows(desc, 'positions', 'positions', positions, 'f4 f8', ['vertex_count', 3]);
+    desc.set('positions', c.view('positions', positions, 'f4 f8', ['vertex_count', 3]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
   };
@@ -323,8 +318,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_transfer_desc', { mode, cluster_count: clusterCount, ground, kernel_width: kernelWidth,
             scale, alignment_angle: alignmentAngle });
-    c.rows(desc, 'source_rest', 'sourceRest', sourceRest, 'f4', ['source.vertex_count', 3]);
-    c.rows(desc, 'target_rest', 'targetRest', targetRest, 'f4', ['target.vertex_count', 3]);
+    desc.set('source_rest', c.view('sourceRest', sourceRest, 'f4 f8', ['source.vertex_count', 3]));
+    desc.set('target_rest', c.view('targetRest', targetRest, 'f4 f8', ['target.vertex_count', 3]));
     c.fixed(desc, 'source_axes', 'sourceAxes', sourceAxes);
     c.fixed(desc, 'target_axes', 'targetAxes', targetAxes);
     return desc;
@@ -355,7 +350,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { sourcePositions = null, holdPairs = null, holdPositions = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_transfer_frame', {});
-    c.rows(desc, 'source_positions', 'sourcePositions', sourcePositions, 'f4 f8', ['source.vertex_count', 3]);
+    desc.set('source_positions', c.view('sourcePositions', sourcePositions, 'f4 f8', ['source.vertex_count', 3]));
     c.rows(desc, 'hold_pairs', 'holdPairs', holdPairs, 'u4', [prefix + 'hold_count']);
     c.rows(desc, 'hold_positions', 'holdPositions', holdPositions, 'f8', [prefix + 'hold_count', 3]);
     c.counts(desc, { hold_count: [prefix + 'hold_count', 0] });
@@ -513,13 +508,14 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return { pieces: found.pieces, light: found.light };
     }
 
-    measureGaps(positions = null) {
+    measureGaps(positions) {
       const c = new Call(this);
       const info = c.told(this, 'hf_gaps_info');
-      const desc = gapsDesc(c, '', { positions });
+      const positions_ = c.view('positions', positions, 'f4 f8', ['vertex_count', 3]);
       const found = c.grow(this, 'hf_surface_measure_gaps', (room, made) => call('hf_surface_measure_gaps',
-              this._handle, desc, room.capacity, written(made.gaps), info),
-              () => ({ capacity: info.get('link_count') }), { capacity: null }, { gaps: ['f8', ['capacity']] });
+              this._handle, positions === null || positions === undefined ? null : positions_, room.capacity,
+              written(made.gaps), info), () => ({ capacity: info.get('link_count') }), { capacity: null },
+              { gaps: ['f8', ['capacity']] });
       return found.gaps;
     }
 
@@ -575,8 +571,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     spaceLevels(field, levelCount, spacing = 0) {
       const c = new Call(this);
-      const field_ = c.struct('hf_scalars', {});
-      c.rows(field_, 'values', 'field', field, 'f4 f8', ['vertex_count']);
+      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
       c.known('level_count', levelCount);
       const levels = c.out(null, 'f8', ['level_count']);
       call('hf_surface_space_levels', this._handle, field === null || field === undefined ? null : field_, spacing,
@@ -586,8 +581,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     traceIsolines(field, levels) {
       const c = new Call(this);
-      const field_ = c.struct('hf_scalars', {});
-      c.rows(field_, 'values', 'field', field, 'f4 f8', ['vertex_count']);
+      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
       const levels_ = c.array('levels', levels, 'f8', ['level_count']);
       const lines = c.struct('hf_isolines', {});
       const found = c.grow(this, 'hf_surface_trace_isolines', (room, made) => (c.into(lines, room, made),
@@ -603,8 +597,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     findCriticalPoints(field) {
       const c = new Call(this);
       const info = c.told(this, 'hf_critical_info');
-      const field_ = c.struct('hf_scalars', {});
-      c.rows(field_, 'values', 'field', field, 'f4 f8', ['vertex_count']);
+      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
       const found = c.grow(this, 'hf_surface_find_critical_points', (room,
               made) => call('hf_surface_find_critical_points', this._handle,
               field === null || field === undefined ? null : field_, room.capacity, written(made.points), info),
@@ -750,7 +743,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const info = c.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 'channel_count'], Type);
-      call(out instanceof Float64Array ? 'hf_solver_solve_f64' : 'hf_solve', this._handle, written(out), 0, info);
+      const outView = c.viewOut(out, ['vertex_count', 'channel_count']);
+      call('hf_solver_solve', this._handle, outView, info);
       return out;
     }
 
@@ -769,9 +763,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const info = c.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
+      const outView = c.viewOut(out, ['vertex_count', 3]);
       const normals_ = normals && c.out(normals, 'f8', ['vertex_count', 3], null, 'normals');
-      call(out instanceof Float64Array ? 'hf_solver_solve_vectors_f64' : 'hf_solver_solve_vectors', this._handle,
-              written(out), 0, written(normals), info);
+      call('hf_solver_solve_vectors', this._handle, outView, written(normals), info);
       return out;
     }
 
@@ -781,8 +775,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const info = c.told(this, 'hf_preview_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 'channel_count'], Type);
-      call(out instanceof Float64Array ? 'hf_solver_solve_preview_f64' : 'hf_solver_solve_preview', this._handle,
-              written(out), 0, correctionCount, info);
+      const outView = c.viewOut(out, ['vertex_count', 'channel_count']);
+      call('hf_solver_solve_preview', this._handle, outView, correctionCount, info);
       return out;
     }
 
@@ -856,8 +850,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const sources_ = c.array('sources', sources, 'u4', ['source_count']);
       out = c.out(out, 'f4 f8', ['vertex_count'], Type);
-      call(out instanceof Float64Array ? 'hf_geodesics_solve_f64' : 'hf_geodesics_solve', this._handle,
-              (c.n.source_count ??= 1), sources_, written(out), 0);
+      const outView = c.viewOut(out, ['vertex_count']);
+      call('hf_geodesics_solve', this._handle, (c.n.source_count ??= 1), sources_, outView);
       return out;
     }
 
@@ -961,8 +955,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const info = c.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      call(out instanceof Float64Array ? 'hf_direction_solve_f64' : 'hf_direction_solve', this._handle, written(out), 0,
-              info);
+      const outView = c.viewOut(out, ['vertex_count', 3]);
+      call('hf_direction_solve', this._handle, outView, info);
       return out;
     }
 
@@ -1084,10 +1078,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return direct('hf_pose_get_handle_count', this._handle);
     }
 
-    field(handle, out = null) {
+    field(handle, out = null, options = {}) {
+      const { Type = Float32Array, ...more } = options;
+      none(more);
       const c = new Call(this);
-      out = c.out(out, 'f4', ['vertex_count']);
-      call('hf_pose_get_field', this._handle, handle, written(out), 0);
+      out = c.out(out, 'f4 f8', ['vertex_count'], Type);
+      const outView = c.viewOut(out, ['vertex_count']);
+      call('hf_pose_get_field', this._handle, handle, outView);
       return out;
     }
 
@@ -1097,9 +1094,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const info = c.told(this, 'hf_deform_info');
       const desc = deformDesc(c, '', more);
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      desc.set(out instanceof Float64Array ? 'positions_f64' : 'positions', out && written(out));
-      const normals_ = normals && c.out(normals, 'f4', ['vertex_count', 3], null, 'normals');
-      desc.set('normals', normals_ && written(normals_));
+      desc.set('positions', out && c.viewOut(out, ['vertex_count', 3]));
+      const normals_ = normals && c.out(normals, 'f4 f8', ['vertex_count', 3], null, 'normals');
+      desc.set('normals', normals_ && c.viewOut(normals_, ['vertex_count', 3]));
       call('hf_pose_deform', this._handle, desc, info);
       return out;
     }
@@ -1182,8 +1179,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { seeds = null, wantedCount = 0, ...more } = options;
       none(more);
       const c = new Call(this);
-      const field_ = c.struct('hf_scalars', {});
-      c.rows(field_, 'values', 'field', field, 'f4 f8', ['vertex_count']);
+      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
       const lines = c.struct('hf_streamlines', { wanted_count: wantedCount });
       c.rows(lines, 'seeds', 'seeds', seeds, 'u4', ['seed_count']);
       c.counts(lines, { seed_count: ['seed_count', 0] });
@@ -1255,9 +1251,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const desc = morphDesc(c, '', { weight, ...more });
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      desc.set(out instanceof Float64Array ? 'positions_f64' : 'positions', out && written(out));
-      const normals_ = normals && c.out(normals, 'f4', ['vertex_count', 3], null, 'normals');
-      desc.set('normals', normals_ && written(normals_));
+      desc.set('positions', out && c.viewOut(out, ['vertex_count', 3]));
+      const normals_ = normals && c.out(normals, 'f4 f8', ['vertex_count', 3], null, 'normals');
+      desc.set('normals', normals_ && c.viewOut(normals_, ['vertex_count', 3]));
       call('hf_region_morph', this._handle, desc);
       return out;
     }
@@ -1283,9 +1279,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const desc = morphDesc(c, '', { weight, ...more });
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      desc.set(out instanceof Float64Array ? 'positions_f64' : 'positions', out && written(out));
-      const normals_ = normals && c.out(normals, 'f4', ['vertex_count', 3], null, 'normals');
-      desc.set('normals', normals_ && written(normals_));
+      desc.set('positions', out && c.viewOut(out, ['vertex_count', 3]));
+      const normals_ = normals && c.out(normals, 'f4 f8', ['vertex_count', 3], null, 'normals');
+      desc.set('normals', normals_ && c.viewOut(normals_, ['vertex_count', 3]));
       call('hf_detail_morph', this._handle, desc);
       return out;
     }
@@ -1484,10 +1480,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const desc = transferFrame(c, '', { sourcePositions, ...more });
       out = c.out(out, 'f4 f8', ['target.vertex_count', 3], Type);
-      desc.set(out instanceof Float64Array ? 'target_positions_f64' : 'target_positions', out && written(out));
-      const targetNormals_ = targetNormals && c.out(targetNormals, 'f4', ['target.vertex_count', 3], null,
+      desc.set('target_positions', out && c.viewOut(out, ['target.vertex_count', 3]));
+      const targetNormals_ = targetNormals && c.out(targetNormals, 'f4 f8', ['target.vertex_count', 3], null,
               'targetNormals');
-      desc.set('target_normals', targetNormals_ && written(targetNormals_));
+      desc.set('target_normals', targetNormals_ && c.viewOut(targetNormals_, ['target.vertex_count', 3]));
       call('hf_transfer_apply', this._handle, desc);
       return out;
     }

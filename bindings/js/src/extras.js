@@ -10,7 +10,7 @@ export function extend(classes, bare) {
       if (positions === bare) return super(bare);
       if (positions === null || positions === undefined) fail(`positions is ${positions}`, 'HF_ERROR_NULL_POINTER');
       if (tags && !linkPieces) fail('tags need linkPieces');
-      if (faces) Object.assign(options, { faceStarts: faces.starts, faceSizes: faces.sizes, corners: faces.corners });
+      if (faces) options.faces = faces;
       if (linkPieces) {
         const more = typeof linkPieces === 'object' ? linkPieces : {};
         options.links = { ...more, mode: constants.HF_LINK_PIECES, tags };

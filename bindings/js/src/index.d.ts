@@ -961,6 +961,28 @@ export interface CurveDescGiven {
   kind?: number;
 }
 
+/**
+ * Faces of any number of corners. Set corners, and what your host stores: sizes (Maya, USD), starts and sizes
+ * (Blender's loops), or starts as offsets (newer Blender). No field depends on how you would cut a face into
+ * triangles. HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both cuts of a bent quad, and moves it towards the
+ * polygon Laplacian of Bunge and others 2020 until a weight would become negative. docs/studies/polygons.md
+ * compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian, HF_OPERATOR_UNIFORM
+ * the sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a cut of the library. It
+ * does not depend on the order of the corners. Where this interface names a triangle, it names the face then.
+ * Normals of poses are sums of the area vectors of faces.
+ */
+export interface FacesDescGiven {
+  /** [cornerCount] of uint32_t: vertices, counter-clockwise seen from outside */
+  corners?: Rows | null;
+  /** null, or [faces] of uint32_t: corners of each face, 3 to 65,535. null: starts are enough */
+  sizes?: Rows | null;
+  /**
+   * null, or [faces] of uint32_t: first corner of each face. null: the faces follow one another. Without sizes
+   * [faces + 1]: the corners of face f end where those of f + 1 start
+   */
+  starts?: Rows | null;
+}
+
 /** A factor that Surface.save wrote. The surface loads it instead of computing it. */
 export interface FactorDescGiven {
   /** all of them, as saved */
@@ -1076,13 +1098,10 @@ export interface ProgressClass {
  * hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any.
  * Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
  *
- * positions: [vertexCount x 3], any unit, any offset
- * triangles: [triangleCount x 3], counter-clockwise seen from outside
- * faceStarts: [faceCount] first corner of each face. null: the faces follow one another. Without face_sizes
- *     [faceCount + 1]: the corners of face f end where those of f + 1 start
- * faceSizes: [faceCount] corners of each face, 3 to 65,535. null: face_starts is enough
- * corners: [cornerCount] vertices, counter-clockwise seen from outside
+ * positions: [vertexCount x 3] of float or double, any unit, any offset
+ * triangles: [triangleCount x 3] of uint32_t or uint16_t, counter-clockwise seen from outside
  * weld: HF_WELD_*
+ * faces: faces instead of triangles
  * weldTolerance: for HF_WELD_TOLERANCE, in the unit of the positions, > 0
  * operatorKind: HF_OPERATOR_*
  * fieldKind: HF_FIELD_*: the factor made now. Others are made when a solver or region asks
@@ -1125,12 +1144,13 @@ export interface Surface extends Handle {
    * Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
    * ends are apart than at rest, and 0 if they are nearer.
    *
-   * positions: [vertexCount x 3]: of a pose, a frame of a transfer, or any other deformation
+   * positions: [vertexCount x 3] of float or double: those of a pose, a frame of a transfer, or any other
+   *     deformation.
    * info: filled in when given
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
    */
-  measureGaps(positions?: Rows | null): Float64Array;
+  measureGaps(positions: Rows): Float64Array;
   /**
    * Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old
    * one where its matrix has the same pattern: other stiffness, weights or light pieces.
@@ -1171,7 +1191,8 @@ export interface Surface extends Handle {
    *
    * origin: [3] in the frame of the positions; the direction can have any length above 0.
    * direction: [3] in the frame of the positions; the direction can have any length above 0.
-   * positions: [vertexCount x 3] posed positions (Pose.deform writes them), or null
+   * positions: [vertexCount x 3] of float or double: posed positions (Pose.deform writes them). null: the rest
+   *     positions
    * frontOnly: 1: a ray passes triangles seen from behind
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
@@ -1182,7 +1203,8 @@ export interface Surface extends Handle {
    * Finds the vertex nearest to a point.
    *
    * point: [3] in the frame of the positions.
-   * positions: [vertexCount x 3] posed positions (Pose.deform writes them), or null
+   * positions: [vertexCount x 3] of float or double: posed positions (Pose.deform writes them). null: the rest
+   *     positions
    * frontOnly: 1: a ray passes triangles seen from behind
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -1199,6 +1221,7 @@ export interface Surface extends Handle {
    * equal steps of the integral of A'(c) / L(c) dc. That integral is the height on a cylinder and the distance
    * from the pole on a sphere.
    *
+   * field: [vertexCount] of float or double.
    * spacing: HF_LEVELS_*.
    * levelCount: 1 to 1,000,000.
    *
@@ -1213,6 +1236,7 @@ export interface Surface extends Handle {
    * without a partner. The function leaves out lines of length zero. Seen from outside a consistently oriented
    * mesh, the field is higher on the left of a line.
    *
+   * field: [vertexCount] of float or double.
    * levels: [levelCount].
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -1226,6 +1250,7 @@ export interface Surface extends Handle {
    * can show an extremum away from its sites, because the default operator uses other edges than the mesh.
    * HF_OPERATOR_CLAMPED uses the edges of the mesh and avoids this.
    *
+   * field: [vertexCount] of float or double.
    * info: filled in when given
    *
    * Throws HF_ERROR_NON_FINITE.
@@ -1269,7 +1294,7 @@ export interface Surface extends Handle {
 }
 export interface SurfaceClass {
   new (positions?: Rows | null, triangles?: Rows | null,
-          options?: SurfaceExtras & { faceStarts?: Rows | null; faceSizes?: Rows | null; corners?: Rows | null; weld?: number; weldTolerance?: number; operatorKind?: number; fieldKind?: number; ordering?: number; threadCount?: number; vertexLimit?: number; triangleLimit?: number; memoryLimitMb?: number; workLimitGflop?: number; progress?: Progress | null; savedFactor?: FactorDescGiven | Rows | null; links?: LinksDescGiven | Rows | null }): Surface;
+          options?: SurfaceExtras & { weld?: number; faces?: FacesDescGiven | Rows | null; weldTolerance?: number; operatorKind?: number; fieldKind?: number; ordering?: number; threadCount?: number; vertexLimit?: number; triangleLimit?: number; memoryLimitMb?: number; workLimitGflop?: number; progress?: Progress | null; savedFactor?: FactorDescGiven | Rows | null; links?: LinksDescGiven | Rows | null }): Surface;
   /**
    * Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the
    * graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
@@ -1281,11 +1306,11 @@ export interface SurfaceClass {
    * the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-harmonic fields
    * limit weights to 1e3 times the median.
    *
-   * edges: [edgeCount x 2] vertices, in any order. The weights of parallel edges are added up. Self loops are
-   *     ignored
-   * weights: [edgeCount] any unit, up to 1e100 in size. An edge of weight 0 is left out
-   * masses: [vertexCount] M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; null: all 1. A mass below
-   *     1e-4 of the mean of its component counts as that
+   * edges: [edgeCount x 2] of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are
+   *     added up. Self loops are ignored
+   * weights: [edgeCount] of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left out
+   * masses: [vertexCount] of float or double: M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; null:
+   *     all 1. A mass below 1e-4 of the mean of its component counts as that
    * vertexCount: >= 1, also without masses
    * allowNegative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
    *     tetrahedra do. A field can then leave the range of its sites. 0: they are refused
@@ -1425,21 +1450,21 @@ export interface Solver extends Recorded {
    */
   setScreening(screening?: Rows | null, targets?: Rows | null): void;
   /**
-   * Solves for the field at every vertex of your mesh.
+   * Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their values
+   * exactly. The field is 0 on components without a site.
    *
-   * out: [vertexCount x channelCount]. Hard sites hold their values exactly. The field is 0 on components without
-   *     a site.
+   * out: [vertexCount x channelCount] of float or double.
    * info: filled in when given
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.
    */
   solve<T extends Floats = Float32Array>(out?: T | null, options?: { Type?: FloatsType }): T;
   /**
-   * Solves for the field at chosen vertices only, with the same bits as Solver.solve. The call reads only those
-   * columns of the factor on which these vertices depend (elimination paths), on the calling thread. One path is
-   * up to a sixth of the factor, but the paths of many vertices share most of their columns. The call costs a
-   * whole solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A
-   * vertex of a component without a site gets 0.
+   * Solves for the field at chosen vertices only, with the same bits as Solver.solve in double. The call reads
+   * only those columns of the factor on which these vertices depend (elimination paths), on the calling thread.
+   * One path is up to a sixth of the factor, but the paths of many vertices share most of their columns. The call
+   * costs a whole solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see
+   * hf_solver_rebase). A vertex of a component without a site gets 0.
    *
    * vertices: [vertexCount].
    *
@@ -1451,7 +1476,7 @@ export interface Solver extends Recorded {
    * 3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then
    * projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
    *
-   * out: [vertexCount x 3], not normalised.
+   * out: [vertexCount x 3] of float or double, not normalised.
    * normals: [vertexCount x 3], packed: the normals used.
    * info: filled in when given
    *
@@ -1473,7 +1498,8 @@ export interface Solver extends Recorded {
    * info.exact is then 1.
    *
    * correctionCount: 0 to 8.
-   * out: [vertexCount x channelCount], as Solver.solve.
+   * out: [vertexCount x channelCount] of float or double, as Solver.solve. Single precision rounds most
+   *     corrections away.
    * info: filled in when given
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.
@@ -1552,14 +1578,15 @@ export interface SolverClass {
 export interface Geodesics extends Handle {
   readonly vertexCount: number;
   /**
-   * Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+   * Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh. The
+   * distance is 0 at the sources, and -1 at vertices that no source can reach.
    *
    * sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
    *     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance
    *     of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The
    *     error of FRONT falls with the edge length. HEAT rounds the distance off at corners and where two shortest
    *     paths meet.
-   * out: [vertexCount]. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+   * out: [vertexCount] of float or double.
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
@@ -1665,7 +1692,7 @@ export interface Direction extends Recorded {
    * degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors;
    * vertices that no constraint reaches get 0.
    *
-   * out: [vertexCount x 3].
+   * out: [vertexCount x 3] of float or double.
    * info: filled in when given
    *
    * Throws HF_ERROR_EMPTY.
@@ -1812,11 +1839,11 @@ export interface Pose extends Recorded {
    * Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
    * reaches, the fields of all handles sum to 1.
    *
-   * out: [vertexCount].
+   * out: [vertexCount] of float or double.
    *
    * Throws HF_ERROR_NOT_FOUND.
    */
-  field(handle: number, out?: Float32Array | null): Float32Array;
+  field<T extends Floats = Float32Array>(handle: number, out?: T | null, options?: { Type?: FloatsType }): T;
   /**
    * Does the same as Pose.deform, with the options of a desc.
    *
@@ -1832,8 +1859,8 @@ export interface Pose extends Recorded {
    *     more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
    * firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
    * vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-   * out: [vertexCount x 3] posed positions, or null
-   * normals: [vertexCount x 3] unit normals of the posed surface, shared across seams, or null
+   * out: [vertexCount x 3] of float or double: posed positions
+   * normals: [vertexCount x 3] of float or double: unit normals of the posed surface, shared across seams
    * info: filled in when given
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
@@ -1974,6 +2001,7 @@ export interface Flow extends Handle {
    * HF_OPERATOR_CLAMPED the lines are denser where the field is steeper. Surface.traceIsolines gives the lines
    * that cross the streamlines.
    *
+   * field: [vertexCount] of float or double.
    * seeds: [seedCount] vertices as given
    * wantedCount: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
    *
@@ -1990,8 +2018,8 @@ export interface FlowClass {
  *
  * Creates a region without vertices.
  *
- * positions: [vertexCount x 3] the surface of weight 0, bit for bit: the positions of the mesh or any pose of
- *     them. null: the mesh's own to 1e-15 of the box. Copied
+ * positions: [vertexCount x 3] of float or double: the surface of weight 0, bit for bit, as the positions of the
+ *     mesh or any pose of them. null: the mesh's own to 1e-15 of the box. Copied
  * base: HF_BASE_*. If the surface has no factor for it yet, it is made now
  * progress: an object to poll and cancel through
  */
@@ -2041,10 +2069,10 @@ export interface Region extends Recorded {
    * solves nothing.
    *
    * weight: any finite number
-   * out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
-   * normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
+   * out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+   * normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
    *
-   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
+   * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
    */
   morph<T extends Floats = Float32Array>(weight?: number, out?: T | null,
           options?: { Type?: FloatsType; normals?: Float32Array | null }): T;
@@ -2079,10 +2107,10 @@ export interface Detail extends Handle {
    * as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
    *
    * weight: any finite number
-   * out: [vertexCount x 3] in the unit and frame of the mesh as given, or null
-   * normals: [vertexCount x 3] unit normals of the morphed surface, shared across seams, or null
+   * out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+   * normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
    *
-   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
+   * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
    */
   morph<T extends Floats = Float32Array>(weight?: number, out?: T | null,
           options?: { Type?: FloatsType; normals?: Float32Array | null }): T;
@@ -2202,10 +2230,10 @@ export interface SkeletonClass {
  *
  * Creates a transfer between two surfaces; both may be the same.
  *
- * sourceRest: [source.vertexCount x 3], or null Poses in which the two bodies correspond, in each surface's unit,
- *     read by the call, or null for the positions of the surface. A character bound in a crouch gets a standing
- *     pose here. Motion counts from these poses; the fields stay those of the surfaces.
- * targetRest: [target.vertexCount x 3], or null
+ * sourceRest: [source.vertexCount x 3] of float or double Poses in which the two bodies correspond, in each
+ *     surface's unit, read by the call, or null for the positions of the surface. A character bound in a crouch
+ *     gets a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+ * targetRest: [target.vertexCount x 3] of float or double
  * mode: HF_TRANSFER_*
  * clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
  * ground: HF_GROUND_*
@@ -2294,11 +2322,13 @@ export interface Transfer extends Handle {
    * lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
    * unchanged. All rules of the ground come in continuously. HF_GROUND_OFF switches them off.
    *
-   * sourcePositions: [source.vertexCount x 3] the posed source, its own vertex order
-   * holdPairs: [holdCount] each pair at most once
+   * sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
+   * holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a position of
+   *     yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices lands there; welded
+   *     copies count once. The rest of the surface follows.
    * holdPositions: [holdCount x 3] in the target's unit and frame
-   * out: [target.vertexCount x 3], or null
-   * targetNormals: [target.vertexCount x 3], or null
+   * out: [target.vertexCount x 3] of float or double
+   * targetNormals: [target.vertexCount x 3] of float or double
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_TOO_LARGE,
    * HF_ERROR_UNSUPPORTED.

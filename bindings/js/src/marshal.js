@@ -134,6 +134,10 @@ export class Struct {
     const at = offsets[this.width];
     if (value === null || value === undefined) return this;
     if (kind === 'ptr') this.pointers.push([at, value]);
+    else if (kind in layouts) {
+      this.bytes.set(value.bytes, at); // a struct inside this one
+      for (const [inside, target] of value.pointers) this.pointers.push([at + inside, target]);
+    }
     else if (kind === 'size') {
       scalar('size', value, shown);
       this.width ? this.view.setBigUint64(at, BigInt(value), true) : this.view.setUint32(at, value, true);

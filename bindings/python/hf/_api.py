@@ -639,28 +639,31 @@ def _links_desc(c: Call, prefix: str = '', *, joints: Optional[ArrayLike] = None
     return desc
 
 
+def _faces_desc(c: Call, prefix: str = '', *, corners: Optional[ArrayLike] = None, sizes: Optional[ArrayLike] = None,
+        starts: Optional[ArrayLike] = None) -> Any:
+    desc = c.struct(_raw.hf_faces_desc, {})
+    desc.corners = c.view('corners', corners, 'u4', ('corner_count',))
+    desc.sizes = c.view('sizes', sizes, 'u4', ('faces',))
+    desc.starts = c.view('starts', starts, 'u4', ('faces + 1',) if sizes is None else ('faces',))
+    return desc
+
+
 def _surface_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None,
-        triangles: Optional[ArrayLike] = None, face_starts: Optional[ArrayLike] = None,
-        face_sizes: Optional[ArrayLike] = None, corners: Optional[ArrayLike] = None, weld: int = Weld.EXACT,
-        weld_tolerance: float = 0.0, operator_kind: int = Operator.INTRINSIC_DELAUNAY,
-        field_kind: int = FieldKind.HARMONIC, ordering: int = Ordering.NESTED_DISSECTION, thread_count: int = 0,
-        vertex_limit: int = 0, triangle_limit: int = 0, memory_limit_mb: int = 0, work_limit_gflop: int = 0,
+        triangles: Optional[ArrayLike] = None, weld: int = Weld.EXACT, faces: Any = None, weld_tolerance: float = 0.0,
+        operator_kind: int = Operator.INTRINSIC_DELAUNAY, field_kind: int = FieldKind.HARMONIC,
+        ordering: int = Ordering.NESTED_DISSECTION, thread_count: int = 0, vertex_limit: int = 0,
+        triangle_limit: int = 0, memory_limit_mb: int = 0, work_limit_gflop: int = 0,
         progress: Optional[Progress] = None, saved_factor: Any = None, links: Any = None) -> Any:
     desc = c.struct(_raw.hf_surface_desc, {'weld': weld, 'weld_tolerance': weld_tolerance,
             'operator_kind': operator_kind, 'field_kind': field_kind, 'ordering': ordering,
             'thread_count': thread_count, 'vertex_limit': vertex_limit, 'triangle_limit': triangle_limit,
             'memory_limit_mb': memory_limit_mb, 'work_limit_gflop': work_limit_gflop})
-    c.rows(desc, 'positions', positions, 'f4 f8', (prefix + 'vertex_count', 3), 'position_stride')
-    c.rows(desc, 'triangles', triangles, 'u4 u2', (prefix + 'triangle_count', 3), 'triangle_stride')
-    c.rows(desc, 'face_starts', face_starts, 'u4',
-            (prefix + 'face_count + 1',) if face_sizes is None else (prefix + 'face_count',), 'face_stride')
-    c.rows(desc, 'face_sizes', face_sizes, 'u4', (prefix + 'face_count',), 'face_stride')
-    c.rows(desc, 'corners', corners, 'u4', (prefix + 'corner_count',), 'corner_stride')
+    desc.positions = c.view('positions', positions, 'f4 f8', ('vertex_count', 3))
+    desc.triangles = c.view('triangles', triangles, 'u4 u2', ('triangle_count', 3))
     desc.progress = handle_of(progress, Progress, 'progress')
+    desc.faces = c.inner(faces, 'corners', _faces_desc, 'faces.')
     desc.saved_factor = c.inner(saved_factor, 'bytes', _factor_desc, 'saved_factor.')
     desc.links = c.inner(links, 'joints', _links_desc, 'links.')
-    c.counts(desc, vertex_count=(prefix + 'vertex_count', 1), triangle_count=(prefix + 'triangle_count', 0),
-            face_count=(prefix + 'face_count', 0), corner_count=(prefix + 'corner_count', 0))
     return desc
 
 
@@ -673,24 +676,17 @@ def _graph_desc(c: Call, prefix: str = '', *, edges: Optional[ArrayLike] = None,
             'field_kind': field_kind, 'ordering': ordering, 'thread_count': thread_count, 'vertex_limit': vertex_limit,
             'edge_limit': edge_limit, 'memory_limit_mb': memory_limit_mb, 'work_limit_gflop': work_limit_gflop})
     c.known('vertex_count', vertex_count)
-    c.rows(desc, 'edges', edges, 'u4', (prefix + 'edge_count', 2))
-    c.rows(desc, 'weights', weights, 'f8', (prefix + 'edge_count',))
-    c.rows(desc, 'masses', masses, 'f8', ('vertex_count',))
+    desc.edges = c.view('edges', edges, 'u4 u2', ('edge_count', 2))
+    desc.weights = c.view('weights', weights, 'f4 f8', ('edge_count',))
+    desc.masses = c.view('masses', masses, 'f4 f8', ('vertex_count',))
     desc.progress = handle_of(progress, Progress, 'progress')
     desc.saved_factor = c.inner(saved_factor, 'bytes', _factor_desc, 'saved_factor.')
-    c.counts(desc, edge_count=(prefix + 'edge_count', 1))
-    return desc
-
-
-def _gaps_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None) -> Any:
-    desc = c.struct(_raw.hf_gaps_desc, {})
-    c.rows(desc, 'positions', positions, 'f4 f8', ('vertex_count', 3), 'position_stride')
     return desc
 
 
 def _pick_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None, front_only: bool = False) -> Any:
     desc = c.struct(_raw.hf_pick_desc, {'front_only': front_only})
-    c.rows(desc, 'positions', positions, 'f4 f8', ('vertex_count', 3), 'position_stride')
+    desc.positions = c.view('positions', positions, 'f4 f8', ('vertex_count', 3))
     return desc
 
 
@@ -822,7 +818,7 @@ def _quads_desc(c: Call, prefix: str = '', *, crease_edges: Optional[ArrayLike] 
 def _region_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None, base: int = Base.DEFAULT,
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_region_desc, {'base': base})
-    c.rows(desc, 'positions', positions, 'f4 f8', ('vertex_count', 3), 'position_stride')
+    desc.positions = c.view('positions', positions, 'f4 f8', ('vertex_count', 3))
     desc.progress = handle_of(progress, Progress, 'progress')
     return desc
 
@@ -918,8 +914,8 @@ def _transfer_desc(c: Call, prefix: str = '', *, source_rest: Optional[ArrayLike
         source_axes: Optional[ArrayLike] = None, target_axes: Optional[ArrayLike] = None) -> Any:
     desc = c.struct(_raw.hf_transfer_desc, {'mode': mode, 'cluster_count': cluster_count, 'ground': ground,
             'kernel_width': kernel_width, 'scale': scale, 'alignment_angle': alignment_angle})
-    c.rows(desc, 'source_rest', source_rest, 'f4', ('source.vertex_count', 3))
-    c.rows(desc, 'target_rest', target_rest, 'f4', ('target.vertex_count', 3))
+    desc.source_rest = c.view('source_rest', source_rest, 'f4 f8', ('source.vertex_count', 3))
+    desc.target_rest = c.view('target_rest', target_rest, 'f4 f8', ('target.vertex_count', 3))
     c.fixed(desc, 'source_axes', source_axes)
     c.fixed(desc, 'target_axes', target_axes)
     return desc
@@ -947,7 +943,7 @@ def _transfer_dials(c: Call, prefix: str = '', *, stride: float = 0.0, hip_heigh
 def _transfer_frame(c: Call, prefix: str = '', *, source_positions: Optional[ArrayLike] = None,
         hold_pairs: Optional[ArrayLike] = None, hold_positions: Optional[ArrayLike] = None) -> Any:
     desc = c.struct(_raw.hf_transfer_frame, {})
-    c.rows(desc, 'source_positions', source_positions, 'f4 f8', ('source.vertex_count', 3), 'source_stride')
+    desc.source_positions = c.view('source_positions', source_positions, 'f4 f8', ('source.vertex_count', 3))
     c.rows(desc, 'hold_pairs', hold_pairs, 'u4', (prefix + 'hold_count',))
     c.rows(desc, 'hold_positions', hold_positions, 'f8', (prefix + 'hold_count', 3))
     c.counts(desc, hold_count=(prefix + 'hold_count', 0))
@@ -1063,13 +1059,10 @@ class Surface(Object):
     cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
     second side alone get opposite normals from poses, and a ray with front_only hits both sides.
 
-    positions: (vertex_count, 3), any unit, any offset
-    triangles: (triangle_count, 3), counter-clockwise seen from outside
-    face_starts: (face_count,) first corner of each face. None: the faces follow one another. Without face_sizes
-        (face_count + 1,): the corners of face f end where those of f + 1 start
-    face_sizes: (face_count,) corners of each face, 3 to 65,535. None: face_starts is enough
-    corners: (corner_count,) vertices, counter-clockwise seen from outside
+    positions: (vertex_count, 3) of float or double, any unit, any offset
+    triangles: (triangle_count, 3) of uint32_t or uint16_t, counter-clockwise seen from outside
     weld: Weld
+    faces: faces instead of triangles
     weld_tolerance: for Weld.TOLERANCE, in the unit of the positions, > 0
     operator_kind: Operator
     field_kind: FieldKind: the factor made now. Others are made when a solver or region asks
@@ -1096,18 +1089,17 @@ class Surface(Object):
         return self._n.get('vertex_count', 0)
 
     def __init__(self, positions: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None, *,
-            face_starts: Optional[ArrayLike] = None, face_sizes: Optional[ArrayLike] = None,
-            corners: Optional[ArrayLike] = None, weld: int = Weld.EXACT, weld_tolerance: float = 0.0,
+            weld: int = Weld.EXACT, faces: Any = None, weld_tolerance: float = 0.0,
             operator_kind: int = Operator.INTRINSIC_DELAUNAY, field_kind: int = FieldKind.HARMONIC,
             ordering: int = Ordering.NESTED_DISSECTION, thread_count: int = 0, vertex_limit: int = 0,
             triangle_limit: int = 0, memory_limit_mb: int = 0, work_limit_gflop: int = 0,
             progress: Optional[Progress] = None, saved_factor: Any = None, links: Any = None) -> None:
         c = Call()
-        desc = _surface_desc(c, positions=positions, triangles=triangles, face_starts=face_starts,
-                face_sizes=face_sizes, corners=corners, weld=weld, weld_tolerance=weld_tolerance,
-                operator_kind=operator_kind, field_kind=field_kind, ordering=ordering, thread_count=thread_count,
-                vertex_limit=vertex_limit, triangle_limit=triangle_limit, memory_limit_mb=memory_limit_mb,
-                work_limit_gflop=work_limit_gflop, progress=progress, saved_factor=saved_factor, links=links)
+        desc = _surface_desc(c, positions=positions, triangles=triangles, weld=weld, faces=faces,
+                weld_tolerance=weld_tolerance, operator_kind=operator_kind, field_kind=field_kind, ordering=ordering,
+                thread_count=thread_count, vertex_limit=vertex_limit, triangle_limit=triangle_limit,
+                memory_limit_mb=memory_limit_mb, work_limit_gflop=work_limit_gflop, progress=progress,
+                saved_factor=saved_factor, links=links)
         self._own('hf_surface_create', c, ref(desc))
 
     @classmethod
@@ -1126,11 +1118,11 @@ class Surface(Object):
         the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-harmonic fields
         limit weights to 1e3 times the median.
 
-        edges: (edge_count, 2) vertices, in any order. The weights of parallel edges are added up. Self loops are
-            ignored
-        weights: (edge_count,) any unit, up to 1e100 in size. An edge of weight 0 is left out
-        masses: (vertex_count,) M of FieldKind.BIHARMONIC, any unit, above 0 and up to 1e100; None: all 1. A mass
-            below 1e-4 of the mean of its component counts as that
+        edges: (edge_count, 2) of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are
+            added up. Self loops are ignored
+        weights: (edge_count,) of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left out
+        masses: (vertex_count,) of float or double: M of FieldKind.BIHARMONIC, any unit, above 0 and up to 1e100;
+            None: all 1. A mass below 1e-4 of the mean of its component counts as that
         vertex_count: >= 1, also without masses
         allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
             tetrahedra do. A field can then leave the range of its sites. 0: they are refused
@@ -1217,22 +1209,23 @@ class Surface(Object):
         found['light'] = found['light'] != 0
         return found['pieces'], found['light']
 
-    def measure_gaps(self, positions: Optional[ArrayLike] = None, *, info: Optional[GapsInfo] = None) -> np.ndarray:
+    def measure_gaps(self, positions: ArrayLike, *, info: Optional[GapsInfo] = None) -> np.ndarray:
         """Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
         ends are apart than at rest, and 0 if they are nearer.
 
-        positions: (vertex_count, 3): of a pose, a frame of a transfer, or any other deformation
+        positions: (vertex_count, 3) of float or double: those of a pose, a frame of a transfer, or any other
+            deformation.
         info: filled in when given
 
         Raises NonFiniteError, TooLargeError.
         """
         c = Call(self)
-        desc = _gaps_desc(c, positions=positions)
+        positions_ = c.view('positions', positions, 'f4 f8', ('vertex_count', 3))
         info = info or c.struct(_raw.hf_gaps_info, {})
 
         def run(room: Any, made: Any) -> None:
-            call('hf_surface_measure_gaps', self._handle, ref(desc), room['capacity'], address(made['gaps']),
-                    c.info(info, _raw.hf_gaps_info))
+            call('hf_surface_measure_gaps', self._handle, None if positions is None else ref(positions_),
+                    room['capacity'], address(made['gaps']), c.info(info, _raw.hf_gaps_info))
 
         found = c.grow(self, 'hf_surface_measure_gaps', run, lambda: {'capacity': info.link_count}, {'capacity': None},
                 {'gaps': (np.float64, ('capacity',))})
@@ -1305,7 +1298,8 @@ class Surface(Object):
 
         origin: (3,) in the frame of the positions; the direction can have any length above 0.
         direction: (3,) in the frame of the positions; the direction can have any length above 0.
-        positions: (vertex_count, 3) posed positions (Pose.deform writes them), or None
+        positions: (vertex_count, 3) of float or double: posed positions (Pose.deform writes them). None: the rest
+            positions
         front_only: 1: a ray passes triangles seen from behind
 
         Raises InvalidArgumentError, NonFiniteError.
@@ -1323,7 +1317,8 @@ class Surface(Object):
         """Finds the vertex nearest to a point.
 
         point: (3,) in the frame of the positions.
-        positions: (vertex_count, 3) posed positions (Pose.deform writes them), or None
+        positions: (vertex_count, 3) of float or double: posed positions (Pose.deform writes them). None: the rest
+            positions
         front_only: 1: a ray passes triangles seen from behind
 
         Raises NonFiniteError, TooLargeError.
@@ -1346,16 +1341,16 @@ class Surface(Object):
         steps of the integral of A'(c) / L(c) dc. That integral is the height on a cylinder and the distance from the
         pole on a sphere.
 
+        field: (vertex_count,) of float or double.
         spacing: Levels.
         level_count: 1 to 1,000,000.
 
         Raises EmptyError, InvalidArgumentError, NonFiniteError.
         """
         c = Call(self)
-        field_ = c.struct(_raw.hf_scalars, {})
-        c.rows(field_, 'values', field, 'f4 f8', ('vertex_count',), 'value_stride', name='field')
+        field_ = c.view('field', field, 'f4 f8', ('vertex_count',))
         c.known('level_count', level_count)
-        levels, _ = c.out(None, 'f8', ('level_count',))
+        levels = c.out(None, 'f8', ('level_count',), packed=True)
         call('hf_surface_space_levels', self._handle, None if field is None else ref(field_), number(spacing, 'spacing',
                 ctypes.c_int32, flag=False), number(level_count, 'level_count', ctypes.c_uint32), address(levels))
         return levels
@@ -1368,13 +1363,13 @@ class Surface(Object):
         without a partner. The function leaves out lines of length zero. Seen from outside a consistently oriented
         mesh, the field is higher on the left of a line.
 
+        field: (vertex_count,) of float or double.
         levels: (level_count,).
 
         Raises NonFiniteError, TooLargeError.
         """
         c = Call(self)
-        field_ = c.struct(_raw.hf_scalars, {})
-        c.rows(field_, 'values', field, 'f4 f8', ('vertex_count',), 'value_stride', name='field')
+        field_ = c.view('field', field, 'f4 f8', ('vertex_count',))
         levels_ = c.array('levels', levels, 'f8', ('level_count',))
         lines = c.struct(_raw.hf_isolines, {})
 
@@ -1398,13 +1393,13 @@ class Surface(Object):
         can show an extremum away from its sites, because the default operator uses other edges than the mesh.
         Operator.CLAMPED uses the edges of the mesh and avoids this.
 
+        field: (vertex_count,) of float or double.
         info: filled in when given
 
         Raises NonFiniteError.
         """
         c = Call(self)
-        field_ = c.struct(_raw.hf_scalars, {})
-        c.rows(field_, 'values', field, 'f4 f8', ('vertex_count',), 'value_stride', name='field')
+        field_ = c.view('field', field, 'f4 f8', ('vertex_count',))
         info = info or c.struct(_raw.hf_critical_info, {})
 
         def run(room: Any, made: Any) -> None:
@@ -1436,8 +1431,8 @@ class Surface(Object):
         desc = _extremities_desc(c, kind=kind, least_length_share=least_length_share, source_count=source_count,
                 geodesics=geodesics, progress=progress)
         if field is not None:
-            field, _ = c.out(field, 'f8', ('vertex_count',), name='field')
-            setattr(desc, 'out_field', address(field))
+            field = c.out(field, 'f8', ('vertex_count',), name='field', packed=True)
+            desc.out_field = address(field)
         count = ctypes.c_uint32()
 
         def run(room: Any, made: Any) -> None:
@@ -1554,7 +1549,7 @@ class Solver(Recorded):
         c = Call(self)
         desc = _sites_desc(c, vertices=vertices, values=values, triangles=triangles, barycentrics=barycentrics,
                 stiffness=stiffness, radii=radii, corners=corners)
-        sites, _ = c.out(None, 'u4', ('site_count',))
+        sites = c.out(None, 'u4', ('site_count',), packed=True)
         call('hf_add_sites', self._handle, ref(desc), address(sites))
         return sites
 
@@ -1639,7 +1634,7 @@ class Solver(Recorded):
         c = Call(self)
         desc = _edit_desc(c, remove_sites=remove_sites, move_sites=move_sites, set_sites=set_sites,
                 set_values=set_values, move_to=move_to, add=add)
-        sites, _ = c.out(None, 'u4', ('add.site_count',))
+        sites = c.out(None, 'u4', ('add.site_count',), packed=True)
         call('hf_solver_edit_sites', self._handle, ref(desc), address(sites))
         return sites
 
@@ -1683,26 +1678,26 @@ class Solver(Recorded):
 
     def solve(self, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
             info: Optional[SolveInfo] = None) -> np.ndarray:
-        """Solves for the field at every vertex of your mesh.
+        """Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their values
+        exactly. The field is 0 on components without a site.
 
-        out: (vertex_count, channel_count). Hard sites hold their values exactly. The field is 0 on components without
-            a site.
+        out: (vertex_count, channel_count) of float or double.
         info: filled in when given
 
         Raises EmptyError, TooLargeError.
         """
         c = Call(self)
-        out, stride = c.out(out, 'f4 f8', ('vertex_count', 'channel_count'), dtype)
-        call('hf_solver_solve_f64' if out.dtype == np.float64 else 'hf_solve', self._handle, address(out), stride,
-                c.info(info, _raw.hf_solve_info))
+        out = c.out(out, 'f4 f8', ('vertex_count', 'channel_count'), dtype)
+        out_view = c.view_out(out, ('vertex_count', 'channel_count'))
+        call('hf_solver_solve', self._handle, ref(out_view), c.info(info, _raw.hf_solve_info))
         return out
 
     def solve_at(self, vertices: ArrayLike) -> np.ndarray:
-        """Solves for the field at chosen vertices only, with the same bits as Solver.solve. The call reads only those
-        columns of the factor on which these vertices depend (elimination paths), on the calling thread. One path is
-        up to a sixth of the factor, but the paths of many vertices share most of their columns. The call costs a
-        whole solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A
-        vertex of a component without a site gets 0.
+        """Solves for the field at chosen vertices only, with the same bits as Solver.solve in double. The call reads
+        only those columns of the factor on which these vertices depend (elimination paths), on the calling thread.
+        One path is up to a sixth of the factor, but the paths of many vertices share most of their columns. The call
+        costs a whole solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see
+        hf_solver_rebase). A vertex of a component without a site gets 0.
 
         vertices: (vertex_count,).
 
@@ -1711,7 +1706,7 @@ class Solver(Recorded):
         c = Call(self)
         c.n.pop('vertex_count', None)  # of the list given here
         vertices_ = c.array('vertices', vertices, 'u4', ('vertex_count',))
-        values, _ = c.out(None, 'f8', ('vertex_count', 'channel_count'))
+        values = c.out(None, 'f8', ('vertex_count', 'channel_count'), packed=True)
         call('hf_solver_solve_at', self._handle, c.n.setdefault('vertex_count', 1), vertices_, address(values))
         return values
 
@@ -1721,18 +1716,18 @@ class Solver(Recorded):
         3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then
         projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
 
-        out: (vertex_count, 3), not normalised.
+        out: (vertex_count, 3) of float or double, not normalised.
         normals: (vertex_count, 3), packed: the normals used.
         info: filled in when given
 
         Raises EmptyError, InvalidArgumentError, TooLargeError.
         """
         c = Call(self)
-        out, stride = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        out = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        out_view = c.view_out(out, ('vertex_count', 3))
         if normals is not None:
-            normals, _ = c.out(normals, 'f8', ('vertex_count', 3), name='normals')
-        call('hf_solver_solve_vectors_f64' if out.dtype == np.float64 else 'hf_solver_solve_vectors', self._handle,
-                address(out), stride, address(normals), c.info(info, _raw.hf_solve_info))
+            normals = c.out(normals, 'f8', ('vertex_count', 3), name='normals', packed=True)
+        call('hf_solver_solve_vectors', self._handle, ref(out_view), address(normals), c.info(info, _raw.hf_solve_info))
         return out
 
     def solve_preview(self, correction_count: int = 0, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
@@ -1750,16 +1745,17 @@ class Solver(Recorded):
         info.exact is then 1.
 
         correction_count: 0 to 8.
-        out: (vertex_count, channel_count), as Solver.solve.
+        out: (vertex_count, channel_count) of float or double, as Solver.solve. Single precision rounds most
+            corrections away.
         info: filled in when given
 
         Raises EmptyError, InvalidArgumentError.
         """
         c = Call(self)
-        out, stride = c.out(out, 'f4 f8', ('vertex_count', 'channel_count'), dtype)
-        call('hf_solver_solve_preview_f64' if out.dtype == np.float64 else 'hf_solver_solve_preview', self._handle,
-                address(out), stride, number(correction_count, 'correction_count', ctypes.c_uint32), c.info(info,
-                _raw.hf_preview_info))
+        out = c.out(out, 'f4 f8', ('vertex_count', 'channel_count'), dtype)
+        out_view = c.view_out(out, ('vertex_count', 'channel_count'))
+        call('hf_solver_solve_preview', self._handle, ref(out_view), number(correction_count, 'correction_count',
+                ctypes.c_uint32), c.info(info, _raw.hf_preview_info))
         return out
 
     def release_preview(self) -> None:
@@ -1859,22 +1855,23 @@ class Geodesics(Object):
         self._own('hf_geodesics_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
 
     def solve(self, sources: ArrayLike, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32) -> np.ndarray:
-        """Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+        """Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh. The
+        distance is 0 at the sources, and -1 at vertices that no source can reach.
 
         sources: (source_count,) vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
             links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance
             of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The
             error of FRONT falls with the edge length. HEAT rounds the distance off at corners and where two shortest
             paths meet.
-        out: (vertex_count,). The distance is 0 at the sources, and -1 at vertices that no source can reach.
+        out: (vertex_count,) of float or double.
 
         Raises CancelledError, InvalidArgumentError, OutOfRangeError, TooLargeError.
         """
         c = Call(self)
         sources_ = c.array('sources', sources, 'u4', ('source_count',))
-        out, stride = c.out(out, 'f4 f8', ('vertex_count',), dtype)
-        call('hf_geodesics_solve_f64' if out.dtype == np.float64 else 'hf_geodesics_solve', self._handle,
-                c.n.setdefault('source_count', 1), sources_, address(out), stride)
+        out = c.out(out, 'f4 f8', ('vertex_count',), dtype)
+        out_view = c.view_out(out, ('vertex_count',))
+        call('hf_geodesics_solve', self._handle, c.n.setdefault('source_count', 1), sources_, ref(out_view))
         return out
 
     def find_path(self, from_: Place, to: Place) -> Path:
@@ -1907,8 +1904,8 @@ class Geodesics(Object):
         Raises CancelledError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, TooSmallError.
         """
         c = Call(self)
-        map, _ = c.out(None, 'f8', ('vertex_count', 2))
-        frame, _ = c.out(None, 'f8', (6,))
+        map = c.out(None, 'f8', ('vertex_count', 2), packed=True)
+        frame = c.out(None, 'f8', (6,), packed=True)
         call('hf_geodesics_get_map', self._handle, ref(place(_raw.hf_surface_point, centre)), number(radius, 'radius',
                 ctypes.c_double), address(map), address(frame))
         return map, frame
@@ -1963,7 +1960,7 @@ class Direction(Recorded):
         c = Call(self)
         vertices_ = c.array('vertices', vertices, 'u4', ('site_count',))
         vectors_ = c.array('vectors', vectors, 'f8', ('site_count', 3))
-        sites, _ = c.out(None, 'u4', ('site_count',))
+        sites = c.out(None, 'u4', ('site_count',), packed=True)
         call('hf_direction_add_sites', self._handle, c.n.setdefault('site_count', 1), vertices_, vectors_,
                 address(sites))
         return sites
@@ -2044,15 +2041,15 @@ class Direction(Recorded):
         degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors;
         vertices that no constraint reaches get 0.
 
-        out: (vertex_count, 3).
+        out: (vertex_count, 3) of float or double.
         info: filled in when given
 
         Raises EmptyError.
         """
         c = Call(self)
-        out, stride = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
-        call('hf_direction_solve_f64' if out.dtype == np.float64 else 'hf_direction_solve', self._handle, address(out),
-                stride, c.info(info, _raw.hf_solve_info))
+        out = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        out_view = c.view_out(out, ('vertex_count', 3))
+        call('hf_direction_solve', self._handle, ref(out_view), c.info(info, _raw.hf_solve_info))
         return out
 
     def singularities(self) -> np.ndarray:
@@ -2150,7 +2147,7 @@ class Pose(Recorded):
         c = Call(self)
         desc = _handles_desc(c, region_vertices=region_vertices, points=points, radii=radii, layer=layer,
                 in_place=in_place, free_rotation=free_rotation, progress=progress)
-        handles, _ = c.out(None, 'u4', ('handle_count',))
+        handles = c.out(None, 'u4', ('handle_count',), packed=True)
         call('hf_pose_add_handles', self._handle, ref(desc), address(handles))
         return handles
 
@@ -2268,17 +2265,18 @@ class Pose(Recorded):
         """Returns the number of handles, or 0 for an invalid object."""
         return library().hf_pose_get_handle_count(self._handle)
 
-    def field(self, handle: int, out: Optional[np.ndarray] = None) -> np.ndarray:
+    def field(self, handle: int, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32) -> np.ndarray:
         """Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
         reaches, the fields of all handles sum to 1.
 
-        out: (vertex_count,).
+        out: (vertex_count,) of float or double.
 
         Raises NotFoundError.
         """
         c = Call(self)
-        out, stride = c.out(out, 'f4', ('vertex_count',))
-        call('hf_pose_get_field', self._handle, number(handle, 'handle', ctypes.c_uint32), address(out), stride)
+        out = c.out(out, 'f4 f8', ('vertex_count',), dtype)
+        out_view = c.view_out(out, ('vertex_count',))
+        call('hf_pose_get_field', self._handle, number(handle, 'handle', ctypes.c_uint32), ref(out_view))
         return out
 
     def deform(self, out: Optional[np.ndarray] = None, *, iteration_count: int = 0, restart: bool = False,
@@ -2299,8 +2297,8 @@ class Pose(Recorded):
             1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
         first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         vertex_count: positions of a range cost only the range, without higher layers, refine and normals
-        out: (vertex_count, 3) posed positions, or None
-        normals: (vertex_count, 3) unit normals of the posed surface, shared across seams, or None
+        out: (vertex_count, 3) of float or double: posed positions
+        normals: (vertex_count, 3) of float or double: unit normals of the posed surface, shared across seams
         info: filled in when given
 
         Raises EmptyError, InvalidArgumentError, OutOfRangeError, TooLargeError.
@@ -2308,11 +2306,11 @@ class Pose(Recorded):
         c = Call(self)
         desc = _deform_desc(c, iteration_count=iteration_count, restart=restart, refine=refine,
                 refine_from_last=refine_from_last, first_vertex=first_vertex, vertex_count=vertex_count)
-        out, desc.position_stride = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
-        setattr(desc, 'positions_f64' if out.dtype == np.float64 else 'positions', address(out))
+        out = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        desc.positions = c.view_out(out, ('vertex_count', 3))
         if normals is not None:
-            normals, desc.normal_stride = c.out(normals, 'f4', ('vertex_count', 3), name='normals')
-            setattr(desc, 'normals', address(normals))
+            normals = c.out(normals, 'f4 f8', ('vertex_count', 3), name='normals')
+            desc.normals = c.view_out(normals, ('vertex_count', 3))
         call('hf_pose_deform', self._handle, ref(desc), c.info(info, _raw.hf_deform_info))
         return out
 
@@ -2512,14 +2510,14 @@ class Flow(Object):
         Operator.CLAMPED the lines are denser where the field is steeper. Surface.trace_isolines gives the lines that
         cross the streamlines.
 
+        field: (vertex_count,) of float or double.
         seeds: (seed_count,) vertices as given
         wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
 
         Raises InvalidArgumentError, NonFiniteError, OutOfRangeError.
         """
         c = Call(self)
-        field_ = c.struct(_raw.hf_scalars, {})
-        c.rows(field_, 'values', field, 'f4 f8', ('vertex_count',), 'value_stride', name='field')
+        field_ = c.view('field', field, 'f4 f8', ('vertex_count',))
         lines = c.struct(_raw.hf_streamlines, {'wanted_count': wanted_count})
         c.rows(lines, 'seeds', seeds, 'u4', ('seed_count',))
         c.counts(lines, seed_count=('seed_count', 0))
@@ -2540,8 +2538,8 @@ class Region(Recorded):
 
     Creates a region without vertices.
 
-    positions: (vertex_count, 3) the surface of weight 0, bit for bit: the positions of the mesh or any pose of them.
-        None: the mesh's own to 1e-15 of the box. Copied
+    positions: (vertex_count, 3) of float or double: the surface of weight 0, bit for bit, as the positions of the
+        mesh or any pose of them. None: the mesh's own to 1e-15 of the box. Copied
     base: Base. If the surface has no factor for it yet, it is made now
     progress: an object to poll and cancel through
     """
@@ -2639,18 +2637,18 @@ class Region(Recorded):
         solves nothing.
 
         weight: any finite number
-        out: (vertex_count, 3) in the unit and frame of the mesh as given, or None
-        normals: (vertex_count, 3) unit normals of the morphed surface, shared across seams, or None
+        out: (vertex_count, 3) of float or double, in the unit and frame of the mesh as given
+        normals: (vertex_count, 3) of float or double: unit normals of the morphed surface, shared across seams
 
-        Raises InvalidArgumentError, NonFiniteError, TooLargeError.
+        Raises NonFiniteError, TooLargeError.
         """
         c = Call(self)
         desc = _morph_desc(c, weight=weight)
-        out, desc.position_stride = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
-        setattr(desc, 'positions_f64' if out.dtype == np.float64 else 'positions', address(out))
+        out = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        desc.positions = c.view_out(out, ('vertex_count', 3))
         if normals is not None:
-            normals, desc.normal_stride = c.out(normals, 'f4', ('vertex_count', 3), name='normals')
-            setattr(desc, 'normals', address(normals))
+            normals = c.out(normals, 'f4 f8', ('vertex_count', 3), name='normals')
+            desc.normals = c.view_out(normals, ('vertex_count', 3))
         call('hf_region_morph', self._handle, ref(desc))
         return out
 
@@ -2698,18 +2696,18 @@ class Detail(Object):
         as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
 
         weight: any finite number
-        out: (vertex_count, 3) in the unit and frame of the mesh as given, or None
-        normals: (vertex_count, 3) unit normals of the morphed surface, shared across seams, or None
+        out: (vertex_count, 3) of float or double, in the unit and frame of the mesh as given
+        normals: (vertex_count, 3) of float or double: unit normals of the morphed surface, shared across seams
 
-        Raises InvalidArgumentError, NonFiniteError, TooLargeError.
+        Raises NonFiniteError, TooLargeError.
         """
         c = Call(self)
         desc = _morph_desc(c, weight=weight)
-        out, desc.position_stride = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
-        setattr(desc, 'positions_f64' if out.dtype == np.float64 else 'positions', address(out))
+        out = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
+        desc.positions = c.view_out(out, ('vertex_count', 3))
         if normals is not None:
-            normals, desc.normal_stride = c.out(normals, 'f4', ('vertex_count', 3), name='normals')
-            setattr(desc, 'normals', address(normals))
+            normals = c.out(normals, 'f4 f8', ('vertex_count', 3), name='normals')
+            desc.normals = c.view_out(normals, ('vertex_count', 3))
         call('hf_detail_morph', self._handle, ref(desc))
         return out
 
@@ -2769,7 +2767,7 @@ class Retarget(Recorded):
         """
         c = Call(self)
         source_pose_ = c.array('source_pose', source_pose, 'f4', ('source.joint_count', 10))
-        target_pose, _ = c.out(None, 'f4', ('target.joint_count', 10))
+        target_pose = c.out(None, 'f4', ('target.joint_count', 10), packed=True)
         call('hf_retarget_solve', self._handle, source_pose_, number(seconds, 'seconds', ctypes.c_double),
                 address(target_pose))
         return target_pose
@@ -2853,7 +2851,7 @@ class Skeleton(Object):
         """
         c = Call(self)
         poses_ = c.array('poses', poses, 'f4', ('frame_count', 'joint_count', 10))
-        velocity, _ = c.out(None, 'f8', (3,))
+        velocity = c.out(None, 'f8', (3,), packed=True)
         call('hf_skeleton_get_ground_velocity', self._handle, c.n.setdefault('frame_count', 1), poses_, number(seconds,
                 'seconds', ctypes.c_double), address(velocity))
         return velocity
@@ -2936,10 +2934,10 @@ class Transfer(Object):
 
     Creates a transfer between two surfaces; both may be the same.
 
-    source_rest: (source.vertex_count, 3), or None Poses in which the two bodies correspond, in each surface's unit,
-        read by the call, or None for the positions of the surface. A character bound in a crouch gets a standing pose
-        here. Motion counts from these poses; the fields stay those of the surfaces.
-    target_rest: (target.vertex_count, 3), or None
+    source_rest: (source.vertex_count, 3) of float or double Poses in which the two bodies correspond, in each
+        surface's unit, read by the call, or None for the positions of the surface. A character bound in a crouch gets
+        a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+    target_rest: (target.vertex_count, 3) of float or double
     mode: TransferMode
     cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
     ground: Ground
@@ -2989,7 +2987,7 @@ class Transfer(Object):
         c = Call(self)
         desc = _pairs_desc(c, source_vertices=source_vertices, target_vertices=target_vertices, flags=flags,
                 progress=progress)
-        pairs, _ = c.out(None, 'u4', ('pair_count',))
+        pairs = c.out(None, 'u4', ('pair_count',), packed=True)
         call('hf_transfer_add_pairs', self._handle, ref(desc), address(pairs))
         return pairs
 
@@ -3078,23 +3076,24 @@ class Transfer(Object):
         lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
         unchanged. All rules of the ground come in continuously. Ground.OFF switches them off.
 
-        source_positions: (source.vertex_count, 3) the posed source, its own vertex order
-        hold_pairs: (hold_count,) each pair at most once
+        source_positions: (source.vertex_count, 3) of float or double: the posed source, its own vertex order
+        hold_pairs: (hold_count,) each pair at most once A hold puts the target region of a pair exactly at a position
+            of yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices lands there;
+            welded copies count once. The rest of the surface follows.
         hold_positions: (hold_count, 3) in the target's unit and frame
-        out: (target.vertex_count, 3), or None
-        target_normals: (target.vertex_count, 3), or None
+        out: (target.vertex_count, 3) of float or double
+        target_normals: (target.vertex_count, 3) of float or double
 
         Raises EmptyError, InvalidArgumentError, NonFiniteError, NotFoundError, TooLargeError, UnsupportedError.
         """
         c = Call(self)
         desc = _transfer_frame(c, source_positions=source_positions, hold_pairs=hold_pairs,
                 hold_positions=hold_positions)
-        out, desc.target_stride = c.out(out, 'f4 f8', ('target.vertex_count', 3), dtype)
-        setattr(desc, 'target_positions_f64' if out.dtype == np.float64 else 'target_positions', address(out))
+        out = c.out(out, 'f4 f8', ('target.vertex_count', 3), dtype)
+        desc.target_positions = c.view_out(out, ('target.vertex_count', 3))
         if target_normals is not None:
-            target_normals, desc.normal_stride = c.out(target_normals, 'f4', ('target.vertex_count', 3),
-                    name='target_normals')
-            setattr(desc, 'target_normals', address(target_normals))
+            target_normals = c.out(target_normals, 'f4 f8', ('target.vertex_count', 3), name='target_normals')
+            desc.target_normals = c.view_out(target_normals, ('target.vertex_count', 3))
         call('hf_transfer_apply', self._handle, ref(desc))
         return out
 
@@ -3104,7 +3103,7 @@ class Transfer(Object):
         Raises EmptyError.
         """
         c = Call(self)
-        sinking, _ = c.out(None, 'u1', ('target.vertex_count',))
+        sinking = c.out(None, 'u1', ('target.vertex_count',), packed=True)
         call('hf_transfer_get_sinking', self._handle, address(sinking))
         return sinking != 0
 
@@ -3377,8 +3376,8 @@ class Weights(Recorded):
                 weights=weights, to=to, distance=distance, angle=angle, influence_count=influence_count,
                 progress=progress)
         weights_ = c.struct(_raw.hf_weights_out, {})
-        partners_, _ = c.out(None, 'u4', ('joint_count',))
-        pairings, _ = c.out(None, 'u4', ('joint_count',))
+        partners_ = c.out(None, 'u4', ('joint_count',), packed=True)
+        pairings = c.out(None, 'u4', ('joint_count',), packed=True)
 
         def run(room: Any, made: Any) -> None:
             c.into(weights_, room, made)

@@ -12,17 +12,17 @@ from ._library import ArrayLike, converted, library, numbers
 
 
 def _faces(faces: Any) -> Dict[str, Any]:
-    """(m, k) corners, (offsets, corners) or (starts, sizes, corners) as the arguments of Surface."""
+    """(m, k) corners, (offsets, corners) or (starts, sizes, corners) as the fields of hf_faces_desc."""
     if not isinstance(faces, tuple):
         around = numbers(faces, "faces")
         if around.ndim != 2 or around.shape[1] < 3:
             raise InvalidArgumentError(f"faces must have the shape (m, 3) or wider, not {around.shape}")
-        return {"face_sizes": np.full(len(around), around.shape[1], np.uint32), "corners": around}
+        return {"sizes": np.full(len(around), around.shape[1], np.uint32), "corners": around}
     if len(faces) not in (2, 3):
         raise InvalidArgumentError("faces must be (offsets, corners) or (starts, sizes, corners)")
     if faces[-1] is None or all(part is None for part in faces[:-1]):
         raise NullPointerError("faces holds no corners, or neither starts nor sizes")
-    return {"face_starts": faces[0], "face_sizes": faces[1] if len(faces) == 3 else None, "corners": faces[-1]}
+    return {"starts": faces[0], "sizes": faces[1] if len(faces) == 3 else None, "corners": faces[-1]}
 
 
 class Surface(_api.Surface):
@@ -40,7 +40,7 @@ class Surface(_api.Surface):
             raise InvalidArgumentError("tags need link_pieces=True")
         if link_pieces:
             options["links"] = {"mode": _api.LinkMode.PIECES, "tags": tags}
-        super().__init__(positions, triangles, **options, **({} if faces is None else _faces(faces)))
+        super().__init__(positions, triangles, **options, faces=None if faces is None else _faces(faces))
 
 
 class Pose(_api.Pose):

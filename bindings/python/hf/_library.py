@@ -21,7 +21,7 @@ NO_INDEX = _raw.HF_NO_INDEX
 _TYPES = {"f4": np.float32, "f8": np.float64, "u4": np.uint32, "u2": np.uint16, "u1": np.uint8, "i4": np.int32}
 _KINDS: Dict[str, list] = {}
 _FIELDS: Dict[type, dict] = {}
-_SUFFIX = {"f8": "_f64", "u2": "_u16"}  # the field that takes the other type of array
+_VIEW_TYPES: Dict[Any, int] = {np.dtype(np.float64): _raw.HF_TYPE_DOUBLE, np.dtype(np.uint16): _raw.HF_TYPE_UINT16}
 
 
 def _candidates() -> list:
@@ -247,22 +247,36 @@ class Call:
         self.keep.append(array)
         return address(array)
 
-    def rows(self, desc: Any, field: str, values: Optional[ArrayLike], kinds: str, dims: tuple, stride: str = "",
-             sentinel: bool = False, name: str = "") -> None:
-        """Sets the pointer of a desc and its stride. Where it has a stride, rows are used in place."""
+    def rows(self, desc: Any, field: str, values: Optional[ArrayLike], kinds: str, dims: tuple, sentinel: bool = False,
+             name: str = "") -> None:
+        """Sets the pointer of a desc to packed numbers."""
+        if values is not None:
+            setattr(desc, field, self.array(name or field, values, kinds, dims, sentinel))
+
+    def view(self, name: str, values: Optional[ArrayLike], kinds: str, dims: tuple) -> Any:
+        """An hf_array of numbers; rows with a stride are used in place."""
         if values is None:
-            return
-        array, name = self._fit(converted(values, name or field, kinds, sentinel), name or field, dims), name or field
-        inner = len(dims) == 1 or (array.ndim == 2 and array.strides[1] == array.itemsize)
-        row = array.itemsize * (array.shape[1] if array.ndim == 2 else 1)
-        if not (stride and array.ndim == len(dims) and inner and row <= array.strides[0] < 1 << 31):
+            return _raw.hf_array()
+        array = self._fit(converted(values, name, kinds), name, dims)
+        if not self._is_rows(array, dims):
             array = np.ascontiguousarray(array)
-        elif len(array) > 1:
-            setattr(desc, stride, array.strides[0])
         self.keep.append(array)
-        second = kinds.split()[-1]
-        other = second in _SUFFIX and " " in kinds and array.dtype == _TYPES[second]
-        setattr(desc, field + _SUFFIX[second] if other else field, address(array))
+        return self._view(_raw.hf_array, array, dims)
+
+    def view_out(self, array: np.ndarray, dims: tuple) -> Any:
+        return self._view(_raw.hf_array_out, array, dims)
+
+    def _is_rows(self, array: np.ndarray, dims: tuple) -> bool:
+        """Whether the library can use the array where it is."""
+        if array.flags.c_contiguous:
+            return True
+        inner = array.ndim == 1 or (array.ndim == 2 and array.strides[1] == array.itemsize)
+        row = array.itemsize * (array.shape[1] if array.ndim == 2 else 1)
+        return array.ndim == len(dims) and inner and row <= array.strides[0] < 1 << 31
+
+    def _view(self, kind: Any, array: np.ndarray, dims: tuple) -> Any:
+        stride = 0 if array.flags.c_contiguous else array.strides[0]
+        return kind(address(array), self._size(dims[0]) or 0, stride, _VIEW_TYPES.get(array.dtype, _raw.HF_TYPE_PLAIN))
 
     def struct(self, kind: type, options: Dict[str, Any], prefix: str = "") -> Any:
         """A struct with its size and the scalars among its fields set."""
@@ -366,13 +380,13 @@ class Call:
         sizes = [self._size(dim) or 0 for dim in dims]
         return tuple(s for k, (s, dim) in enumerate(zip(sizes, dims)) if not (k and s == 1 and isinstance(dim, str)))
 
-    def out(self, out: Optional[np.ndarray], kinds: str, dims: tuple, dtype: Any = None, name: str = "out") -> tuple:
-        """The caller's array, or a new one. Rows may have a stride. Returns (array, stride)."""
+    def out(self, out: Optional[np.ndarray], kinds: str, dims: tuple, dtype: Any = None, name: str = "out", packed: bool = False) -> Any:
+        """The caller's array, or a new one. Rows may have a stride, unless they must be packed."""
         shape, wanted = self.shape(dims), _types(kinds)
         if out is None and dtype is not None and np.dtype(dtype) not in wanted:
             raise InvalidArgumentError(f"dtype must be {' or '.join(map(str, wanted))}, not {dtype}")
         if out is None:
-            return np.empty(shape, dtype or wanted[0]), 0
+            return np.empty(shape, dtype or wanted[0])
         if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray) or out.dtype not in wanted:
             raise InvalidArgumentError(f"{name} must be an array of {' or '.join(map(str, wanted))}")
         if out.size != math.prod(shape):
@@ -380,11 +394,13 @@ class Call:
         if not out.flags.writeable:
             raise InvalidArgumentError(f"{name} is read-only")
         if out.flags.c_contiguous:
-            return out, 0
+            return out
         row = out.itemsize * (shape[1] if len(shape) > 1 else 1)
+        if packed:
+            raise InvalidArgumentError(f"{name} must be contiguous")
         if out.shape != shape or out.strides[0] < row or (len(shape) > 1 and out.strides[1] != out.itemsize):
             raise InvalidArgumentError(f"{name} may have a stride between rows only")
-        return out, out.strides[0]
+        return out
 
     def grow(self, owner: Any, function: str, run: Callable, tell: Callable, rooms: Dict[str, Any], arrays: Dict[str, tuple]) -> Any:
         """Arrays of lengths that the library tells. run(room, arrays) calls it, and again with more room when that was too

@@ -45,6 +45,9 @@ HF_ERROR_CANCELLED = -102
 HF_ERROR_NOT_POSITIVE_DEFINITE = -200
 HF_ERROR_INACCURATE = -201
 HF_ERROR_INTERNAL = -300
+HF_TYPE_PLAIN = 0
+HF_TYPE_DOUBLE = 1
+HF_TYPE_UINT16 = 2
 HF_WELD_EXACT = 0
 HF_WELD_NONE = 1
 HF_WELD_TOLERANCE = 2
@@ -214,6 +217,38 @@ RESULT_NAMES = {
 }
 
 
+class hf_array(Struct):
+    """An array of yours that the library reads"""
+    data: int
+    count: int
+    stride: int
+    type: int
+    reserved: int
+    _fields_ = [
+        ("data", c_void_p),
+        ("count", c_uint32),
+        ("stride", c_uint32),
+        ("type", c_int32),
+        ("reserved", c_uint32),
+    ]
+
+
+class hf_array_out(Struct):
+    """An array of yours that the library writes; otherwise as hf_array."""
+    data: int
+    count: int
+    stride: int
+    type: int
+    reserved: int
+    _fields_ = [
+        ("data", c_void_p),
+        ("count", c_uint32),
+        ("stride", c_uint32),
+        ("type", c_int32),
+        ("reserved", c_uint32),
+    ]
+
+
 class hf_error_detail(Struct):
     """Details of the last failed call on this thread."""
     code: int
@@ -320,18 +355,29 @@ class hf_links_desc(Struct):
     ]
 
 
+class hf_faces_desc(Struct):
+    """Faces of any number of corners."""
+    struct_size: int
+    reserved: int
+    corners: object
+    sizes: object
+    starts: object
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("corners", hf_array),
+        ("sizes", hf_array),
+        ("starts", hf_array),
+    ]
+
+
 class hf_surface_desc(Struct):
     """The mesh and the options of a surface."""
     struct_size: int
-    vertex_count: int
-    triangle_count: int
-    position_stride: int
-    positions: int
-    positions_f64: int
-    triangles: int
-    triangles_u16: int
-    triangle_stride: int
     weld: int
+    positions: object
+    triangles: object
+    faces: int
     weld_tolerance: float
     operator_kind: int
     field_kind: int
@@ -346,24 +392,12 @@ class hf_surface_desc(Struct):
     progress: int
     saved_factor: int
     links: int
-    face_count: int
-    corner_count: int
-    face_starts: int
-    face_sizes: int
-    corners: int
-    face_stride: int
-    corner_stride: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("triangle_count", c_uint32),
-        ("position_stride", c_uint32),
-        ("positions", c_void_p),
-        ("positions_f64", c_void_p),
-        ("triangles", c_void_p),
-        ("triangles_u16", c_void_p),
-        ("triangle_stride", c_uint32),
         ("weld", c_int32),
+        ("positions", hf_array),
+        ("triangles", hf_array),
+        ("faces", c_void_p),
         ("weld_tolerance", c_double),
         ("operator_kind", c_int32),
         ("field_kind", c_int32),
@@ -378,13 +412,6 @@ class hf_surface_desc(Struct):
         ("progress", c_void_p),
         ("saved_factor", c_void_p),
         ("links", c_void_p),
-        ("face_count", c_uint32),
-        ("corner_count", c_uint32),
-        ("face_starts", c_void_p),
-        ("face_sizes", c_void_p),
-        ("corners", c_void_p),
-        ("face_stride", c_uint32),
-        ("corner_stride", c_uint32),
     ]
 
 
@@ -392,11 +419,10 @@ class hf_graph_desc(Struct):
     """A graph of your own and the options of its surface"""
     struct_size: int
     vertex_count: int
-    edge_count: int
+    edges: object
+    weights: object
+    masses: object
     allow_negative: int
-    edges: int
-    weights: int
-    masses: int
     field_kind: int
     ordering: int
     thread_count: int
@@ -404,7 +430,6 @@ class hf_graph_desc(Struct):
     edge_limit: int
     memory_limit_mb: int
     work_limit_gflop: int
-    reserved: int
     allocator: object
     job_runner: object
     progress: int
@@ -412,11 +437,10 @@ class hf_graph_desc(Struct):
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
-        ("edge_count", c_uint32),
+        ("edges", hf_array),
+        ("weights", hf_array),
+        ("masses", hf_array),
         ("allow_negative", c_int32),
-        ("edges", c_void_p),
-        ("weights", c_void_p),
-        ("masses", c_void_p),
         ("field_kind", c_int32),
         ("ordering", c_int32),
         ("thread_count", c_uint32),
@@ -424,7 +448,6 @@ class hf_graph_desc(Struct):
         ("edge_limit", c_uint32),
         ("memory_limit_mb", c_uint32),
         ("work_limit_gflop", c_uint32),
-        ("reserved", c_uint32),
         ("allocator", hf_allocator),
         ("job_runner", hf_job_runner),
         ("progress", c_void_p),
@@ -536,20 +559,6 @@ class hf_surface_report(Struct):
     ]
 
 
-class hf_gaps_desc(Struct):
-    """Posed positions of the mesh, of which gaps are measured."""
-    struct_size: int
-    position_stride: int
-    positions: int
-    positions_f64: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("position_stride", c_uint32),
-        ("positions", c_void_p),
-        ("positions_f64", c_void_p),
-    ]
-
-
 class hf_gaps_info(Struct):
     """How far linked pieces have opened, in the unit of the positions."""
     struct_size: int
@@ -609,18 +618,12 @@ class hf_surface_statistics(Struct):
 class hf_pick_desc(Struct):
     """Options of picking"""
     struct_size: int
-    position_stride: int
-    positions: int
-    positions_f64: int
     front_only: int
-    reserved: int
+    positions: object
     _fields_ = [
         ("struct_size", c_uint32),
-        ("position_stride", c_uint32),
-        ("positions", c_void_p),
-        ("positions_f64", c_void_p),
         ("front_only", c_int32),
-        ("reserved", c_uint32),
+        ("positions", hf_array),
     ]
 
 
@@ -866,20 +869,6 @@ class hf_solver_statistics(Struct):
         ("site_memory_bytes", c_double),
         ("predicted_dense_ms", c_double),
         ("predicted_rebase_ms", c_double),
-    ]
-
-
-class hf_scalars(Struct):
-    """This struct passes a field with one value per vertex of your mesh."""
-    struct_size: int
-    value_stride: int
-    values: int
-    values_f64: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("value_stride", c_uint32),
-        ("values", c_void_p),
-        ("values_f64", c_void_p),
     ]
 
 
@@ -1221,14 +1210,11 @@ class hf_deform_info(Struct):
 
 
 class hf_deform_desc(Struct):
-    """The options of hf_pose_deform are outputs, strides and a range of vertices."""
+    """The options of hf_pose_deform are outputs and a range of vertices."""
     struct_size: int
-    position_stride: int
-    positions: int
-    positions_f64: int
-    normals: int
-    normal_stride: int
     iteration_count: int
+    positions: object
+    normals: object
     restart: int
     refine: int
     refine_from_last: int
@@ -1237,12 +1223,9 @@ class hf_deform_desc(Struct):
     reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("position_stride", c_uint32),
-        ("positions", c_void_p),
-        ("positions_f64", c_void_p),
-        ("normals", c_void_p),
-        ("normal_stride", c_uint32),
         ("iteration_count", c_uint32),
+        ("positions", hf_array_out),
+        ("normals", hf_array_out),
         ("restart", c_int32),
         ("refine", c_int32),
         ("refine_from_last", c_int32),
@@ -1449,18 +1432,12 @@ class hf_streamlines(Struct):
 class hf_region_desc(Struct):
     struct_size: int
     base: int
-    positions: int
-    positions_f64: int
-    position_stride: int
-    reserved: int
+    positions: object
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("base", c_int32),
-        ("positions", c_void_p),
-        ("positions_f64", c_void_p),
-        ("position_stride", c_uint32),
-        ("reserved", c_uint32),
+        ("positions", hf_array),
         ("progress", c_void_p),
     ]
 
@@ -1550,22 +1527,16 @@ class hf_region_info(Struct):
 class hf_morph_desc(Struct):
     """Gives hf_region_morph and hf_detail_morph their weight and outputs."""
     struct_size: int
-    position_stride: int
-    weight: float
-    positions: int
-    positions_f64: int
-    normals: int
-    normal_stride: int
     reserved: int
+    weight: float
+    positions: object
+    normals: object
     _fields_ = [
         ("struct_size", c_uint32),
-        ("position_stride", c_uint32),
-        ("weight", c_double),
-        ("positions", c_void_p),
-        ("positions_f64", c_void_p),
-        ("normals", c_void_p),
-        ("normal_stride", c_uint32),
         ("reserved", c_uint32),
+        ("weight", c_double),
+        ("positions", hf_array_out),
+        ("normals", hf_array_out),
     ]
 
 
@@ -1803,8 +1774,8 @@ class hf_transfer_desc(Struct):
     alignment_angle: float
     source_axes: object
     target_axes: object
-    source_rest: int
-    target_rest: int
+    source_rest: object
+    target_rest: object
     _fields_ = [
         ("struct_size", c_uint32),
         ("mode", c_int32),
@@ -1815,8 +1786,8 @@ class hf_transfer_desc(Struct):
         ("alignment_angle", c_double),
         ("source_axes", c_double * 9),
         ("target_axes", c_double * 9),
-        ("source_rest", c_void_p),
-        ("target_rest", c_void_p),
+        ("source_rest", hf_array),
+        ("target_rest", hf_array),
     ]
 
 
@@ -1914,30 +1885,18 @@ class hf_transfer_dials(Struct):
 class hf_transfer_frame(Struct):
     """Describes one frame"""
     struct_size: int
-    source_stride: int
-    source_positions: int
-    source_positions_f64: int
-    target_stride: int
-    normal_stride: int
-    target_positions: int
-    target_positions_f64: int
-    target_normals: int
     hold_count: int
-    reserved: int
+    source_positions: object
+    target_positions: object
+    target_normals: object
     hold_pairs: int
     hold_positions: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("source_stride", c_uint32),
-        ("source_positions", c_void_p),
-        ("source_positions_f64", c_void_p),
-        ("target_stride", c_uint32),
-        ("normal_stride", c_uint32),
-        ("target_positions", c_void_p),
-        ("target_positions_f64", c_void_p),
-        ("target_normals", c_void_p),
         ("hold_count", c_uint32),
-        ("reserved", c_uint32),
+        ("source_positions", hf_array),
+        ("target_positions", hf_array_out),
+        ("target_normals", hf_array_out),
         ("hold_pairs", c_void_p),
         ("hold_positions", c_void_p),
     ]
@@ -2199,7 +2158,7 @@ class hf_weights_mirror_info(Struct):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_surface_point, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info]
+STRUCTS = [hf_array, hf_array_out, hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_faces_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_surface_point, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -2238,12 +2197,10 @@ PROTOTYPES = {
     "hf_solver_get_sites": (c_int32, [c_void_p, c_void_p]),
     "hf_solver_set_screening": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_solve": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
-    "hf_solver_solve_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
+    "hf_solver_solve": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_solver_solve_at": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_solver_solve_vectors": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_solver_solve_vectors_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
-    "hf_solver_solve_preview": (c_int32, [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p]),
-    "hf_solver_solve_preview_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_uint32, c_void_p]),
+    "hf_solver_solve_vectors": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_solver_solve_preview": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
     "hf_solver_release_preview": (c_int32, [c_void_p]),
     "hf_solver_move_vectors": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_solver_rotate_vectors": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
@@ -2255,8 +2212,7 @@ PROTOTYPES = {
     "hf_surface_find_critical_points": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_geodesics_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_geodesics_destroy": (None, [c_void_p]),
-    "hf_geodesics_solve": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
-    "hf_geodesics_solve_f64": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_uint32]),
+    "hf_geodesics_solve": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_geodesics_find_path": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "hf_geodesics_get_map": (c_int32, [c_void_p, c_void_p, c_double, c_void_p, c_void_p]),
     "hf_surface_find_extremities": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
@@ -2270,8 +2226,7 @@ PROTOTYPES = {
     "hf_direction_rotate_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_direction_get_site_count": (c_uint32, [c_void_p]),
     "hf_direction_get_sites": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p, c_void_p]),
-    "hf_direction_solve": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
-    "hf_direction_solve_f64": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p]),
+    "hf_direction_solve": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_direction_get_singularities": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_direction_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_pose_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
@@ -2287,7 +2242,7 @@ PROTOTYPES = {
     "hf_pose_set_matrices": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_pose_get_handle": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_get_handle_count": (c_uint32, [c_void_p]),
-    "hf_pose_get_field": (c_int32, [c_void_p, c_uint32, c_void_p, c_uint32]),
+    "hf_pose_get_field": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_pose_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),

@@ -78,28 +78,43 @@ impl<'a> Links<'a> {
     }
 }
 
-/// The mesh and the options of a surface. Set positions or positions_f64, and triangles, triangles_u16 or faces. Strides
-/// are in bytes; 0 means packed.
-///
-/// Faces have any number of corners. Set face_count, corner_count, corners, and what your host stores: face_sizes (Maya,
-/// USD), face_starts and face_sizes (Blender's loops), or face_starts as offsets (newer Blender). No field depends on how
-/// you would cut a face into triangles. [`raw::HF_OPERATOR_INTRINSIC_DELAUNAY`] takes the mean of both cuts of a bent
-/// quad, and moves it towards the polygon Laplacian of Bunge and others 2020 until a weight would become negative.
-/// docs/studies/polygons.md compares errors. [`raw::HF_OPERATOR_COTANGENT`] and [`raw::HF_OPERATOR_CLAMPED`] take that
-/// polygon Laplacian, [`raw::HF_OPERATOR_UNIFORM`] the sides of the faces. Directions, distances, iso-lines, streamlines
-/// and quads work on a cut of the library. It does not depend on the order of the corners. Where this interface names a
-/// triangle, it names the face then. Normals of poses are sums of the area vectors of faces.
+/// Faces of any number of corners. Set corners, and what your host stores: sizes (Maya, USD), starts and sizes (Blender's
+/// loops), or starts as offsets (newer Blender). No field depends on how you would cut a face into triangles.
+/// [`raw::HF_OPERATOR_INTRINSIC_DELAUNAY`] takes the mean of both cuts of a bent quad, and moves it towards the polygon
+/// Laplacian of Bunge and others 2020 until a weight would become negative. docs/studies/polygons.md compares errors.
+/// [`raw::HF_OPERATOR_COTANGENT`] and [`raw::HF_OPERATOR_CLAMPED`] take that polygon Laplacian,
+/// [`raw::HF_OPERATOR_UNIFORM`] the sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a
+/// cut of the library. It does not depend on the order of the corners. Where this interface names a triangle, it names
+/// the face then. Normals of poses are sums of the area vectors of faces.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Faces<'a> {
+    /// `[corner_count]` of uint32_t: vertices, counter-clockwise seen from outside
+    pub corners: Option<&'a [u32]>,
+    /// `None`, or `[faces]` of uint32_t: corners of each face, 3 to 65,535. `None`: starts are enough
+    pub sizes: Option<&'a [u32]>,
+    /// `None`, or `[faces]` of uint32_t: first corner of each face. `None`: the faces follow one another. Without sizes
+    /// `[faces + 1]`: the corners of face f end where those of f + 1 start
+    pub starts: Option<&'a [u32]>,
+}
+impl<'a> Faces<'a> {
+    #[allow(unused_variables, unused_mut, clippy::all)]
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_faces_desc> {
+        let mut desc = raw::hf_faces_desc { ..Default::default() };
+        desc.corners = c.words(self.corners, "corners", &["corner_count"])?;
+        desc.sizes = c.words(self.sizes, "sizes", &["faces"])?;
+        desc.starts = if self.sizes.is_none() { c.words(self.starts, "starts",
+            &["faces + 1"])? } else { c.words(self.starts, "starts", &["faces"])? };
+        Ok(desc)
+    }
+}
+
+/// The mesh and the options of a surface. Set triangles or faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceOptions<'a> {
-    /// `[face_count]` first corner of each face. `None`: the faces follow one another. Without face_sizes `[face_count +
-    /// 1]`: the corners of face f end where those of f + 1 start
-    pub face_starts: Option<&'a [u32]>,
-    /// `[face_count]` corners of each face, 3 to 65,535. `None`: face_starts is enough
-    pub face_sizes: Option<&'a [u32]>,
-    /// `[corner_count]` vertices, counter-clockwise seen from outside
-    pub corners: Option<&'a [u32]>,
     /// `HF_WELD_*`
     pub weld: i32,
+    /// `None`, or faces instead of triangles
+    pub faces: Option<Faces<'a>>,
     /// for [`raw::HF_WELD_TOLERANCE`], in the unit of the positions, > 0
     pub weld_tolerance: f64,
     /// `HF_OPERATOR_*`
@@ -153,16 +168,13 @@ impl<'a> SurfaceOptions<'a> {
             operator_kind: self.operator_kind, field_kind: self.field_kind, ordering: self.ordering,
             thread_count: self.thread_count, vertex_limit: self.vertex_limit, triangle_limit: self.triangle_limit,
             memory_limit_mb: self.memory_limit_mb, work_limit_gflop: self.work_limit_gflop, ..Default::default() };
-        (desc.positions, desc.positions_f64) = c.reals(positions, "positions", &[&format!("{prefix}vertex_count"),
-            "3"])?;
-        (desc.triangles, desc.triangles_u16) = c.indices(triangles, "triangles", &[&format!("{prefix}triangle_count"),
-            "3"])?;
-        desc.face_starts = if self.face_sizes.is_none() { c.array(self.face_starts, "face_starts",
-            &[&format!("{prefix}face_count + 1")])? } else { c.array(self.face_starts, "face_starts",
-            &[&format!("{prefix}face_count")])? };
-        desc.face_sizes = c.array(self.face_sizes, "face_sizes", &[&format!("{prefix}face_count")])?;
-        desc.corners = c.array(self.corners, "corners", &[&format!("{prefix}corner_count")])?;
+        desc.positions = c.reals(positions, "positions", &["vertex_count", "3"])?;
+        desc.triangles = c.indices(triangles, "triangles", &["triangle_count", "3"])?;
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        if let Some(inner) = &self.faces {
+            let inner = inner.fill(c, "faces.")?;
+            desc.faces = c.keep(inner);
+        }
         if let Some(inner) = &self.saved_factor {
             let inner = inner.fill(c, "saved_factor.")?;
             desc.saved_factor = c.keep(inner);
@@ -171,10 +183,6 @@ impl<'a> SurfaceOptions<'a> {
             let inner = inner.fill(c, "links.")?;
             desc.links = c.keep(inner);
         }
-        desc.vertex_count = c.count(&format!("{prefix}vertex_count"), 1)?;
-        desc.triangle_count = c.count(&format!("{prefix}triangle_count"), 0)?;
-        desc.face_count = c.count(&format!("{prefix}face_count"), 0)?;
-        desc.corner_count = c.count(&format!("{prefix}corner_count"), 0)?;
         Ok(desc)
     }
 }
@@ -183,9 +191,9 @@ impl<'a> SurfaceOptions<'a> {
 /// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of [`SurfaceOptions`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GraphOptions<'a> {
-    /// `[vertex_count]` M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100; `None`: all 1. A mass below
-    /// 1e-4 of the mean of its component counts as that
-    pub masses: Option<&'a [f64]>,
+    /// `None`, or `[vertex_count]` of float or double: M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to
+    /// 1e100; `None`: all 1. A mass below 1e-4 of the mean of its component counts as that
+    pub masses: Option<Reals<'a>>,
     /// >= 1, also without masses
     pub vertex_count: u32,
     /// 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of tetrahedra do. A field can
@@ -229,35 +237,21 @@ impl<'a> GraphOptions<'a> {
     }
 
     #[allow(unused_variables, unused_mut, clippy::all)]
-    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, edges: Option<&[u32]>,
-            weights: Option<&[f64]>) -> Result<raw::hf_graph_desc> {
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, edges: Option<Indices<'_>>,
+            weights: Option<Reals<'_>>) -> Result<raw::hf_graph_desc> {
         let mut desc = raw::hf_graph_desc { vertex_count: self.vertex_count,
             allow_negative: i32::from(self.allow_negative), field_kind: self.field_kind, ordering: self.ordering,
             thread_count: self.thread_count, vertex_limit: self.vertex_limit, edge_limit: self.edge_limit,
             memory_limit_mb: self.memory_limit_mb, work_limit_gflop: self.work_limit_gflop, ..Default::default() };
         c.known("vertex_count", self.vertex_count);
-        desc.edges = c.array(edges, "edges", &[&format!("{prefix}edge_count"), "2"])?;
-        desc.weights = c.array(weights, "weights", &[&format!("{prefix}edge_count")])?;
-        desc.masses = c.array(self.masses, "masses", &["vertex_count"])?;
+        desc.edges = c.indices(edges, "edges", &["edge_count", "2"])?;
+        desc.weights = c.reals(weights, "weights", &["edge_count"])?;
+        desc.masses = c.reals(self.masses, "masses", &["vertex_count"])?;
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         if let Some(inner) = &self.saved_factor {
             let inner = inner.fill(c, "saved_factor.")?;
             desc.saved_factor = c.keep(inner);
         }
-        desc.edge_count = c.count(&format!("{prefix}edge_count"), 1)?;
-        Ok(desc)
-    }
-}
-
-/// Posed positions of the mesh, of which gaps are measured. Set one of the two.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Gaps {
-}
-impl Gaps {
-    #[allow(unused_variables, unused_mut, clippy::all)]
-    pub(crate) fn fill(&self, c: &mut Call, prefix: &str, positions: Option<Reals<'_>>) -> Result<raw::hf_gaps_desc> {
-        let mut desc = raw::hf_gaps_desc { ..Default::default() };
-        (desc.positions, desc.positions_f64) = c.reals(positions, "positions", &["vertex_count", "3"])?;
         Ok(desc)
     }
 }
@@ -265,7 +259,8 @@ impl Gaps {
 /// Options of picking: posed positions, if the surface is not at rest, and which triangles count.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PickOptions<'a> {
-    /// `[vertex_count x 3]` posed positions (Pose.deform writes them), or `None`
+    /// `None`, or `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). `None`: the rest
+    /// positions
     pub positions: Option<Reals<'a>>,
     /// 1: a ray passes triangles seen from behind
     pub front_only: bool,
@@ -283,7 +278,7 @@ impl<'a> PickOptions<'a> {
     #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_pick_desc> {
         let mut desc = raw::hf_pick_desc { front_only: i32::from(self.front_only), ..Default::default() };
-        (desc.positions, desc.positions_f64) = c.reals(self.positions, "positions", &["vertex_count", "3"])?;
+        desc.positions = c.reals(self.positions, "positions", &["vertex_count", "3"])?;
         Ok(desc)
     }
 }
@@ -586,7 +581,7 @@ impl<'a> HandlesOptions<'a> {
     }
 }
 
-/// The options of `Pose::deform` are outputs, strides and a range of vertices. Set at least one output.
+/// The options of `Pose::deform` are outputs and a range of vertices. Set at least one output.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeformOptions {
     /// 1 to 1000; 0 = the pose's
@@ -747,8 +742,8 @@ impl<'a> QuadsOptions<'a> {
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RegionOptions<'a> {
-    /// `[vertex_count x 3]` the surface of weight 0, bit for bit: the positions of the mesh or any pose of them. `None`:
-    /// the mesh's own to 1e-15 of the box. Copied
+    /// `None`, or `[vertex_count x 3]` of float or double: the surface of weight 0, bit for bit, as the positions of the
+    /// mesh or any pose of them. `None`: the mesh's own to 1e-15 of the box. Copied
     pub positions: Option<Reals<'a>>,
     /// `HF_BASE_*`. If the surface has no factor for it yet, it is made now
     pub base: i32,
@@ -768,7 +763,7 @@ impl<'a> RegionOptions<'a> {
     #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_region_desc> {
         let mut desc = raw::hf_region_desc { base: self.base, ..Default::default() };
-        (desc.positions, desc.positions_f64) = c.reals(self.positions, "positions", &["vertex_count", "3"])?;
+        desc.positions = c.reals(self.positions, "positions", &["vertex_count", "3"])?;
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         Ok(desc)
     }
@@ -1029,12 +1024,12 @@ impl<'a> SkeletonOptions<'a> {
 /// most pairs of a transfer
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TransferOptions<'a> {
-    /// `[source.vertex_count x 3]`, or `None` Poses in which the two bodies correspond, in each surface's unit, read by
-    /// the call, or `None` for the positions of the surface. A character bound in a crouch gets a standing pose here.
-    /// Motion counts from these poses; the fields stay those of the surfaces.
-    pub source_rest: Option<&'a [f32]>,
-    /// `[target.vertex_count x 3]`, or `None`
-    pub target_rest: Option<&'a [f32]>,
+    /// `None`, or `[source.vertex_count x 3]` of float or double Poses in which the two bodies correspond, in each
+    /// surface's unit, read by the call, or `None` for the positions of the surface. A character bound in a crouch gets a
+    /// standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+    pub source_rest: Option<Reals<'a>>,
+    /// `None`, or `[target.vertex_count x 3]` of float or double
+    pub target_rest: Option<Reals<'a>>,
     /// `HF_TRANSFER_*`
     pub mode: i32,
     /// 1 to 512; 0 = 80, or 5 for each pair if that is more
@@ -1075,8 +1070,8 @@ impl<'a> TransferOptions<'a> {
         let mut desc = raw::hf_transfer_desc { mode: self.mode, cluster_count: self.cluster_count, ground: self.ground,
             kernel_width: self.kernel_width, scale: self.scale, alignment_angle: self.alignment_angle,
             ..Default::default() };
-        desc.source_rest = c.array(self.source_rest, "source_rest", &["source.vertex_count", "3"])?;
-        desc.target_rest = c.array(self.target_rest, "target_rest", &["target.vertex_count", "3"])?;
+        desc.source_rest = c.reals(self.source_rest, "source_rest", &["source.vertex_count", "3"])?;
+        desc.target_rest = c.reals(self.target_rest, "target_rest", &["target.vertex_count", "3"])?;
         if let Some(given) = self.source_axes { desc.source_axes = given; }
         if let Some(given) = self.target_axes { desc.target_axes = given; }
         Ok(desc)
@@ -1152,11 +1147,12 @@ impl TransferDials {
     }
 }
 
-/// Describes one frame: the input is the posed source, the output the posed target. Set source_positions or
-/// source_positions_f64, and at least one output. Strides are in bytes; 0 = packed.
+/// Describes one frame: the input is the posed source, the output the posed target. Set at least one output.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TransferFrame<'a> {
-    /// `[hold_count]` each pair at most once
+    /// `[hold_count]` each pair at most once A hold puts the target region of a pair exactly at a position of yours, such
+    /// as a foot on a step or a hand on a rail. The mean of the region's vertices lands there; welded copies count once.
+    /// The rest of the surface follows.
     pub hold_pairs: Option<&'a [u32]>,
     /// `[hold_count x 3]` in the target's unit and frame
     pub hold_positions: Option<&'a [f64]>,
@@ -1166,8 +1162,7 @@ impl<'a> TransferFrame<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str,
             source_positions: Option<Reals<'_>>) -> Result<raw::hf_transfer_frame> {
         let mut desc = raw::hf_transfer_frame { ..Default::default() };
-        (desc.source_positions, desc.source_positions_f64) = c.reals(source_positions, "source_positions",
-            &["source.vertex_count", "3"])?;
+        desc.source_positions = c.reals(source_positions, "source_positions", &["source.vertex_count", "3"])?;
         desc.hold_pairs = c.array(self.hold_pairs, "hold_pairs", &[&format!("{prefix}hold_count")])?;
         desc.hold_positions = c.array(self.hold_positions, "hold_positions", &[&format!("{prefix}hold_count"), "3"])?;
         desc.hold_count = c.count(&format!("{prefix}hold_count"), 0)?;
@@ -1527,13 +1522,10 @@ impl Surface {
     /// cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
     /// second side alone get opposite normals from poses, and a ray with front_only hits both sides.
     ///
-    /// positions: `[vertex_count x 3]`, any unit, any offset
-    /// triangles: `[triangle_count x 3]`, counter-clockwise seen from outside
-    /// face_starts: `[face_count]` first corner of each face. `None`: the faces follow one another. Without face_sizes
-    /// `[face_count + 1]`: the corners of face f end where those of f + 1 start
-    /// face_sizes: `[face_count]` corners of each face, 3 to 65,535. `None`: face_starts is enough
-    /// corners: `[corner_count]` vertices, counter-clockwise seen from outside
+    /// positions: `[vertex_count x 3]` of float or double, any unit, any offset
+    /// triangles: `[triangle_count x 3]` of uint32_t or uint16_t, counter-clockwise seen from outside
     /// weld: `HF_WELD_*`
+    /// faces: faces instead of triangles
     /// weld_tolerance: for [`raw::HF_WELD_TOLERANCE`], in the unit of the positions, > 0
     /// operator_kind: `HF_OPERATOR_*`
     /// field_kind: `HF_FIELD_*`: the factor made now. Others are made when a solver or region asks
@@ -1574,11 +1566,11 @@ impl Surface {
     /// median of their component are limited; [`raw::hf_surface_report`] counts their vertices as changed. Bi-harmonic
     /// fields limit weights to 1e3 times the median.
     ///
-    /// edges: `[edge_count x 2]` vertices, in any order. The weights of parallel edges are added up. Self loops are
-    /// ignored
-    /// weights: `[edge_count]` any unit, up to 1e100 in size. An edge of weight 0 is left out
-    /// masses: `[vertex_count]` M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100; `None`: all 1. A
-    /// mass below 1e-4 of the mean of its component counts as that
+    /// edges: `[edge_count x 2]` of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are added
+    /// up. Self loops are ignored
+    /// weights: `[edge_count]` of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left out
+    /// masses: `[vertex_count]` of float or double: M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100;
+    /// `None`: all 1. A mass below 1e-4 of the mean of its component counts as that
     /// vertex_count: >= 1, also without masses
     /// allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of tetrahedra
     /// do. A field can then leave the range of its sites. 0: they are refused
@@ -1596,9 +1588,10 @@ impl Surface {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn from_graph(edges: &[u32], weights: &[f64], options: &GraphOptions) -> Result<Self> {
+    pub fn from_graph<'i>(edges: impl Into<Indices<'i>>, weights: impl Into<Reals<'i>>,
+            options: &GraphOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
-        let desc = options.fill(&mut c, "", Some(edges), Some(weights))?;
+        let desc = options.fill(&mut c, "", Some(edges.into()), Some(weights.into()))?;
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_create_graph(&desc, &mut handle_) })?;
@@ -1698,7 +1691,8 @@ impl Surface {
     /// Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends
     /// are apart than at rest, and 0 if they are nearer.
     ///
-    /// positions: `[vertex_count x 3]`: of a pose, a frame of a transfer, or any other deformation
+    /// positions: `[vertex_count x 3]` of float or double: those of a pose, a frame of a transfer, or any other
+    /// deformation.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
@@ -1706,14 +1700,14 @@ impl Surface {
     pub fn measure_gaps<'i>(&self, positions: impl Into<Reals<'i>>) -> Result<(Vec<f64>, raw::hf_gaps_info)> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_gaps_info::default();
-        let desc = Gaps {}.fill(&mut c, "", Some(positions.into()))?;
+        let positions_ = c.reals(Some(positions.into()), "positions", &["vertex_count", "3"])?;
         let mut room = Room::new(&[("capacity", None)]);
         let mut gaps: Vec<f64> = Vec::new();
         loop {
             room.begin(&mut c, &[&["capacity"]]);
             room.make(&c, &mut gaps, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_surface_measure_gaps(self.handle, &desc, room.get("capacity"),
+            let code = unsafe { raw::hf_surface_measure_gaps(self.handle, &positions_, room.get("capacity"),
                 room.at(&mut gaps), &mut info) };
             if room.enough(&mut c, code, &[("capacity", info.link_count)])? {
                 break;
@@ -1788,7 +1782,8 @@ impl Surface {
     ///
     /// origin: `[3]` in the frame of the positions; the direction can have any length above 0.
     /// direction: `[3]` in the frame of the positions; the direction can have any length above 0.
-    /// positions: `[vertex_count x 3]` posed positions (Pose.deform writes them), or `None`
+    /// positions: `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). `None`: the rest
+    /// positions
     /// front_only: 1: a ray passes triangles seen from behind
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
@@ -1807,7 +1802,8 @@ impl Surface {
     /// Finds the vertex nearest to a point.
     ///
     /// point: `[3]` in the frame of the positions.
-    /// positions: `[vertex_count x 3]` posed positions (Pose.deform writes them), or `None`
+    /// positions: `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). `None`: the rest
+    /// positions
     /// front_only: 1: a ray passes triangles seen from behind
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
@@ -1833,6 +1829,7 @@ impl Surface {
     /// [`raw::HF_LEVELS_LENGTH`] takes equal steps of the integral of A'(c) / L(c) dc. That integral is the height on a
     /// cylinder and the distance from the pole on a sphere.
     ///
+    /// field: `[vertex_count]` of float or double.
     /// spacing: `HF_LEVELS_*`.
     /// level_count: 1 to 1,000,000.
     ///
@@ -1840,8 +1837,7 @@ impl Surface {
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn space_levels<'i>(&self, field: impl Into<Reals<'i>>, level_count: u32, spacing: i32) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
-        let mut field_ = raw::hf_scalars { ..Default::default() };
-        (field_.values, field_.values_f64) = c.reals(Some(field.into()), "field", &["vertex_count"])?;
+        let field_ = c.reals(Some(field.into()), "field", &["vertex_count"])?;
         c.known("level_count", level_count);
         let mut levels = vec![f64::default(); c.product(&["level_count"])];
         // SAFETY: every slice is as long as its check says.
@@ -1857,14 +1853,14 @@ impl Surface {
     /// function leaves out lines of length zero. Seen from outside a consistently oriented mesh, the field is higher on
     /// the left of a line.
     ///
+    /// field: `[vertex_count]` of float or double.
     /// levels: `[level_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn trace_isolines<'i>(&self, field: impl Into<Reals<'i>>, levels: &[f64]) -> Result<Isolines> {
         let mut c = Call::new(&self.counts);
-        let mut field_ = raw::hf_scalars { ..Default::default() };
-        (field_.values, field_.values_f64) = c.reals(Some(field.into()), "field", &["vertex_count"])?;
+        let field_ = c.reals(Some(field.into()), "field", &["vertex_count"])?;
         let levels_ = c.array(Some(levels), "levels", &["level_count"])?;
         let mut lines = raw::hf_isolines { ..Default::default() };
         let mut room = Room::new(&[("point_capacity", None), ("line_capacity", None)]);
@@ -1916,6 +1912,7 @@ impl Surface {
     /// show an extremum away from its sites, because the default operator uses other edges than the mesh.
     /// [`raw::HF_OPERATOR_CLAMPED`] uses the edges of the mesh and avoids this.
     ///
+    /// field: `[vertex_count]` of float or double.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`].
@@ -1924,8 +1921,7 @@ impl Surface {
             raw::hf_critical_info)> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_critical_info::default();
-        let mut field_ = raw::hf_scalars { ..Default::default() };
-        (field_.values, field_.values_f64) = c.reals(Some(field.into()), "field", &["vertex_count"])?;
+        let field_ = c.reals(Some(field.into()), "field", &["vertex_count"])?;
         let mut room = Room::new(&[("capacity", None)]);
         let mut points: Vec<raw::hf_critical_point> = Vec::new();
         loop {
@@ -2263,10 +2259,10 @@ impl Solver {
         Ok(())
     }
 
-    /// Solves for the field at every vertex of your mesh.
+    /// Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their values
+    /// exactly. The field is 0 on components without a site.
     ///
-    /// out: `[vertex_count x channel_count]`. Hard sites hold their values exactly. The field is 0 on components without
-    /// a site.
+    /// out: `[vertex_count x channel_count]` of float or double.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`].
@@ -2275,8 +2271,9 @@ impl Solver {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
         let mut out = vec![f64::default(); c.product(&["vertex_count", "channel_count"])];
+        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_solver_solve_f64(self.handle, out.as_mut_ptr().cast(), 0, &mut info) })?;
+        check(unsafe { raw::hf_solver_solve(self.handle, &out_view, &mut info) })?;
         Ok(out)
     }
 
@@ -2286,17 +2283,17 @@ impl Solver {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
         of_length(out, "out", c.product(&["vertex_count", "channel_count"]))?;
+        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { if P::DOUBLE { raw::hf_solver_solve_f64(self.handle, out.as_mut_ptr().cast(), 0,
-            &mut info) } else { raw::hf_solve(self.handle, out.as_mut_ptr().cast(), 0, &mut info) } })?;
+        check(unsafe { raw::hf_solver_solve(self.handle, &out_view, &mut info) })?;
         Ok(info)
     }
 
-    /// Solves for the field at chosen vertices only, with the same bits as Solver.solve. The call reads only those
-    /// columns of the factor on which these vertices depend (elimination paths), on the calling thread. One path is up to
-    /// a sixth of the factor, but the paths of many vertices share most of their columns. The call costs a whole solve
-    /// for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of a
-    /// component without a site gets 0.
+    /// Solves for the field at chosen vertices only, with the same bits as `Solver::solve` in double. The call reads only
+    /// those columns of the factor on which these vertices depend (elimination paths), on the calling thread. One path is
+    /// up to a sixth of the factor, but the paths of many vertices share most of their columns. The call costs a whole
+    /// solve for bi-harmonic fields, and whenever sites are eliminated in the factor (see hf_solver_rebase). A vertex of
+    /// a component without a site gets 0.
     ///
     /// vertices: `[vertex_count]`.
     ///
@@ -2317,7 +2314,7 @@ impl Solver {
     /// The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects
     /// the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
     ///
-    /// out: `[vertex_count x 3]`, not normalised.
+    /// out: `[vertex_count x 3]` of float or double, not normalised.
     /// normals: `[vertex_count x 3]`, packed: the normals used.
     /// info: filled in when given
     ///
@@ -2327,10 +2324,10 @@ impl Solver {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
-        let normals_at = std::ptr::null_mut();
+        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
+        let normals_at: *mut f64 = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_solver_solve_vectors_f64(self.handle, out.as_mut_ptr().cast(), 0, normals_at,
-            &mut info) })?;
+        check(unsafe { raw::hf_solver_solve_vectors(self.handle, &out_view, normals_at, &mut info) })?;
         Ok(out)
     }
 
@@ -2341,20 +2338,19 @@ impl Solver {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
         of_length(out, "out", c.product(&["vertex_count", "3"]))?;
+        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { if P::DOUBLE { raw::hf_solver_solve_vectors_f64(self.handle, out.as_mut_ptr().cast(), 0,
-            normals_at, &mut info) } else { raw::hf_solver_solve_vectors(self.handle, out.as_mut_ptr().cast(), 0,
-            normals_at, &mut info) } })?;
+        check(unsafe { raw::hf_solver_solve_vectors(self.handle, &out_view, normals_at, &mut info) })?;
         Ok(info)
     }
 
-    /// Solves with a single-precision copy of the factor. This reads half the bytes of `Solver::solve`; use it while the
+    /// Solves with a single-precision copy of the factor. This reads half the bytes of Solver.solve; use it while the
     /// user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic fields,
     /// long shapes and crowded sites can have an error of any size: ask for corrections there and read error_estimate.
     /// Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a harmonic field takes
     /// the error below 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of
-    /// `Solver::solve`.
+    /// Solver.solve.
     ///
     /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on
     /// the surface share the copy. It is freed with the last of these solvers, or by `Solver::release_preview`. Engines
@@ -2362,7 +2358,8 @@ impl Solver {
     /// info.exact is then 1.
     ///
     /// correction_count: 0 to 8.
-    /// out: `[vertex_count x channel_count]`, as `Solver::solve`.
+    /// out: `[vertex_count x channel_count]` of float or double, as `Solver::solve`. Single precision rounds most
+    /// corrections away.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
@@ -2371,9 +2368,9 @@ impl Solver {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_preview_info::default();
         let mut out = vec![f64::default(); c.product(&["vertex_count", "channel_count"])];
+        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_solver_solve_preview_f64(self.handle, out.as_mut_ptr().cast(), 0, correction_count,
-            &mut info) })?;
+        check(unsafe { raw::hf_solver_solve_preview(self.handle, &out_view, correction_count, &mut info) })?;
         Ok(out)
     }
 
@@ -2383,10 +2380,9 @@ impl Solver {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_preview_info::default();
         of_length(out, "out", c.product(&["vertex_count", "channel_count"]))?;
+        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { if P::DOUBLE { raw::hf_solver_solve_preview_f64(self.handle, out.as_mut_ptr().cast(), 0,
-            correction_count, &mut info) } else { raw::hf_solver_solve_preview(self.handle, out.as_mut_ptr().cast(), 0,
-            correction_count, &mut info) } })?;
+        check(unsafe { raw::hf_solver_solve_preview(self.handle, &out_view, correction_count, &mut info) })?;
         Ok(info)
     }
 
@@ -2517,13 +2513,14 @@ impl Geodesics {
         Ok(Geodesics { handle: handle_, counts: c.counts(&["vertex_count"]) })
     }
 
-    /// Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
+    /// Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh. The
+    /// distance is 0 at the sources, and -1 at vertices that no source can reach.
     ///
     /// sources: `[source_count]` vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore links.
     /// Triangles with the same corners count once: a two-sided sheet measures as a single one. No distance of EXACT
     /// and FRONT is below the straight line to the nearest source. EXACT is right up to rounding. The error of FRONT
     /// falls with the edge length. HEAT rounds the distance off at corners and where two shortest paths meet.
-    /// out: `[vertex_count]`. The distance is 0 at the sources, and -1 at vertices that no source can reach.
+    /// out: `[vertex_count]` of float or double.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
@@ -2532,9 +2529,9 @@ impl Geodesics {
         let mut c = Call::new(&self.counts);
         let sources_ = c.array(Some(sources), "sources", &["source_count"])?;
         let mut out = vec![f64::default(); c.product(&["vertex_count"])];
+        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_geodesics_solve_f64(self.handle, c.count("source_count", 1)?, sources_,
-            out.as_mut_ptr().cast(), 0) })?;
+        check(unsafe { raw::hf_geodesics_solve(self.handle, c.count("source_count", 1)?, sources_, &out_view) })?;
         Ok(out)
     }
 
@@ -2544,10 +2541,9 @@ impl Geodesics {
         let mut c = Call::new(&self.counts);
         let sources_ = c.array(Some(sources), "sources", &["source_count"])?;
         of_length(out, "out", c.product(&["vertex_count"]))?;
+        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { if P::DOUBLE { raw::hf_geodesics_solve_f64(self.handle, c.count("source_count", 1)?, sources_,
-            out.as_mut_ptr().cast(), 0) } else { raw::hf_geodesics_solve(self.handle, c.count("source_count", 1)?,
-            sources_, out.as_mut_ptr().cast(), 0) } })?;
+        check(unsafe { raw::hf_geodesics_solve(self.handle, c.count("source_count", 1)?, sources_, &out_view) })?;
         Ok(())
     }
 
@@ -2770,7 +2766,7 @@ impl Direction {
     /// degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold their vectors; vertices
     /// that no constraint reaches get 0.
     ///
-    /// out: `[vertex_count x 3]`.
+    /// out: `[vertex_count x 3]` of float or double.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`].
@@ -2779,8 +2775,9 @@ impl Direction {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
+        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_direction_solve_f64(self.handle, out.as_mut_ptr().cast(), 0, &mut info) })?;
+        check(unsafe { raw::hf_direction_solve(self.handle, &out_view, &mut info) })?;
         Ok(out)
     }
 
@@ -2790,9 +2787,9 @@ impl Direction {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
         of_length(out, "out", c.product(&["vertex_count", "3"]))?;
+        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { if P::DOUBLE { raw::hf_direction_solve_f64(self.handle, out.as_mut_ptr().cast(), 0,
-            &mut info) } else { raw::hf_direction_solve(self.handle, out.as_mut_ptr().cast(), 0, &mut info) } })?;
+        check(unsafe { raw::hf_direction_solve(self.handle, &out_view, &mut info) })?;
         Ok(info)
     }
 
@@ -3066,25 +3063,27 @@ impl Pose {
     /// Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a handle
     /// reaches, the fields of all handles sum to 1.
     ///
-    /// out: `[vertex_count]`.
+    /// out: `[vertex_count]` of float or double.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn field(&self, handle: u32) -> Result<Vec<f32>> {
+    pub fn field(&self, handle: u32) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
-        let mut out = vec![f32::default(); c.product(&["vertex_count"])];
+        let mut out = vec![f64::default(); c.product(&["vertex_count"])];
+        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_pose_get_field(self.handle, handle, out.as_mut_ptr(), 0) })?;
+        check(unsafe { raw::hf_pose_get_field(self.handle, handle, &out_view) })?;
         Ok(out)
     }
 
     /// As `field`, into a slice of yours.
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn field_into(&self, handle: u32, out: &mut [f32]) -> Result<()> {
+    pub fn field_into<P: Real>(&self, handle: u32, out: &mut [P]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         of_length(out, "out", c.product(&["vertex_count"]))?;
+        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         // SAFETY: every slice is as long as its check says.
-        check(unsafe { raw::hf_pose_get_field(self.handle, handle, out.as_mut_ptr(), 0) })?;
+        check(unsafe { raw::hf_pose_get_field(self.handle, handle, &out_view) })?;
         Ok(())
     }
 
@@ -3102,8 +3101,8 @@ impl Pose {
     /// Higher layers start at the smooth pose. Memory: 72 bytes a vertex
     /// first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
     /// vertex_count: positions of a range cost only the range, without higher layers, refine and normals
-    /// out: `[vertex_count x 3]` posed positions, or `None`
-    /// normals: `[vertex_count x 3]` unit normals of the posed surface, shared across seams, or `None`
+    /// out: `[vertex_count x 3]` of float or double: posed positions
+    /// normals: `[vertex_count x 3]` of float or double: unit normals of the posed surface, shared across seams
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
@@ -3114,9 +3113,9 @@ impl Pose {
         let mut info = raw::hf_deform_info::default();
         let mut desc = options.fill(&mut c, "")?;
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
-        (desc.positions, desc.positions_f64) = f64::both_mut(out.as_mut_ptr());
-        let normals_at = std::ptr::null_mut();
-        desc.normals = normals_at;
+        desc.positions = c.out(out.as_mut_ptr(), true, "vertex_count");
+        let normals_at: *mut f32 = std::ptr::null_mut();
+        desc.normals = c.out(normals_at, false, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_deform(self.handle, &desc, &mut info) })?;
         Ok(out)
@@ -3130,9 +3129,9 @@ impl Pose {
         let mut info = raw::hf_deform_info::default();
         let mut desc = options.fill(&mut c, "")?;
         of_length(out, "out", c.product(&["vertex_count", "3"]))?;
-        (desc.positions, desc.positions_f64) = P::both_mut(out.as_mut_ptr());
+        desc.positions = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
-        desc.normals = normals_at;
+        desc.normals = c.out(normals_at, false, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_deform(self.handle, &desc, &mut info) })?;
         Ok(info)
@@ -3400,6 +3399,7 @@ impl Flow {
     /// [`raw::HF_OPERATOR_CLAMPED`] the lines are denser where the field is steeper. `Surface::trace_isolines` gives the
     /// lines that cross the streamlines.
     ///
+    /// field: `[vertex_count]` of float or double.
     /// seeds: `[seed_count]` vertices as given
     /// wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
     ///
@@ -3408,8 +3408,7 @@ impl Flow {
     pub fn trace<'i>(&self, field: impl Into<Reals<'i>>, seeds: Option<&[u32]>,
             wanted_count: u32) -> Result<Streamlines> {
         let mut c = Call::new(&self.counts);
-        let mut field_ = raw::hf_scalars { ..Default::default() };
-        (field_.values, field_.values_f64) = c.reals(Some(field.into()), "field", &["vertex_count"])?;
+        let field_ = c.reals(Some(field.into()), "field", &["vertex_count"])?;
         let mut lines = raw::hf_streamlines { wanted_count: wanted_count, ..Default::default() };
         lines.seeds = c.array(seeds, "seeds", &["seed_count"])?;
         lines.seed_count = c.count("seed_count", 0)?;
@@ -3459,8 +3458,8 @@ object!(
 impl Region {
     /// Creates a region without vertices.
     ///
-    /// positions: `[vertex_count x 3]` the surface of weight 0, bit for bit: the positions of the mesh or any pose of
-    /// them. `None`: the mesh's own to 1e-15 of the box. Copied
+    /// positions: `[vertex_count x 3]` of float or double: the surface of weight 0, bit for bit, as the positions of the
+    /// mesh or any pose of them. `None`: the mesh's own to 1e-15 of the box. Copied
     /// base: `HF_BASE_*`. If the surface has no factor for it yet, it is made now
     /// progress: an object to poll and cancel through
     ///
@@ -3574,18 +3573,18 @@ impl Region {
     /// solves nothing.
     ///
     /// weight: any finite number
-    /// out: `[vertex_count x 3]` in the unit and frame of the mesh as given, or `None`
-    /// normals: `[vertex_count x 3]` unit normals of the morphed surface, shared across seams, or `None`
+    /// out: `[vertex_count x 3]` of float or double, in the unit and frame of the mesh as given
+    /// normals: `[vertex_count x 3]` of float or double: unit normals of the morphed surface, shared across seams
     ///
-    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
+    /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn morph(&self, weight: f64) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
-        (desc.positions, desc.positions_f64) = f64::both_mut(out.as_mut_ptr());
-        let normals_at = std::ptr::null_mut();
-        desc.normals = normals_at;
+        desc.positions = c.out(out.as_mut_ptr(), true, "vertex_count");
+        let normals_at: *mut f32 = std::ptr::null_mut();
+        desc.normals = c.out(normals_at, false, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_morph(self.handle, &desc) })?;
         Ok(out)
@@ -3597,9 +3596,9 @@ impl Region {
         let mut c = Call::new(&self.counts);
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
         of_length(out, "out", c.product(&["vertex_count", "3"]))?;
-        (desc.positions, desc.positions_f64) = P::both_mut(out.as_mut_ptr());
+        desc.positions = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
-        desc.normals = normals_at;
+        desc.normals = c.out(normals_at, false, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_morph(self.handle, &desc) })?;
         Ok(())
@@ -3656,18 +3655,18 @@ impl Detail {
     /// it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
     ///
     /// weight: any finite number
-    /// out: `[vertex_count x 3]` in the unit and frame of the mesh as given, or `None`
-    /// normals: `[vertex_count x 3]` unit normals of the morphed surface, shared across seams, or `None`
+    /// out: `[vertex_count x 3]` of float or double, in the unit and frame of the mesh as given
+    /// normals: `[vertex_count x 3]` of float or double: unit normals of the morphed surface, shared across seams
     ///
-    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
+    /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn morph(&self, weight: f64) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
-        (desc.positions, desc.positions_f64) = f64::both_mut(out.as_mut_ptr());
-        let normals_at = std::ptr::null_mut();
-        desc.normals = normals_at;
+        desc.positions = c.out(out.as_mut_ptr(), true, "vertex_count");
+        let normals_at: *mut f32 = std::ptr::null_mut();
+        desc.normals = c.out(normals_at, false, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_detail_morph(self.handle, &desc) })?;
         Ok(out)
@@ -3679,9 +3678,9 @@ impl Detail {
         let mut c = Call::new(&self.counts);
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
         of_length(out, "out", c.product(&["vertex_count", "3"]))?;
-        (desc.positions, desc.positions_f64) = P::both_mut(out.as_mut_ptr());
+        desc.positions = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
         let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
-        desc.normals = normals_at;
+        desc.normals = c.out(normals_at, false, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_detail_morph(self.handle, &desc) })?;
         Ok(())
@@ -3982,10 +3981,10 @@ object!(
 impl Transfer {
     /// Creates a transfer between two surfaces; both may be the same.
     ///
-    /// source_rest: `[source.vertex_count x 3]`, or `None` Poses in which the two bodies correspond, in each surface's
-    /// unit, read by the call, or `None` for the positions of the surface. A character bound in a crouch gets a
-    /// standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
-    /// target_rest: `[target.vertex_count x 3]`, or `None`
+    /// source_rest: `[source.vertex_count x 3]` of float or double Poses in which the two bodies correspond, in each
+    /// surface's unit, read by the call, or `None` for the positions of the surface. A character bound in a crouch
+    /// gets a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+    /// target_rest: `[target.vertex_count x 3]` of float or double
     /// mode: `HF_TRANSFER_*`
     /// cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
     /// ground: `HF_GROUND_*`
@@ -4125,11 +4124,13 @@ impl Transfer {
     /// lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged.
     /// All rules of the ground come in continuously. [`raw::HF_GROUND_OFF`] switches them off.
     ///
-    /// source_positions: `[source.vertex_count x 3]` the posed source, its own vertex order
-    /// hold_pairs: `[hold_count]` each pair at most once
+    /// source_positions: `[source.vertex_count x 3]` of float or double: the posed source, its own vertex order
+    /// hold_pairs: `[hold_count]` each pair at most once A hold puts the target region of a pair exactly at a position of
+    /// yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices lands there; welded
+    /// copies count once. The rest of the surface follows.
     /// hold_positions: `[hold_count x 3]` in the target's unit and frame
-    /// out: `[target.vertex_count x 3]`, or `None`
-    /// target_normals: `[target.vertex_count x 3]`, or `None`
+    /// out: `[target.vertex_count x 3]` of float or double
+    /// target_normals: `[target.vertex_count x 3]` of float or double
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
@@ -4138,9 +4139,9 @@ impl Transfer {
         let mut c = Call::new(&self.counts);
         let mut desc = frame.fill(&mut c, "", Some(source_positions.into()))?;
         let mut out = vec![f64::default(); c.product(&["target.vertex_count", "3"])];
-        (desc.target_positions, desc.target_positions_f64) = f64::both_mut(out.as_mut_ptr());
-        let target_normals_at = std::ptr::null_mut();
-        desc.target_normals = target_normals_at;
+        desc.target_positions = c.out(out.as_mut_ptr(), true, "target.vertex_count");
+        let target_normals_at: *mut f32 = std::ptr::null_mut();
+        desc.target_normals = c.out(target_normals_at, false, "target.vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_apply(self.handle, &desc) })?;
         Ok(out)
@@ -4153,9 +4154,9 @@ impl Transfer {
         let mut c = Call::new(&self.counts);
         let mut desc = frame.fill(&mut c, "", Some(source_positions.into()))?;
         of_length(out, "out", c.product(&["target.vertex_count", "3"]))?;
-        (desc.target_positions, desc.target_positions_f64) = P::both_mut(out.as_mut_ptr());
+        desc.target_positions = c.out(out.as_mut_ptr(), P::DOUBLE, "target.vertex_count");
         let target_normals_at = c.fill(target_normals, "target_normals", &["target.vertex_count", "3"])?;
-        desc.target_normals = target_normals_at;
+        desc.target_normals = c.out(target_normals_at, false, "target.vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_apply(self.handle, &desc) })?;
         Ok(())

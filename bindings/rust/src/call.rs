@@ -123,7 +123,7 @@ impl Call {
     pub fn count(&mut self, key: &str, least: usize) -> Result<u32> {
         let size = self.size(key).unwrap_or(least);
         self.learn(key, size);
-        u32::try_from(size).map_err(|_| Error::new(raw::HF_ERROR_TOO_LARGE, format!("{key}: more than 4,294,967,295 entries")))
+        self.count_of(key)
     }
     /// What a dimension such as "face_count + 1" is; `None`: not known yet.
     pub fn size(&self, dim: &str) -> Option<usize> {
@@ -160,19 +160,40 @@ impl Call {
         values.map_or(Ok(()), |values| self.fit(values.len(), name, dims))?;
         Ok(start_of(values))
     }
-    pub fn reals(&mut self, values: Option<Reals>, name: &str, dims: &[&str]) -> Result<(*const f32, *const f64)> {
-        Ok(match values {
-            Some(Reals::F32(values)) => (self.array(Some(values), name, dims)?, std::ptr::null()),
-            Some(Reals::F64(values)) => (std::ptr::null(), self.array(Some(values), name, dims)?),
-            None => (std::ptr::null(), std::ptr::null()),
-        })
+    /// Rows of numbers where the caller has them.
+    fn view<T>(&mut self, values: &[T], kind: i32, name: &str, dims: &[&str]) -> Result<raw::hf_array> {
+        self.fit(values.len(), name, dims)?;
+        Ok(raw::hf_array { data: start(values).cast(), count: self.count_of(dims[0])?, r#type: kind, ..Default::default() })
     }
-    pub fn indices(&mut self, values: Option<Indices>, name: &str, dims: &[&str]) -> Result<(*const u32, *const u16)> {
-        Ok(match values {
-            Some(Indices::U32(values)) => (self.array(Some(values), name, dims)?, std::ptr::null()),
-            Some(Indices::U16(values)) => (std::ptr::null(), self.array(Some(values), name, dims)?),
-            None => (std::ptr::null(), std::ptr::null()),
-        })
+    pub fn reals(&mut self, values: Option<Reals>, name: &str, dims: &[&str]) -> Result<raw::hf_array> {
+        match values {
+            Some(Reals::F32(values)) => self.view(values, raw::HF_TYPE_PLAIN, name, dims),
+            Some(Reals::F64(values)) => self.view(values, raw::HF_TYPE_DOUBLE, name, dims),
+            None => Ok(raw::hf_array::default()),
+        }
+    }
+    pub fn indices(&mut self, values: Option<Indices>, name: &str, dims: &[&str]) -> Result<raw::hf_array> {
+        match values {
+            Some(Indices::U32(values)) => self.view(values, raw::HF_TYPE_PLAIN, name, dims),
+            Some(Indices::U16(values)) => self.view(values, raw::HF_TYPE_UINT16, name, dims),
+            None => Ok(raw::hf_array::default()),
+        }
+    }
+    pub fn words(&mut self, values: Option<&[u32]>, name: &str, dims: &[&str]) -> Result<raw::hf_array> {
+        values.map_or(Ok(raw::hf_array::default()), |values| self.view(values, raw::HF_TYPE_PLAIN, name, dims))
+    }
+    /// An array for the library to fill; none where it has no place.
+    pub fn out<T>(&self, place: *mut T, double: bool, rows: &str) -> raw::hf_array_out {
+        if place.is_null() {
+            return raw::hf_array_out::default();
+        }
+        let kind = if double { raw::HF_TYPE_DOUBLE } else { raw::HF_TYPE_PLAIN };
+        let count = u32::try_from(self.size(rows).unwrap_or(0)).unwrap_or(u32::MAX);
+        raw::hf_array_out { data: place.cast(), count, r#type: kind, ..Default::default() }
+    }
+    fn count_of(&self, dim: &str) -> Result<u32> {
+        let size = self.size(dim).unwrap_or(0);
+        u32::try_from(size).map_err(|_| Error::new(raw::HF_ERROR_TOO_LARGE, format!("{dim}: more than 4,294,967,295 entries")))
     }
     /// Lists of different lengths, one after the other.
     pub fn lists(&mut self, lists: Option<&[&[u32]]>, name: &str, dims: &[&str]) -> Result<(*const u32, *const u32)> {

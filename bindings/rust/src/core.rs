@@ -98,26 +98,12 @@ mod sealed {
 pub trait Real: sealed::Sealed + Copy + Default {
     #[doc(hidden)]
     const DOUBLE: bool;
-    /// The pointer as single and as double precision; one of them is null.
-    #[doc(hidden)]
-    fn both(at: *const Self) -> (*const f32, *const f64);
-    #[doc(hidden)]
-    fn both_mut(at: *mut Self) -> (*mut f32, *mut f64) {
-        let (single, double) = Self::both(at);
-        (single.cast_mut(), double.cast_mut())
-    }
 }
 impl Real for f32 {
     const DOUBLE: bool = false;
-    fn both(at: *const f32) -> (*const f32, *const f64) {
-        (at, std::ptr::null())
-    }
 }
 impl Real for f64 {
     const DOUBLE: bool = true;
-    fn both(at: *const f64) -> (*const f32, *const f64) {
-        (std::ptr::null(), at)
-    }
 }
 
 /// What [`History`] keeps: objects whose clones share memory with them.

@@ -30,6 +30,9 @@ pub const HF_ERROR_CANCELLED: i32 = -102;
 pub const HF_ERROR_NOT_POSITIVE_DEFINITE: i32 = -200;
 pub const HF_ERROR_INACCURATE: i32 = -201;
 pub const HF_ERROR_INTERNAL: i32 = -300;
+pub const HF_TYPE_PLAIN: i32 = 0;
+pub const HF_TYPE_DOUBLE: i32 = 1;
+pub const HF_TYPE_UINT16: i32 = 2;
 pub const HF_WELD_EXACT: i32 = 0;
 pub const HF_WELD_NONE: i32 = 1;
 pub const HF_WELD_TOLERANCE: i32 = 2;
@@ -245,6 +248,40 @@ pub struct hf_weights_object {
 }
 pub type hf_weights = *mut hf_weights_object;
 
+/// An array of yours that the library reads
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_array {
+    pub data: *const c_void,
+    pub count: u32,
+    pub stride: u32,
+    pub r#type: i32,
+    pub reserved: u32,
+}
+impl Default for hf_array {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
+/// An array of yours that the library writes; otherwise as hf_array.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_array_out {
+    pub data: *mut c_void,
+    pub count: u32,
+    pub stride: u32,
+    pub r#type: i32,
+    pub reserved: u32,
+}
+impl Default for hf_array_out {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
 /// Details of the last failed call on this thread.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -356,20 +393,34 @@ impl Default for hf_links_desc {
     }
 }
 
+/// Faces of any number of corners.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_faces_desc {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub corners: hf_array,
+    pub sizes: hf_array,
+    pub starts: hf_array,
+}
+impl Default for hf_faces_desc {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+
 /// The mesh and the options of a surface.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_desc {
     pub struct_size: u32,
-    pub vertex_count: u32,
-    pub triangle_count: u32,
-    pub position_stride: u32,
-    pub positions: *const f32,
-    pub positions_f64: *const f64,
-    pub triangles: *const u32,
-    pub triangles_u16: *const u16,
-    pub triangle_stride: u32,
     pub weld: i32,
+    pub positions: hf_array,
+    pub triangles: hf_array,
+    pub faces: *const hf_faces_desc,
     pub weld_tolerance: f64,
     pub operator_kind: i32,
     pub field_kind: i32,
@@ -384,13 +435,6 @@ pub struct hf_surface_desc {
     pub progress: hf_progress,
     pub saved_factor: *const hf_factor_desc,
     pub links: *const hf_links_desc,
-    pub face_count: u32,
-    pub corner_count: u32,
-    pub face_starts: *const u32,
-    pub face_sizes: *const u32,
-    pub corners: *const u32,
-    pub face_stride: u32,
-    pub corner_stride: u32,
 }
 impl Default for hf_surface_desc {
     fn default() -> Self {
@@ -407,11 +451,10 @@ impl Default for hf_surface_desc {
 pub struct hf_graph_desc {
     pub struct_size: u32,
     pub vertex_count: u32,
-    pub edge_count: u32,
+    pub edges: hf_array,
+    pub weights: hf_array,
+    pub masses: hf_array,
     pub allow_negative: i32,
-    pub edges: *const u32,
-    pub weights: *const f64,
-    pub masses: *const f64,
     pub field_kind: i32,
     pub ordering: i32,
     pub thread_count: u32,
@@ -419,7 +462,6 @@ pub struct hf_graph_desc {
     pub edge_limit: u32,
     pub memory_limit_mb: u32,
     pub work_limit_gflop: u32,
-    pub reserved: u32,
     pub allocator: hf_allocator,
     pub job_runner: hf_job_runner,
     pub progress: hf_progress,
@@ -570,24 +612,6 @@ impl hf_surface_report {
     }
 }
 
-/// Posed positions of the mesh, of which gaps are measured.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct hf_gaps_desc {
-    pub struct_size: u32,
-    pub position_stride: u32,
-    pub positions: *const f32,
-    pub positions_f64: *const f64,
-}
-impl Default for hf_gaps_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-
 /// How far linked pieces have opened, in the unit of the positions.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -681,11 +705,8 @@ impl hf_surface_statistics {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pick_desc {
     pub struct_size: u32,
-    pub position_stride: u32,
-    pub positions: *const f32,
-    pub positions_f64: *const f64,
     pub front_only: i32,
-    pub reserved: u32,
+    pub positions: hf_array,
 }
 impl Default for hf_pick_desc {
     fn default() -> Self {
@@ -1011,24 +1032,6 @@ impl hf_solver_statistics {
             "predicted_rebase_ms" => self.predicted_rebase_ms,
             _ => return None,
         })
-    }
-}
-
-/// This struct passes a field with one value per vertex of your mesh.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct hf_scalars {
-    pub struct_size: u32,
-    pub value_stride: u32,
-    pub values: *const f32,
-    pub values_f64: *const f64,
-}
-impl Default for hf_scalars {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
     }
 }
 
@@ -1461,17 +1464,14 @@ impl hf_deform_info {
     }
 }
 
-/// The options of hf_pose_deform are outputs, strides and a range of vertices.
+/// The options of hf_pose_deform are outputs and a range of vertices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_deform_desc {
     pub struct_size: u32,
-    pub position_stride: u32,
-    pub positions: *mut f32,
-    pub positions_f64: *mut f64,
-    pub normals: *mut f32,
-    pub normal_stride: u32,
     pub iteration_count: u32,
+    pub positions: hf_array_out,
+    pub normals: hf_array_out,
     pub restart: i32,
     pub refine: i32,
     pub refine_from_last: i32,
@@ -1677,10 +1677,7 @@ impl Default for hf_streamlines {
 pub struct hf_region_desc {
     pub struct_size: u32,
     pub base: i32,
-    pub positions: *const f32,
-    pub positions_f64: *const f64,
-    pub position_stride: u32,
-    pub reserved: u32,
+    pub positions: hf_array,
     pub progress: hf_progress,
 }
 impl Default for hf_region_desc {
@@ -1793,13 +1790,10 @@ impl hf_region_info {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_morph_desc {
     pub struct_size: u32,
-    pub position_stride: u32,
-    pub weight: f64,
-    pub positions: *mut f32,
-    pub positions_f64: *mut f64,
-    pub normals: *mut f32,
-    pub normal_stride: u32,
     pub reserved: u32,
+    pub weight: f64,
+    pub positions: hf_array_out,
+    pub normals: hf_array_out,
 }
 impl Default for hf_morph_desc {
     fn default() -> Self {
@@ -2080,8 +2074,8 @@ pub struct hf_transfer_desc {
     pub alignment_angle: f64,
     pub source_axes: [f64; 9],
     pub target_axes: [f64; 9],
-    pub source_rest: *const f32,
-    pub target_rest: *const f32,
+    pub source_rest: hf_array,
+    pub target_rest: hf_array,
 }
 impl Default for hf_transfer_desc {
     fn default() -> Self {
@@ -2236,16 +2230,10 @@ impl hf_transfer_dials {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_frame {
     pub struct_size: u32,
-    pub source_stride: u32,
-    pub source_positions: *const f32,
-    pub source_positions_f64: *const f64,
-    pub target_stride: u32,
-    pub normal_stride: u32,
-    pub target_positions: *mut f32,
-    pub target_positions_f64: *mut f64,
-    pub target_normals: *mut f32,
     pub hold_count: u32,
-    pub reserved: u32,
+    pub source_positions: hf_array,
+    pub target_positions: hf_array_out,
+    pub target_normals: hf_array_out,
     pub hold_pairs: *const u32,
     pub hold_positions: *const f64,
 }
@@ -2564,7 +2552,7 @@ extern "C" {
     pub fn hf_surface_get_components(surface: hf_surface, capacity: u32, out_components: *mut u32, out_count: *mut u32) -> i32;
     pub fn hf_surface_get_links(surface: hf_surface, capacity: u32, out_links: *mut hf_link, out_count: *mut u32) -> i32;
     pub fn hf_surface_get_pieces(surface: hf_surface, capacity: u32, out_pieces: *mut u32, out_light: *mut i32, out_count: *mut u32) -> i32;
-    pub fn hf_surface_measure_gaps(surface: hf_surface, desc: *const hf_gaps_desc, capacity: u32, out_gaps: *mut f64, out_info: *mut hf_gaps_info) -> i32;
+    pub fn hf_surface_measure_gaps(surface: hf_surface, positions: *const hf_array, capacity: u32, out_gaps: *mut f64, out_info: *mut hf_gaps_info) -> i32;
     pub fn hf_surface_relink(surface: hf_surface, links: *const hf_links_desc, progress: hf_progress, out_surface: *mut hf_surface) -> i32;
     pub fn hf_surface_get_statistics(surface: hf_surface, out_statistics: *mut hf_surface_statistics) -> i32;
     pub fn hf_surface_save(surface: hf_surface, field_kind: i32, progress: hf_progress, capacity: usize, out_bytes: *mut c_void, out_size: *mut usize) -> i32;
@@ -2584,25 +2572,22 @@ extern "C" {
     pub fn hf_solver_get_sites(solver: hf_solver, inout_info: *mut hf_sites_info) -> i32;
     pub fn hf_solver_set_screening(solver: hf_solver, screening: *const f64, targets: *const f64) -> i32;
     pub fn hf_solve(solver: hf_solver, out_values: *mut f32, value_stride: u32, out_info: *mut hf_solve_info) -> i32;
-    pub fn hf_solver_solve_f64(solver: hf_solver, out_values: *mut f64, value_stride: u32, out_info: *mut hf_solve_info) -> i32;
+    pub fn hf_solver_solve(solver: hf_solver, out_values: *const hf_array_out, out_info: *mut hf_solve_info) -> i32;
     pub fn hf_solver_solve_at(solver: hf_solver, vertex_count: u32, vertices: *const u32, out_values: *mut f64) -> i32;
-    pub fn hf_solver_solve_vectors(solver: hf_solver, out_vectors: *mut f32, vector_stride: u32, out_normals: *mut f64, out_info: *mut hf_solve_info) -> i32;
-    pub fn hf_solver_solve_vectors_f64(solver: hf_solver, out_vectors: *mut f64, vector_stride: u32, out_normals: *mut f64, out_info: *mut hf_solve_info) -> i32;
-    pub fn hf_solver_solve_preview(solver: hf_solver, out_values: *mut f32, value_stride: u32, correction_count: u32, out_info: *mut hf_preview_info) -> i32;
-    pub fn hf_solver_solve_preview_f64(solver: hf_solver, out_values: *mut f64, value_stride: u32, correction_count: u32, out_info: *mut hf_preview_info) -> i32;
+    pub fn hf_solver_solve_vectors(solver: hf_solver, out_vectors: *const hf_array_out, out_normals: *mut f64, out_info: *mut hf_solve_info) -> i32;
+    pub fn hf_solver_solve_preview(solver: hf_solver, out_values: *const hf_array_out, correction_count: u32, out_info: *mut hf_preview_info) -> i32;
     pub fn hf_solver_release_preview(solver: hf_solver) -> i32;
     pub fn hf_solver_move_vectors(solver: hf_solver, site_count: u32, sites: *const u32, vertices: *const u32) -> i32;
     pub fn hf_solver_rotate_vectors(solver: hf_solver, site_count: u32, sites: *const u32, angles: *const f64) -> i32;
     pub fn hf_solver_certify(solver: hf_solver, inout_certificate: *mut hf_certificate) -> i32;
     pub fn hf_solver_prepare_rebase(solver: hf_solver) -> i32;
     pub fn hf_solver_get_statistics(solver: hf_solver, out_statistics: *mut hf_solver_statistics) -> i32;
-    pub fn hf_surface_space_levels(surface: hf_surface, field: *const hf_scalars, spacing: i32, level_count: u32, out_levels: *mut f64) -> i32;
-    pub fn hf_surface_trace_isolines(surface: hf_surface, field: *const hf_scalars, level_count: u32, levels: *const f64, inout_lines: *mut hf_isolines) -> i32;
-    pub fn hf_surface_find_critical_points(surface: hf_surface, field: *const hf_scalars, capacity: u32, out_points: *mut hf_critical_point, out_info: *mut hf_critical_info) -> i32;
+    pub fn hf_surface_space_levels(surface: hf_surface, field: *const hf_array, spacing: i32, level_count: u32, out_levels: *mut f64) -> i32;
+    pub fn hf_surface_trace_isolines(surface: hf_surface, field: *const hf_array, level_count: u32, levels: *const f64, inout_lines: *mut hf_isolines) -> i32;
+    pub fn hf_surface_find_critical_points(surface: hf_surface, field: *const hf_array, capacity: u32, out_points: *mut hf_critical_point, out_info: *mut hf_critical_info) -> i32;
     pub fn hf_geodesics_create(surface: hf_surface, desc: *const hf_geodesics_desc, out_geodesics: *mut hf_geodesics) -> i32;
     pub fn hf_geodesics_destroy(geodesics: hf_geodesics);
-    pub fn hf_geodesics_solve(geodesics: hf_geodesics, source_count: u32, sources: *const u32, out_distances: *mut f32, value_stride: u32) -> i32;
-    pub fn hf_geodesics_solve_f64(geodesics: hf_geodesics, source_count: u32, sources: *const u32, out_distances: *mut f64, value_stride: u32) -> i32;
+    pub fn hf_geodesics_solve(geodesics: hf_geodesics, source_count: u32, sources: *const u32, out_distances: *const hf_array_out) -> i32;
     pub fn hf_geodesics_find_path(geodesics: hf_geodesics, from: *const hf_surface_point, to: *const hf_surface_point, inout_path: *mut hf_path) -> i32;
     pub fn hf_geodesics_get_map(geodesics: hf_geodesics, centre: *const hf_surface_point, radius: f64, out_map: *mut f64, out_frame: *mut f64) -> i32;
     pub fn hf_surface_find_extremities(surface: hf_surface, desc: *const hf_extremities_desc, capacity: u32, out_extremities: *mut hf_extremity, out_count: *mut u32) -> i32;
@@ -2616,8 +2601,7 @@ extern "C" {
     pub fn hf_direction_rotate_sites(direction: hf_direction, site_count: u32, sites: *const u32, angles: *const f64) -> i32;
     pub fn hf_direction_get_site_count(direction: hf_direction) -> u32;
     pub fn hf_direction_get_sites(direction: hf_direction, capacity: u32, out_sites: *mut u32, out_vertices: *mut u32, out_vectors: *mut f64, out_count: *mut u32) -> i32;
-    pub fn hf_direction_solve(direction: hf_direction, out_vectors: *mut f32, vector_stride: u32, out_info: *mut hf_solve_info) -> i32;
-    pub fn hf_direction_solve_f64(direction: hf_direction, out_vectors: *mut f64, vector_stride: u32, out_info: *mut hf_solve_info) -> i32;
+    pub fn hf_direction_solve(direction: hf_direction, out_vectors: *const hf_array_out, out_info: *mut hf_solve_info) -> i32;
     pub fn hf_direction_get_singularities(direction: hf_direction, capacity: u32, out_singularities: *mut hf_singularity, out_count: *mut u32) -> i32;
     pub fn hf_direction_get_statistics(direction: hf_direction, out_statistics: *mut hf_direction_statistics) -> i32;
     pub fn hf_pose_create(surface: hf_surface, desc: *const hf_pose_desc, out_pose: *mut hf_pose) -> i32;
@@ -2633,7 +2617,7 @@ extern "C" {
     pub fn hf_pose_set_matrices(pose: hf_pose, handle_count: u32, handles: *const u32, matrices: *const f64) -> i32;
     pub fn hf_pose_get_handle(pose: hf_pose, handle: u32, out_info: *mut hf_handle_info) -> i32;
     pub fn hf_pose_get_handle_count(pose: hf_pose) -> u32;
-    pub fn hf_pose_get_field(pose: hf_pose, handle: u32, out_values: *mut f32, value_stride: u32) -> i32;
+    pub fn hf_pose_get_field(pose: hf_pose, handle: u32, out_values: *const hf_array_out) -> i32;
     pub fn hf_deform(pose: hf_pose, out_positions: *mut f32, out_info: *mut hf_deform_info) -> i32;
     pub fn hf_pose_deform(pose: hf_pose, desc: *const hf_deform_desc, out_info: *mut hf_deform_info) -> i32;
     pub fn hf_pose_get_skin(pose: hf_pose, inout_skin: *mut hf_skin_info) -> i32;
@@ -2645,7 +2629,7 @@ extern "C" {
     pub fn hf_quads_get_mesh(quads: hf_quads, inout_mesh: *mut hf_quads_mesh) -> i32;
     pub fn hf_flow_create(surface: hf_surface, out_flow: *mut hf_flow) -> i32;
     pub fn hf_flow_destroy(flow: hf_flow);
-    pub fn hf_flow_trace(flow: hf_flow, field: *const hf_scalars, inout_lines: *mut hf_streamlines) -> i32;
+    pub fn hf_flow_trace(flow: hf_flow, field: *const hf_array, inout_lines: *mut hf_streamlines) -> i32;
     pub fn hf_region_create(surface: hf_surface, desc: *const hf_region_desc, out_region: *mut hf_region) -> i32;
     pub fn hf_region_clone(region: hf_region, out_region: *mut hf_region) -> i32;
     pub fn hf_region_destroy(region: hf_region);

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "graph_support.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -105,7 +106,7 @@ TEST(GraphEdits, clones_chosen_vertices_previews_and_certificates_are_those_of_t
     for (std::uint32_t v = 0; v < graph.vertex_count; ++v) all[v] = v;
     ASSERT_EQ(hf_solver_solve_at(solver.handle, graph.vertex_count, all.data(), at.data()), HF_OK);
     EXPECT_TRUE(same_bits(whole, at));
-    ASSERT_EQ(hf_solver_solve_preview_f64(solver.handle, preview.data(), 0, 2, nullptr), HF_OK);
+    ASSERT_EQ(hf_solver_solve_preview(solver.handle, OUT(preview.data()), 2, nullptr), HF_OK);
     for (std::size_t v = 0; v < whole.size(); ++v) ASSERT_NEAR(preview[v], whole[v], 1e-9) << kind;
 
     hf_certificate certificate = HF_INIT(hf_certificate);

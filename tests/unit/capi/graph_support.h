@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hf/hf.h"
+#include "support/arrays.h"
 #include "support/dense.h"
 
 namespace graph_test {
@@ -26,11 +27,10 @@ struct Graph {
   hf_graph_desc desc() const {
     hf_graph_desc d = HF_INIT(hf_graph_desc);
     d.vertex_count = vertex_count;
-    d.edge_count = static_cast<std::uint32_t>(weights.size());
-    d.edges = edges.data();
-    d.weights = weights.data();
+    d.edges = HF_ARRAY(edges.data(), weights.size());
+    d.weights = HF_ARRAY(weights.data(), weights.size());
     d.allow_negative = allow_negative;
-    if (!masses.empty()) d.masses = masses.data();
+    if (!masses.empty()) d.masses = HF_ARRAY(masses.data(), masses.size());
     return d;
   }
 };
@@ -79,7 +79,7 @@ inline void add(hf_solver solver, const Sites& sites) {
 }
 inline std::vector<double> field(hf_solver solver, std::size_t vertex_count) {
   std::vector<double> values(vertex_count, -99);
-  EXPECT_EQ(hf_solver_solve_f64(solver, values.data(), 0, nullptr), HF_OK) << last_message();
+  EXPECT_EQ(hf_solver_solve(solver, OUT(values.data()), nullptr), HF_OK) << last_message();
   return values;
 }
 inline std::vector<double> fluxes(hf_solver solver) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "graph_support.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -220,10 +221,8 @@ TEST(Graph, is_the_uniform_operator_of_a_mesh_with_its_edges) {
     triangles.insert(triangles.end(), {v, v + 1, v + side + 1, v, v + side + 1, v + side});
   }
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = side * side;
-  desc.positions = positions.data();
-  desc.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
-  desc.triangles = triangles.data();
+  desc.positions = HF_ARRAY(positions.data(), side * side);
+  desc.triangles = HF_ARRAY(triangles.data(), triangles.size() / 3);
   desc.operator_kind = HF_OPERATOR_UNIFORM;
   hf_surface mesh = nullptr;
   ASSERT_EQ(hf_surface_create(&desc, &mesh), HF_OK);
@@ -277,7 +276,7 @@ TEST(Graph, weights_of_any_spread_give_fields_within_their_sites) {
       const Solver solver(surface.handle, kind);
       add(solver.handle, sites);
       std::vector<double> exact = field(solver.handle, graph.vertex_count), preview(graph.vertex_count);
-      ASSERT_EQ(hf_solver_solve_preview_f64(solver.handle, preview.data(), 0, 2, nullptr), HF_OK);
+      ASSERT_EQ(hf_solver_solve_preview(solver.handle, OUT(preview.data()), 2, nullptr), HF_OK);
       for (std::size_t v = 0; v < exact.size(); ++v) {
         ASSERT_TRUE(std::isfinite(exact[v]) && std::isfinite(preview[v])) << spread << ", kind " << kind;
         ASSERT_LE(std::fabs(exact[v]), kind == HF_FIELD_HARMONIC ? 1 + 1e-6 : HUGE_VAL) << spread;

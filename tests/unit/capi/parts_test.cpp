@@ -11,6 +11,7 @@
 #include "hf/hf.h"
 #include "mesh/nearest_triangle.h"
 #include "support/part_scenes.h"
+#include "support/arrays.h"
 
 namespace {
 
@@ -47,10 +48,8 @@ Posed pose_of(const Scene& scene, bool with, const std::vector<std::uint32_t>& t
   links.mode = HF_LINK_PIECES;
   links.tags = tags.empty() ? nullptr : tags.data();
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = scene.mesh.vertex_count();
-  desc.triangle_count = scene.mesh.triangle_count();
-  desc.positions_f64 = scene.mesh.positions.data();
-  desc.triangles = scene.mesh.triangles.data();
+  desc.positions = HF_ARRAY(scene.mesh.positions.data(), scene.mesh.vertex_count());
+  desc.triangles = HF_ARRAY(scene.mesh.triangles.data(), scene.mesh.triangle_count());
   desc.weld = HF_WELD_EXACT;
   desc.links = with ? &links : nullptr;
   hf_surface surface = nullptr;
@@ -68,7 +67,7 @@ Posed pose_of(const Scene& scene, bool with, const std::vector<std::uint32_t>& t
   Posed out;
   out.positions.resize(scene.mesh.positions.size());
   hf_deform_desc frame = HF_INIT(hf_deform_desc);
-  frame.positions_f64 = out.positions.data();
+  frame.positions = ROWS_OUT(out.positions.data());
   hf_deform_info info = HF_INIT(hf_deform_info);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(hf_pose_deform(pose, &frame, &info), HF_OK);
   hf_surface_report report = HF_INIT(hf_surface_report);
@@ -195,10 +194,8 @@ std::vector<hf_handle_proposal> tips_of(const PlainMesh& mesh) {
   hf_links_desc links = HF_INIT(hf_links_desc);
   links.mode = HF_LINK_PIECES;
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = mesh.vertex_count();
-  desc.triangle_count = mesh.triangle_count();
-  desc.positions_f64 = mesh.positions.data();
-  desc.triangles = mesh.triangles.data();
+  desc.positions = HF_ARRAY(mesh.positions.data(), mesh.vertex_count());
+  desc.triangles = HF_ARRAY(mesh.triangles.data(), mesh.triangle_count());
   desc.weld = HF_WELD_EXACT;
   desc.links = &links;
   hf_surface surface = nullptr;

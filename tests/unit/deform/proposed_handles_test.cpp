@@ -42,10 +42,8 @@ Body body_of(const FlatMesh& mesh) {
 
 hf::Surface surface_of(const Body& body, uint32_t threads = 1) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
-  desc.vertex_count = static_cast<uint32_t>(body.positions.size() / 3);
-  desc.positions_f64 = body.positions.data();
-  desc.triangle_count = static_cast<uint32_t>(body.triangles.size() / 3);
-  desc.triangles = body.triangles.data();
+  desc.positions = HF_ARRAY(body.positions.data(), body.positions.size() / 3);
+  desc.triangles = HF_ARRAY(body.triangles.data(), body.triangles.size() / 3);
   desc.thread_count = threads;
   return hf::Surface(desc);
 }

@@ -84,7 +84,7 @@ TEST(CorpusFill, is_bounded_by_minimum_degree_on_hard_surfaces) {
   input.vertex_count = point.vertex_count();
   input.triangle_count = point.triangle_count();
   input.positions = hf_inner::ConstRows(point.positions.data(), 3 * sizeof(double));
-  input.triangles = point.triangles.data();
+  input.triangles = hf_inner::IndexRows(point.triangles.data(), 3);
   input.weld = hf_inner::Weld::none;
   const auto memory = std::make_shared<hf_inner::Memory>();
   hf_inner::CoreOptions options;

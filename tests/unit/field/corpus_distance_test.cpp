@@ -59,7 +59,7 @@ TEST(CorpusDistance, is_off_by_one_per_cent_at_most_and_by_three_at_worst_on_rea
     input.vertex_count = plain.vertex_count();
     input.triangle_count = plain.triangle_count();
     input.positions = hf_inner::ConstRows(plain.positions.data(), 3 * sizeof(double));
-    input.triangles = plain.triangles.data();
+    input.triangles = hf_inner::IndexRows(plain.triangles.data(), 3);
     const hf_inner::Surface surface(
         hf_inner::Geometry::make(input, hf_inner::OperatorKind::intrinsic_delaunay,
                                  std::make_shared<hf_inner::Memory>(), std::make_shared<hf_inner::JobRunner>(1)),

@@ -251,8 +251,8 @@ struct Sheet {
     input.positions = hf_inner::ConstRows(positions.data(), 3 * sizeof(double));
     input.faces.face_count = static_cast<std::uint32_t>(sizes.size());
     input.faces.corner_count = static_cast<std::uint32_t>(corners.size());
-    input.faces.sizes = sizes.data();
-    input.faces.corners = corners.data();
+    input.faces.sizes = hf_inner::IndexRows(sizes.data(), 1);
+    input.faces.corners = hf_inner::IndexRows(corners.data(), 1);
     return hf_inner::Mesh::make(input, memory);
   }
   std::vector<double> positions;

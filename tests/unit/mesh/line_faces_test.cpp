@@ -44,7 +44,7 @@ hf_inner::MeshInput input_of(const hf_test::PlainMesh& mesh) {
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = mesh.triangle_count();
   input.positions = hf_inner::ConstRows(mesh.positions.data(), 3 * sizeof(double));
-  input.triangles = mesh.triangles.data();
+  input.triangles = hf_inner::IndexRows(mesh.triangles.data(), 3);
   return input;
 }
 
@@ -165,8 +165,8 @@ TEST(LineFaces, a_polygon_on_a_line_is_left_out_if_it_joins_nothing) {
     hf_inner::MeshInput input = input_of(mesh);
     input.triangles = {};
     input.triangle_count = 0;
-    input.faces.sizes = sizes.data();
-    input.faces.corners = corners.data();
+    input.faces.sizes = hf_inner::IndexRows(sizes.data(), 1);
+    input.faces.corners = hf_inner::IndexRows(corners.data(), 1);
     input.faces.face_count = static_cast<std::uint32_t>(sizes.size());
     input.faces.corner_count = static_cast<std::uint32_t>(corners.size());
     hf_inner::Memory memory;

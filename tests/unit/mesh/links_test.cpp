@@ -36,7 +36,7 @@ std::shared_ptr<const hf_inner::Geometry> plain_geometry(const PlainMesh& mesh, 
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = mesh.triangle_count();
   input.positions = hf_inner::ConstRows(mesh.positions.data(), 3 * sizeof(double));
-  input.triangles = mesh.triangles.data();
+  input.triangles = hf_inner::IndexRows(mesh.triangles.data(), 3);
   return hf_inner::Geometry::make(input, kind, std::make_shared<hf_inner::Memory>(),
                                   std::make_shared<hf_inner::JobRunner>(1u));
 }

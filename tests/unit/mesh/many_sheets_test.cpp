@@ -26,7 +26,7 @@ struct Shape {
     input.vertex_count = plain.vertex_count();
     input.triangle_count = plain.triangle_count();
     input.positions = hf_inner::ConstRows(plain.positions.data(), 3 * sizeof(double));
-    input.triangles = plain.triangles.data();
+    input.triangles = hf_inner::IndexRows(plain.triangles.data(), 3);
     input.weld = hf_inner::Weld::none;
     return hf_inner::Mesh::make(input, memory);
   }

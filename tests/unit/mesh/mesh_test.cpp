@@ -26,7 +26,7 @@ struct Given {
     input.vertex_count = static_cast<std::uint32_t>(positions.size() / 3);
     input.triangle_count = static_cast<std::uint32_t>(triangles.size() / 3);
     input.positions = hf_inner::ConstRows(positions.data(), 3 * sizeof(double));
-    input.triangles = triangles.data();
+    input.triangles = hf_inner::IndexRows(triangles.data(), 3);
     input.weld = weld;
     input.weld_tolerance = tolerance;
     hf_inner::Mesh mesh = hf_inner::Mesh::make(input, memory);
@@ -234,9 +234,8 @@ TEST(Mesh, faces_are_cut_alike_in_any_unit_and_beside_a_vertex_that_no_face_has)
       input.positions = hf_inner::ConstRows(moved.data(), 3 * sizeof(double));
       input.faces.face_count = static_cast<std::uint32_t>(sizes.size());
       input.faces.corner_count = static_cast<std::uint32_t>(corners.size());
-      input.faces.sizes = sizes.data();
-      input.faces.corners = corners.data();
-      input.faces.face_stride = input.faces.corner_stride = sizeof(std::uint32_t);
+      input.faces.sizes = hf_inner::IndexRows(sizes.data(), 1);
+      input.faces.corners = hf_inner::IndexRows(corners.data(), 1);
       hf_inner::Memory memory;
       const hf_inner::Mesh mesh = hf_inner::Mesh::make(input, memory);
       if (expected.empty()) {

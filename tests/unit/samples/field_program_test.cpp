@@ -264,8 +264,8 @@ TEST(FieldProgram, refuses_a_soup_by_its_size_and_names_the_option_that_lets_it_
 TEST(Limits, let_sound_meshes_through_by_the_size_that_triangles_give_them) {
   const auto limits = [](uint32_t vertices, uint32_t triangles) {
     auto desc = hf_surface_desc();
-    desc.vertex_count = vertices;
-    desc.triangle_count = triangles;
+    desc.positions.count = vertices;
+    desc.triangles.count = triangles;
     limit_surface(desc);
     return std::pair<uint32_t, uint32_t>(desc.work_limit_gflop, desc.memory_limit_mb);
   };
@@ -275,9 +275,11 @@ TEST(Limits, let_sound_meshes_through_by_the_size_that_triangles_give_them) {
   EXPECT_EQ(limits(20000000, 40000000).first, 100000u);  // 4 * 10^12 operations are needed
   EXPECT_GT(limits(400000, 868000).second, 19 * 400000u / 1024);
   auto faces = hf_surface_desc();
-  faces.vertex_count = 90000;
-  faces.face_count = 45000;
-  faces.corner_count = 180000;
+  auto polygons = hf_faces_desc();
+  faces.positions.count = 90000;
+  polygons.sizes.count = 45000;
+  polygons.corners.count = 180000;
+  faces.faces = &polygons;
   limit_surface(faces);
   EXPECT_EQ(faces.work_limit_gflop, 162u);
 }
@@ -286,8 +288,8 @@ TEST(Limits, let_sound_meshes_through_by_the_size_that_triangles_give_them) {
 TEST(Limits, of_quads_know_the_genus_and_stay_bounded) {
   const auto memory = [](uint32_t vertices, uint32_t triangles, bool quads) {
     auto desc = hf_surface_desc();
-    desc.vertex_count = vertices;
-    desc.triangle_count = triangles;
+    desc.positions.count = vertices;
+    desc.triangles.count = triangles;
     if (quads) {
       limit_quads(desc, 0);
     } else {

@@ -183,10 +183,8 @@ TEST(DamagedModels, NoVariantFailsAndNoVertexIsBare) {
     const std::string where = names[m] + ", variant " + std::to_string(i) + ": " + variant.damage;
     try {
       auto desc = hf::make<hf_surface_desc>();
-      desc.vertex_count = static_cast<uint32_t>(variant.positions.size() / 3);
-      desc.triangle_count = static_cast<uint32_t>(variant.triangles.size() / 3);
-      desc.positions_f64 = variant.positions.data();
-      desc.triangles = variant.triangles.data();
+      desc.positions = HF_ARRAY(variant.positions.data(), variant.positions.size() / 3);
+      desc.triangles = HF_ARRAY(variant.triangles.data(), variant.triangles.size() / 3);
       const hf::Surface surface(desc);
       const hf::Weights weights(surface, variant.bones, i % 2 ? 4 : 8);
       const hf::WeightsOut found = weights.weights();

@@ -41,7 +41,7 @@ inline std::shared_ptr<const hf_inner::Core> make_core(const std::vector<glm::dv
   input.vertex_count = static_cast<uint32_t>(positions.size());
   input.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
   input.positions = hf_inner::ConstRows(&positions[0].x, sizeof(glm::dvec3));
-  input.triangles = triangles.data();
+  input.triangles = hf_inner::IndexRows(triangles.data(), 3);
   return hf_inner::Core::make(input, {}, world.memory, world.jobs);
 }
 
