@@ -42,7 +42,8 @@ FaceRows read_faces(const hf_surface_desc& desc) {
   faces.sizes = read_indices(given.sizes, HF_TYPE_PLAIN, 1, "faces->sizes");
   faces.corner_count = given.corners.count;
   if (faces.starts && faces.sizes) check_rows(given.starts, given.sizes.count, "faces->sizes", "faces->starts");
-  faces.face_count = faces.sizes ? given.sizes.count : given.starts.count - 1;  // the last offset is an end
+  const std::uint32_t ends = given.starts.count;
+  faces.face_count = faces.sizes ? given.sizes.count : ends > 0 ? ends - 1 : 0;  // the last offset is an end
   return faces;
 }
 

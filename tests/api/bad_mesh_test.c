@@ -80,6 +80,9 @@ static void hf_surface_create_refuses_bad_faces(void** state) {
          (in_sizes(), desc.triangles = HF_ARRAY(triangles, CUT_TRIANGLES)));
   CREATE("faces and 16-bit triangles", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), in_16_bits()));
   CREATE("faces and a triangle count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), desc.triangles.count = 1));
+  CREATE("no offset", HF_ERROR_EMPTY, NO_INDEX, (in_offsets(), faces.starts.count = 0));
+  CREATE("one offset", HF_ERROR_EMPTY, NO_INDEX, (in_offsets(), faces.starts.count = 1));
+  CREATE("no size", HF_ERROR_EMPTY, NO_INDEX, (in_sizes(), faces.sizes.count = 0));
   CREATE("starts of other faces", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_loops(), faces.starts.count += 1));
   CREATE("sizes in 16 bits", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (in_sizes(), faces.sizes.type = HF_TYPE_UINT16));
   CREATE("faces of another size", HF_ERROR_INVALID_DESC, NO_INDEX, (in_sizes(), faces.struct_size = 4));
