@@ -171,14 +171,10 @@ struct PickOptions {
 struct SolverOptions {
   // HF_FIELD_*; if the surface has no factor of that kind yet, it is made now
   int32_t field_kind = 0;
-  // HF_ENGINE_*
-  int32_t engine = 0;
   // fields solved at once, 1 to 64; 0 = 1
   uint32_t channel_count = 0;
   // at most this many sites; 0 = 100,000
   uint32_t site_limit = 0;
-  // HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
-  double penalty = 0;
   // none, or an object to poll and cancel through
   const Progress* progress = nullptr;
   hf_solver_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
@@ -1259,13 +1255,11 @@ class Solver {
   // Creates a solver without sites.
   //
   // field_kind: HF_FIELD_*; if the surface has no factor of that kind yet, it is made now
-  // engine: HF_ENGINE_*
   // channel_count: fields solved at once, 1 to 64; 0 = 1
   // site_limit: at most this many sites; 0 = 100,000
-  // penalty: HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
   // progress: an object to poll and cancel through
   //
-  // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_UNSUPPORTED.
+  // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE.
   Solver(const Surface& surface, const SolverOptions& options = {}) {
     Call c;
     c.parent("surface", surface.known_counts());
@@ -1559,8 +1553,8 @@ class Solver {
   // Solver::solve.
   //
   // The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on the
-  // surface share the copy. It is freed with the last of these solvers, or by Solver::release_preview. Engines other
-  // than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites. info.exact is then 1.
+  // surface share the copy. It is freed with the last of these solvers, or by Solver::release_preview. A solver whose
+  // factor eliminates sites gives the exact field. info.exact is then 1.
   //
   // correction_count: 0 to 8.
   // out: `[vertex_count x channel_count]`, as Solver::solve.
@@ -1638,7 +1632,7 @@ class Solver {
   // HF_ERROR_INACCURATE (index = worst vertex) if the check fails, and writes certificate then too. Do not use fields
   // of that solver; make the surface again.
   //
-  // tolerance: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5
+  // tolerance: largest error to accept, > 0; 0 = 1e-8
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT.
   hf_certificate certify(double tolerance = 0) const {
@@ -1655,7 +1649,7 @@ class Solver {
   // hf_solver_statistics.rebase_advised is 1. An edit of very many sites does this by itself when that is quicker.
   // Memory: one more factor, for as long as it eliminates sites.
   //
-  // Fails with HF_ERROR_BUSY, HF_ERROR_EMPTY, HF_ERROR_UNSUPPORTED.
+  // Fails with HF_ERROR_BUSY, HF_ERROR_EMPTY.
   void prepare_rebase() const {
     Call c(counts_);
     check(hf_solver_prepare_rebase(get()));
@@ -3807,10 +3801,8 @@ inline hf_pick_desc PickOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]]
 inline hf_solver_desc SolverOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_solver_desc>();
   desc.field_kind = field_kind;
-  desc.engine = engine;
   desc.channel_count = channel_count;
   desc.site_limit = site_limit;
-  desc.penalty = penalty;
   c.known("channel_count", channel_count ? channel_count : 1);
   desc.progress = progress ? progress->get() : nullptr;
   return desc;

@@ -222,9 +222,8 @@ std::shared_ptr<const Groups> Pose::meet(const Layout& layout) const {
 }
 
 std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) const {
-  auto layout = make_shared_in<Layout>(
-      memory(), handles, layout_ ? layout_->sites->clone() : SiteSolver::make(EngineKind::green, core_, 0), *core_,
-      memory());
+  auto layout = make_shared_in<Layout>(memory(), handles, layout_ ? layout_->sites->clone() : SiteSolver::make(core_),
+                                       *core_, memory());
   const Handles none(&memory());
   const auto solve = [&] {
     set_handle_sites(*core_, *layout->sites, layout_ ? layout_->handles : none, layout->handles, memory());

@@ -207,9 +207,9 @@ class Scene
                 }
             case "solver":
                 {
-                    var o = Options(step, "field_kind", "engine", "channel_count", "site_limit", "penalty");
-                    objects[name] = new Solver(surface, (FieldKind)o["field_kind"], (Engine)o["engine"],
-                        (uint)o["channel_count"], (uint)o["site_limit"], o["penalty"]);
+                    var o = Options(step, "field_kind", "channel_count", "site_limit");
+                    objects[name] = new Solver(surface, (FieldKind)o["field_kind"], (uint)o["channel_count"],
+                        (uint)o["site_limit"]);
                     return null;
                 }
             case "clone": objects[name] = solver.Clone(); return null;

@@ -154,18 +154,17 @@ class Stages {
     hf_solver_destroy(solver);
   }
 
-  // Solves with every operator and kind of field, with minimum degree and HF_ENGINE_REFACTOR among them.
+  // Solves with every operator and kind of field, with minimum degree and the baseline refactor among them.
   void operators(Hash& hash) {
     for (const int kind : {HF_FIELD_HARMONIC, HF_FIELD_BIHARMONIC, HF_FIELD_BIHARMONIC_GRAPH}) {
       for (const int op :
            {HF_OPERATOR_INTRINSIC_DELAUNAY, HF_OPERATOR_CLAMPED, HF_OPERATOR_UNIFORM, HF_OPERATOR_COTANGENT}) {
         hf_surface_desc d = base_;
-        hf_solver_desc wanted = desc<hf_solver_desc>();
         d.field_kind = kind;
         d.operator_kind = op;
-        wanted.engine = op == HF_OPERATOR_UNIFORM ? HF_ENGINE_REFACTOR : HF_ENGINE_GREEN;
         if (op == HF_OPERATOR_CLAMPED) d.ordering = HF_ORDERING_MINIMUM_DEGREE;
-        const hf_solver solver = make_solver(d, wanted);
+        const hf_solver solver =
+            make_solver(d, desc<hf_solver_desc>(), op == HF_OPERATOR_UNIFORM ? ENGINE_REFACTOR : ENGINE_GREEN);
         add(solver, 9, 701, 3, nullptr);
         must(hf_solver_solve_f64(solver, doubles_.data(), 0, nullptr), "hf_solver_solve_f64");
         hash.take(doubles_.data(), n_);

@@ -71,22 +71,10 @@ namespace Hf
         List = Constants.HF_LINK_LIST,
     }
 
-    /// <summary>Selects the engine: how a solver combines its sites with the factor. All engines give the same field.</summary>
-    public enum Engine
-    {
-        /// <summary>sites are rows of a small dense system beside the factor: the default</summary>
-        Green = Constants.HF_ENGINE_GREEN,
-        /// <summary>as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds with
-        /// HF_WITH_GPL. The field meets its sites to about 1e-8 of the value range, a bi-harmonic one to 2e-7</summary>
-        Updown = Constants.HF_ENGINE_UPDOWN,
-        /// <summary>eliminates the sites and factorises again at every change: the baseline</summary>
-        Refactor = Constants.HF_ENGINE_REFACTOR,
-    }
-
     /// <summary>These values say how the solver carried out the last edit of site places (SolverStatistics.last_route).</summary>
     public enum Route
     {
-        /// <summary>no place was edited yet, or the engine is not green</summary>
+        /// <summary>no place was edited yet</summary>
         None = Constants.HF_ROUTE_NONE,
         /// <summary>rows of the dense system were added and removed</summary>
         Dense = Constants.HF_ROUTE_DENSE,
@@ -722,23 +710,18 @@ namespace Hf
     {
         /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
-        /// <summary>Engine</summary>
-        public Engine Engine;
         public uint ChannelCount;
         public uint SiteLimit;
         public uint SiteCount;
-        public double Penalty;
         /// <summary>as given to the surface: rows of a field</summary>
         public uint VertexCount;
 
         internal SolverInfo(hf_solver_info* raw)
         {
             FieldKind = (FieldKind)raw->field_kind;
-            Engine = (Engine)raw->engine;
             ChannelCount = raw->channel_count;
             SiteLimit = raw->site_limit;
             SiteCount = raw->site_count;
-            Penalty = raw->penalty;
             VertexCount = raw->vertex_count;
         }
     }
@@ -801,7 +784,7 @@ namespace Hf
         /// <summary>1: the field must keep to the range of its sites: harmonic, intrinsic Delaunay or clamped operator, all
         ///     sites at vertices</summary>
         public bool OvershootChecked;
-        /// <summary>in: largest error to accept, &gt; 0; 0 = 1e-8, Engine.Updown 1e-5; out: the one used</summary>
+        /// <summary>in: largest error to accept, &gt; 0; 0 = 1e-8; out: the one used</summary>
         public double Tolerance;
         /// <summary>largest less smallest value (or target), the widest over components and channels</summary>
         public double ValueRange;
@@ -2709,10 +2692,8 @@ namespace Hf
     /// Creates a solver without sites.
     ///
     /// fieldKind: FieldKind; if the surface has no factor of that kind yet, it is made now
-    /// engine: Engine
     /// channelCount: fields solved at once, 1 to 64; 0 = 1
     /// siteLimit: at most this many sites; 0 = 100,000
-    /// penalty: Engine.Updown: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Solver : Recorded
     {
@@ -2721,23 +2702,19 @@ namespace Hf
         /// <summary>Creates a solver without sites.
         ///
         /// fieldKind: FieldKind; if the surface has no factor of that kind yet, it is made now
-        /// engine: Engine
         /// channelCount: fields solved at once, 1 to 64; 0 = 1
         /// siteLimit: at most this many sites; 0 = 100,000
-        /// penalty: Engine.Updown: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
         /// progress: an object to poll and cancel through
         ///
-        /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE,
-        /// HF_ERROR_UNSUPPORTED.</summary>
-        public Solver(Surface surface, FieldKind fieldKind = default(FieldKind), Engine engine = default(Engine),
-                uint channelCount = 0, uint siteLimit = 0, double penalty = 0, Progress progress = null)
+        /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE.</summary>
+        public Solver(Surface surface, FieldKind fieldKind = default(FieldKind), uint channelCount = 0,
+                uint siteLimit = 0, Progress progress = null)
         {
             using (var c = new Call(null))
             {
                 c.Parent("surface", surface);
                 var descStruct = new hf_solver_desc { struct_size = (uint)sizeof(hf_solver_desc),
-                    field_kind = (int)fieldKind, engine = (int)engine, channel_count = channelCount,
-                    site_limit = siteLimit, penalty = penalty };
+                    field_kind = (int)fieldKind, channel_count = channelCount, site_limit = siteLimit };
                 hf_solver_desc* desc = &descStruct;
                 c.Known("channel_count", channelCount == 0 ? 1 : channelCount);
                 desc->progress = c.Handle(progress);
@@ -3233,8 +3210,8 @@ namespace Hf
         ///
         /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
         /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
-        /// factor eliminates sites. info.exact is then 1.
+        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
+        /// 1.
         ///
         /// correctionCount: 0 to 8.
         /// @out: [vertexCount x channelCount], as Solver.Solve.
@@ -3263,8 +3240,8 @@ namespace Hf
         ///
         /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
         /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
-        /// factor eliminates sites. info.exact is then 1.
+        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
+        /// 1.
         ///
         /// correctionCount: 0 to 8.
         /// @out: [vertexCount x channelCount], as Solver.Solve.
@@ -3295,8 +3272,8 @@ namespace Hf
         ///
         /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
         /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
-        /// factor eliminates sites. info.exact is then 1.
+        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
+        /// 1.
         ///
         /// correctionCount: 0 to 8.
         /// @out: [vertexCount x channelCount], as Solver.Solve.
@@ -3326,8 +3303,8 @@ namespace Hf
         ///
         /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
         /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
-        /// factor eliminates sites. info.exact is then 1.
+        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
+        /// 1.
         ///
         /// correctionCount: 0 to 8.
         /// @out: [vertexCount x channelCount], as Solver.Solve.
@@ -3401,7 +3378,7 @@ namespace Hf
         /// returns HF_ERROR_INACCURATE (index = worst vertex) if the check fails, and writes certificate then too.
         /// Do not use fields of that solver; make the surface again.
         ///
-        /// tolerance: largest error to accept, &gt; 0; 0 = 1e-8, Engine.Updown 1e-5
+        /// tolerance: largest error to accept, &gt; 0; 0 = 1e-8
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT.</summary>
         public Certificate Certify(double tolerance = 0)
@@ -3422,7 +3399,7 @@ namespace Hf
         /// when SolverStatistics.rebase_advised is 1. An edit of very many sites does this by itself when that is
         /// quicker. Memory: one more factor, for as long as it eliminates sites.
         ///
-        /// Throws HF_ERROR_BUSY, HF_ERROR_EMPTY, HF_ERROR_UNSUPPORTED.</summary>
+        /// Throws HF_ERROR_BUSY, HF_ERROR_EMPTY.</summary>
         public void PrepareRebase()
         {
             using (var c = new Call(this))

@@ -51,9 +51,6 @@ namespace Hf.Native
         public const int HF_LINK_NONE = 0;
         public const int HF_LINK_PIECES = 1;
         public const int HF_LINK_LIST = 2;
-        public const int HF_ENGINE_GREEN = 0;
-        public const int HF_ENGINE_UPDOWN = 1;
-        public const int HF_ENGINE_REFACTOR = 2;
         public const int HF_ROUTE_NONE = 0;
         public const int HF_ROUTE_DENSE = 1;
         public const int HF_ROUTE_FRESH = 2;
@@ -430,11 +427,8 @@ namespace Hf.Native
     {
         public uint struct_size;
         public int field_kind;
-        public int engine;
         public uint channel_count;
         public uint site_limit;
-        public uint reserved;
-        public double penalty;
         public IntPtr progress;
     }
 
@@ -443,13 +437,10 @@ namespace Hf.Native
     {
         public uint struct_size;
         public int field_kind;
-        public int engine;
         public uint channel_count;
         public uint site_limit;
         public uint site_count;
-        public double penalty;
         public uint vertex_count;
-        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]

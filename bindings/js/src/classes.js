@@ -84,11 +84,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const solverDesc = (c, prefix, options) => {
-    const { fieldKind = 0, engine = 0, channelCount = 0, siteLimit = 0, penalty = 0, progress = null,
-            ...more } = options;
+    const { fieldKind = 0, channelCount = 0, siteLimit = 0, progress = null, ...more } = options;
     none(more);
-    const desc = c.struct('hf_solver_desc', { field_kind: fieldKind, engine, channel_count: channelCount,
-            site_limit: siteLimit, penalty });
+    const desc = c.struct('hf_solver_desc', { field_kind: fieldKind, channel_count: channelCount,
+            site_limit: siteLimit });
     c.known('channel_count', channelCount || 1);
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;

@@ -225,12 +225,9 @@ export interface Hit {
 export interface SolverInfo {
   /** HF_FIELD_* */
   fieldKind: number;
-  /** HF_ENGINE_* */
-  engine: number;
   channelCount: number;
   siteLimit: number;
   siteCount: number;
-  penalty: number;
   /** as given to the surface: rows of a field */
   vertexCount: number;
 }
@@ -304,7 +301,7 @@ export interface Certificate {
    *     at vertices
    */
   overshootChecked: number;
-  /** in: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5; out: the one used */
+  /** in: largest error to accept, > 0; 0 = 1e-8; out: the one used */
   tolerance: number;
   /** largest less smallest value (or target), the widest over components and channels */
   valueRange: number;
@@ -1312,10 +1309,8 @@ export interface SurfaceClass {
  * Creates a solver without sites.
  *
  * fieldKind: HF_FIELD_*; if the surface has no factor of that kind yet, it is made now
- * engine: HF_ENGINE_*
  * channelCount: fields solved at once, 1 to 64; 0 = 1
  * siteLimit: at most this many sites; 0 = 100,000
- * penalty: HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
  * progress: an object to poll and cancel through
  */
 export interface Solver extends Recorded {
@@ -1468,9 +1463,8 @@ export interface Solver extends Recorded {
    * three calls of Solver.solve.
    *
    * The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind
-   * on the surface share the copy. It is freed with the last of these solvers, or by Solver.releasePreview.
-   * Engines other than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites.
-   * info.exact is then 1.
+   * on the surface share the copy. It is freed with the last of these solvers, or by Solver.releasePreview. A
+   * solver whose factor eliminates sites gives the exact field. info.exact is then 1.
    *
    * correctionCount: 0 to 8.
    * out: [vertexCount x channelCount], as Solver.solve.
@@ -1512,7 +1506,7 @@ export interface Solver extends Recorded {
    * HF_ERROR_INACCURATE (index = worst vertex) if the check fails, and writes certificate then too. Do not use
    * fields of that solver; make the surface again.
    *
-   * tolerance: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5
+   * tolerance: largest error to accept, > 0; 0 = 1e-8
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT.
    */
@@ -1524,7 +1518,7 @@ export interface Solver extends Recorded {
    * SolverStatistics.rebase_advised is 1. An edit of very many sites does this by itself when that is quicker.
    * Memory: one more factor, for as long as it eliminates sites.
    *
-   * Throws HF_ERROR_BUSY, HF_ERROR_EMPTY, HF_ERROR_UNSUPPORTED.
+   * Throws HF_ERROR_BUSY, HF_ERROR_EMPTY.
    */
   prepareRebase(): void;
   /** Writes the statistics. */
@@ -1536,7 +1530,7 @@ export interface Solver extends Recorded {
 }
 export interface SolverClass {
   new (surface: Surface,
-          options?: { fieldKind?: number; engine?: number; channelCount?: number; siteLimit?: number; penalty?: number; progress?: Progress | null }): Solver;
+          options?: { fieldKind?: number; channelCount?: number; siteLimit?: number; progress?: Progress | null }): Solver;
 }
 
 /**

@@ -122,24 +122,11 @@ class LinkMode(IntEnum):
     """the links you give, and no others; only light_vertices name light pieces then"""
 
 
-class Engine(IntEnum):
-    """Selects the engine: how a solver combines its sites with the factor. All engines give the same field."""
-
-    GREEN = _raw.HF_ENGINE_GREEN
-    """sites are rows of a small dense system beside the factor: the default"""
-    UPDOWN = _raw.HF_ENGINE_UPDOWN
-    """as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds with HF_WITH_GPL. The
-    field meets its sites to about 1e-8 of the value range, a bi-harmonic one to 2e-7
-    """
-    REFACTOR = _raw.HF_ENGINE_REFACTOR
-    """eliminates the sites and factorises again at every change: the baseline"""
-
-
 class Route(IntEnum):
     """These values say how the solver carried out the last edit of site places (SolverStatistics.last_route)."""
 
     NONE = _raw.HF_ROUTE_NONE
-    """no place was edited yet, or the engine is not green"""
+    """no place was edited yet"""
     DENSE = _raw.HF_ROUTE_DENSE
     """rows of the dense system were added and removed"""
     FRESH = _raw.HF_ROUTE_FRESH
@@ -694,10 +681,10 @@ def _pick_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = No
     return desc
 
 
-def _solver_desc(c: Call, prefix: str = '', *, field_kind: int = FieldKind.HARMONIC, engine: int = Engine.GREEN,
-        channel_count: int = 0, site_limit: int = 0, penalty: float = 0.0, progress: Optional[Progress] = None) -> Any:
-    desc = c.struct(_raw.hf_solver_desc, {'field_kind': field_kind, 'engine': engine, 'channel_count': channel_count,
-            'site_limit': site_limit, 'penalty': penalty})
+def _solver_desc(c: Call, prefix: str = '', *, field_kind: int = FieldKind.HARMONIC, channel_count: int = 0,
+        site_limit: int = 0, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_solver_desc, {'field_kind': field_kind, 'channel_count': channel_count,
+            'site_limit': site_limit})
     c.known('channel_count', channel_count or 1)
     desc.progress = handle_of(progress, Progress, 'progress')
     return desc
@@ -1484,10 +1471,8 @@ class Solver(Recorded):
     Creates a solver without sites.
 
     field_kind: FieldKind; if the surface has no factor of that kind yet, it is made now
-    engine: Engine
     channel_count: fields solved at once, 1 to 64; 0 = 1
     site_limit: at most this many sites; 0 = 100,000
-    penalty: Engine.UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
     progress: an object to poll and cancel through
     """
 
@@ -1504,12 +1489,11 @@ class Solver(Recorded):
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
 
-    def __init__(self, surface: Surface, *, field_kind: int = FieldKind.HARMONIC, engine: int = Engine.GREEN,
-            channel_count: int = 0, site_limit: int = 0, penalty: float = 0.0,
-            progress: Optional[Progress] = None) -> None:
+    def __init__(self, surface: Surface, *, field_kind: int = FieldKind.HARMONIC, channel_count: int = 0,
+            site_limit: int = 0, progress: Optional[Progress] = None) -> None:
         c = Call(surface=surface)
-        desc = _solver_desc(c, field_kind=field_kind, engine=engine, channel_count=channel_count, site_limit=site_limit,
-                penalty=penalty, progress=progress)
+        desc = _solver_desc(c, field_kind=field_kind, channel_count=channel_count, site_limit=site_limit,
+                progress=progress)
         self._own('hf_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
 
     def clone(self) -> "Solver":
@@ -1745,9 +1729,8 @@ class Solver(Recorded):
         three calls of Solver.solve.
 
         The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind
-        on the surface share the copy. It is freed with the last of these solvers, or by Solver.release_preview.
-        Engines other than Engine.GREEN give the exact field, and so do solvers whose factor eliminates sites.
-        info.exact is then 1.
+        on the surface share the copy. It is freed with the last of these solvers, or by Solver.release_preview. A
+        solver whose factor eliminates sites gives the exact field. info.exact is then 1.
 
         correction_count: 0 to 8.
         out: (vertex_count, channel_count), as Solver.solve.
@@ -1803,7 +1786,7 @@ class Solver(Recorded):
         InaccurateError (index = worst vertex) if the check fails, and writes certificate then too. Do not use fields
         of that solver; make the surface again.
 
-        tolerance: largest error to accept, > 0; 0 = 1e-8, Engine.UPDOWN 1e-5
+        tolerance: largest error to accept, > 0; 0 = 1e-8
 
         Raises EmptyError, InaccurateError, InvalidArgumentError.
         """
@@ -1819,7 +1802,7 @@ class Solver(Recorded):
         SolverStatistics.rebase_advised is 1. An edit of very many sites does this by itself when that is quicker.
         Memory: one more factor, for as long as it eliminates sites.
 
-        Raises BusyError, EmptyError, UnsupportedError.
+        Raises BusyError, EmptyError.
         """
         c = Call(self)
         call('hf_solver_prepare_rebase', self._handle)
@@ -3396,7 +3379,7 @@ class Weights(Recorded):
 __all__ = [
     'Base', 'BodySide', 'Certificate', 'Chain', 'ChainMatch', 'Critical', 'CriticalInfo', 'CriticalPoint',
     'CurveKind', 'DeformInfo', 'DeformMode', 'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod',
-    'Engine', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo',
+    'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo',
     'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo', 'JointKind',
     'Levels', 'Link', 'LinkMode', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag',
     'PairInfo', 'Path', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh',

@@ -63,9 +63,6 @@ HF_FACTOR_ALIGNMENT = 64
 HF_LINK_NONE = 0
 HF_LINK_PIECES = 1
 HF_LINK_LIST = 2
-HF_ENGINE_GREEN = 0
-HF_ENGINE_UPDOWN = 1
-HF_ENGINE_REFACTOR = 2
 HF_ROUTE_NONE = 0
 HF_ROUTE_DENSE = 1
 HF_ROUTE_FRESH = 2
@@ -651,20 +648,14 @@ class hf_hit(Struct):
 class hf_solver_desc(Struct):
     struct_size: int
     field_kind: int
-    engine: int
     channel_count: int
     site_limit: int
-    reserved: int
-    penalty: float
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("field_kind", c_int32),
-        ("engine", c_int32),
         ("channel_count", c_uint32),
         ("site_limit", c_uint32),
-        ("reserved", c_uint32),
-        ("penalty", c_double),
         ("progress", c_void_p),
     ]
 
@@ -673,23 +664,17 @@ class hf_solver_info(Struct):
     """hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites."""
     struct_size: int
     field_kind: int
-    engine: int
     channel_count: int
     site_limit: int
     site_count: int
-    penalty: float
     vertex_count: int
-    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("field_kind", c_int32),
-        ("engine", c_int32),
         ("channel_count", c_uint32),
         ("site_limit", c_uint32),
         ("site_count", c_uint32),
-        ("penalty", c_double),
         ("vertex_count", c_uint32),
-        ("reserved", c_uint32),
     ]
 
 

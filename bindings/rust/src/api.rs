@@ -293,14 +293,10 @@ impl<'a> PickOptions<'a> {
 pub struct SolverOptions<'a> {
     /// `HF_FIELD_*`; if the surface has no factor of that kind yet, it is made now
     pub field_kind: i32,
-    /// `HF_ENGINE_*`
-    pub engine: i32,
     /// fields solved at once, 1 to 64; 0 = 1
     pub channel_count: u32,
     /// at most this many sites; 0 = 100,000
     pub site_limit: u32,
-    /// [`raw::HF_ENGINE_UPDOWN`]: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
-    pub penalty: f64,
     /// `None`, or an object to poll and cancel through
     pub progress: Option<&'a Progress>,
 }
@@ -309,10 +305,8 @@ impl<'a> SolverOptions<'a> {
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
             "field_kind" => self.field_kind = Number::fit(name, value)?,
-            "engine" => self.engine = Number::fit(name, value)?,
             "channel_count" => self.channel_count = Number::fit(name, value)?,
             "site_limit" => self.site_limit = Number::fit(name, value)?,
-            "penalty" => self.penalty = Number::fit(name, value)?,
             _ => return Err(unknown(name)),
         }
         Ok(())
@@ -320,9 +314,8 @@ impl<'a> SolverOptions<'a> {
 
     #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_solver_desc> {
-        let mut desc = raw::hf_solver_desc { field_kind: self.field_kind, engine: self.engine,
-            channel_count: self.channel_count, site_limit: self.site_limit, penalty: self.penalty,
-            ..Default::default() };
+        let mut desc = raw::hf_solver_desc { field_kind: self.field_kind, channel_count: self.channel_count,
+            site_limit: self.site_limit, ..Default::default() };
         c.known("channel_count", if self.channel_count == 0 { 1 } else { self.channel_count });
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         Ok(desc)
@@ -2027,14 +2020,12 @@ impl Solver {
     /// Creates a solver without sites.
     ///
     /// field_kind: `HF_FIELD_*`; if the surface has no factor of that kind yet, it is made now
-    /// engine: `HF_ENGINE_*`
     /// channel_count: fields solved at once, 1 to 64; 0 = 1
     /// site_limit: at most this many sites; 0 = 100,000
-    /// penalty: [`raw::HF_ENGINE_UPDOWN`]: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
-    /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(surface: &Surface, options: &SolverOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
@@ -2357,9 +2348,8 @@ impl Solver {
     /// `Solver::solve`.
     ///
     /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on
-    /// the surface share the copy. It is freed with the last of these solvers, or by `Solver::release_preview`. Engines
-    /// other than [`raw::HF_ENGINE_GREEN`] give the exact field, and so do solvers whose factor eliminates sites.
-    /// info.exact is then 1.
+    /// the surface share the copy. It is freed with the last of these solvers, or by `Solver::release_preview`. A solver
+    /// whose factor eliminates sites gives the exact field. info.exact is then 1.
     ///
     /// correction_count: 0 to 8.
     /// out: `[vertex_count x channel_count]`, as `Solver::solve`.
@@ -2439,7 +2429,7 @@ impl Solver {
     /// [`raw::HF_ERROR_INACCURATE`] (index = worst vertex) if the check fails, and writes certificate then too. Do not
     /// use fields of that solver; make the surface again.
     ///
-    /// tolerance: largest error to accept, > 0; 0 = 1e-8, [`raw::HF_ENGINE_UPDOWN`] 1e-5
+    /// tolerance: largest error to accept, > 0; 0 = 1e-8
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INACCURATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2457,7 +2447,7 @@ impl Solver {
     /// [`raw::hf_solver_statistics`].rebase_advised is 1. An edit of very many sites does this by itself when that is
     /// quicker. Memory: one more factor, for as long as it eliminates sites.
     ///
-    /// Fails with [`raw::HF_ERROR_BUSY`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_UNSUPPORTED`].
+    /// Fails with [`raw::HF_ERROR_BUSY`], [`raw::HF_ERROR_EMPTY`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn prepare_rebase(&self) -> Result<()> {
         let mut c = Call::new(&self.counts);

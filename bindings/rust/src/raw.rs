@@ -48,9 +48,6 @@ pub const HF_FACTOR_ALIGNMENT: i32 = 64;
 pub const HF_LINK_NONE: i32 = 0;
 pub const HF_LINK_PIECES: i32 = 1;
 pub const HF_LINK_LIST: i32 = 2;
-pub const HF_ENGINE_GREEN: i32 = 0;
-pub const HF_ENGINE_UPDOWN: i32 = 1;
-pub const HF_ENGINE_REFACTOR: i32 = 2;
 pub const HF_ROUTE_NONE: i32 = 0;
 pub const HF_ROUTE_DENSE: i32 = 1;
 pub const HF_ROUTE_FRESH: i32 = 2;
@@ -724,11 +721,8 @@ impl Default for hf_hit {
 pub struct hf_solver_desc {
     pub struct_size: u32,
     pub field_kind: i32,
-    pub engine: i32,
     pub channel_count: u32,
     pub site_limit: u32,
-    pub reserved: u32,
-    pub penalty: f64,
     pub progress: hf_progress,
 }
 impl Default for hf_solver_desc {
@@ -746,13 +740,10 @@ impl Default for hf_solver_desc {
 pub struct hf_solver_info {
     pub struct_size: u32,
     pub field_kind: i32,
-    pub engine: i32,
     pub channel_count: u32,
     pub site_limit: u32,
     pub site_count: u32,
-    pub penalty: f64,
     pub vertex_count: u32,
-    pub reserved: u32,
 }
 impl Default for hf_solver_info {
     fn default() -> Self {
@@ -768,13 +759,10 @@ impl hf_solver_info {
         Some(match name {
             "struct_size" => f64::from(self.struct_size),
             "field_kind" => f64::from(self.field_kind),
-            "engine" => f64::from(self.engine),
             "channel_count" => f64::from(self.channel_count),
             "site_limit" => f64::from(self.site_limit),
             "site_count" => f64::from(self.site_count),
-            "penalty" => self.penalty,
             "vertex_count" => f64::from(self.vertex_count),
-            "reserved" => f64::from(self.reserved),
             _ => return None,
         })
     }

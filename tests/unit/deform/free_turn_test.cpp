@@ -82,7 +82,7 @@ class Energy {
     for (const Region& region : regions)
       handles.push_back({static_cast<std::uint32_t>(handles.size()), make_region(core_, region, 0, *core_.memory)});
     const Reach reach(core_.mesh, handles, *core_.memory);
-    const auto sites = SiteSolver::make(EngineKind::green, plant.core, 0);
+    const auto sites = SiteSolver::make(plant.core);
     set_handle_sites(core_, *sites, Handles(core_.memory.get()), handles, *core_.memory);
     const HandleFields fields = solve_handle_fields(core_, *sites, handles, reach, *core_.memory);
     const ClusterWeights weights = make_cluster_weights(core_, rest_, reach, fields, {}, *core_.memory);

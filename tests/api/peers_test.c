@@ -1,0 +1,95 @@
+/* The baselines of hf/peers.h through the ABI: they give the results of hf's own methods, and refuse bad calls. */
+#include "api_support.h"
+
+enum { AROUND = 12, RINGS = 16, VERTICES = AROUND * RINGS };
+static Surface tube;
+
+static int create_tube(void** state) {
+  (void)state;
+  tube = surface_tube(AROUND, RINGS);
+  return 0;
+}
+static int free_tube(void** state) {
+  (void)state;
+  surface_free(&tube);
+  return 0;
+}
+
+/* A code and index, and no object. */
+#define REFUSED(code, call)  \
+  do {                       \
+    out = (void*)&tube;      \
+    assert_code(code, call); \
+    assert_null(out);        \
+  } while (0)
+
+static void solvers_give_the_field_of_hf_create(void** state) {
+  (void)state;
+  hf_surface surface = surface_on(&tube);
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
+  desc.channel_count = 1;
+  double* fields[3] = {NULL, NULL, NULL};
+  for (int32_t engine = ENGINE_GREEN; engine <= ENGINE_REFACTOR; ++engine) {
+    hf_solver solver = NULL;
+    if (engine == ENGINE_UPDOWN && !has_gpl()) continue;
+    assert_ok(create_with(engine, surface, &desc, &solver));
+    add_site(solver, 3, -1);
+    add_site(solver, 100, 2);
+    add_site(solver, VERTICES - 2, 5);
+    fields[engine] = field_of(solver, VERTICES);
+    hf_solver_destroy(solver);
+  }
+  for (int v = 0; v < VERTICES; ++v) {
+    assert_true(fabs(fields[ENGINE_GREEN][v] - fields[ENGINE_REFACTOR][v]) < 1e-11);
+    if (fields[ENGINE_UPDOWN]) assert_true(fabs(fields[ENGINE_GREEN][v] - fields[ENGINE_UPDOWN][v]) < 1e-6);
+  }
+  for (int i = 0; i < 3; ++i) free(fields[i]);
+  hf_surface_destroy(surface);
+}
+
+static void the_penalty_says_how_far_a_site_gives_way(void** state) {
+  (void)state;
+  if (!has_gpl()) skip();
+  hf_surface surface = surface_on(&tube);
+  double missed[2];
+  const double penalties[2] = {1e2, 1e8};
+  for (int i = 0; i < 2; ++i) {
+    hf_solver solver = NULL;
+    assert_ok(hf_peer_updown_create(surface, NULL, penalties[i], &solver));
+    add_site(solver, 3, -1);
+    add_site(solver, 100, 2);
+    double* field = field_of(solver, VERTICES);
+    missed[i] = fabs(field[100] - 2);
+    free(field);
+    hf_solver_destroy(solver);
+  }
+  assert_true(missed[0] > 1e-4 && missed[1] < 1e-7);
+  hf_surface_destroy(surface);
+}
+
+static void bad_calls_are_refused_and_make_nothing(void** state) {
+  (void)state;
+  hf_surface surface = surface_on(&tube);
+  hf_solver_desc desc = HF_INIT(hf_solver_desc);
+  desc.channel_count = 65;
+  hf_solver out = NULL;
+  REFUSED(HF_ERROR_INVALID_OBJECT, hf_peer_refactor_create(NULL, NULL, &out));
+  REFUSED(HF_ERROR_INVALID_OBJECT, hf_peer_updown_create(NULL, NULL, 0, &out));
+  REFUSED(HF_ERROR_INVALID_ARGUMENT, hf_peer_refactor_create(surface, &desc, &out));
+  const double bad[] = {-1, 1.0001e10, HUGE_VAL, (double)NAN};
+  for (size_t i = 0; i < COUNT_OF(bad); ++i)
+    REFUSED(HF_ERROR_INVALID_ARGUMENT, hf_peer_updown_create(surface, NULL, bad[i], &out));
+  assert_code(HF_ERROR_NULL_POINTER, hf_peer_refactor_create(surface, NULL, NULL));
+  assert_code(HF_ERROR_NULL_POINTER, hf_peer_updown_create(surface, NULL, 0, NULL));
+  if (!has_gpl()) REFUSED(HF_ERROR_UNSUPPORTED, hf_peer_updown_create(surface, NULL, 0, &out));
+  hf_surface_destroy(surface);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(solvers_give_the_field_of_hf_create),
+      cmocka_unit_test(the_penalty_says_how_far_a_site_gives_way),
+      cmocka_unit_test(bad_calls_are_refused_and_make_nothing),
+  };
+  return cmocka_run_group_tests(tests, create_tube, free_tube);
+}
