@@ -147,7 +147,6 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", do="set_transforms", handles=[0], translations=[0.0, 0.0], **on)
     bad("INVALID_ARGUMENT", do="set_transforms", handles=[0], rotations=[0.0, 0.0], **on)
     bad("INVALID_ARGUMENT", do="skin", influence_count=5, **on)
-    bad("INVALID_ARGUMENT", do="pose", **{"on": "m", "as": "q"}, options={"mode": 9})
     bad("INVALID_ARGUMENT", do="pose", **{"on": "m", "as": "q"}, options={"band_count": 1})
     bad("INVALID_ARGUMENT", do="transfer", **{"as": "x"}, source="m", target="m", options={"mode": 9})
     made.append({"do": "transfer", "as": "x", "source": "m", "target": "m"})

@@ -257,15 +257,11 @@ struct DirectionOptions {
 };
 
 struct PoseOptions {
-  // HF_DEFORM_*
-  int32_t mode = 0;
-  // bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+  // bands per field, 2 to 64; 0 = 10
   uint32_t band_count = 0;
-  // iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+  // iterations of a pose solve, 1 to 1000; 0 = 10
   uint32_t iteration_count = 0;
-  // sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-  uint32_t rim_site_count = 0;
-  // rotation groups of the smooth mode, 1 to 2000; 0 = 250
+  // groups of vertices that share a rotation, 1 to 2000; 0 = 250
   uint32_t group_count = 0;
   hf_pose_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
@@ -2052,11 +2048,9 @@ class Pose {
  public:
   // Creates a pose without handles.
   //
-  // mode: HF_DEFORM_*
-  // band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-  // iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-  // rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-  // group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+  // band_count: bands per field, 2 to 64; 0 = 10
+  // iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10
+  // group_count: groups of vertices that share a rotation, 1 to 2000; 0 = 250
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT.
   Pose(const Surface& surface, const PoseOptions& options = {}) {
@@ -2088,9 +2082,9 @@ class Pose {
   // surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion that its
   // region has in the last pose (Pose::handle writes it), and the surface stays where it is (to 1e-6 of the box). It
   // goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then
-  // the region of the new handle keeps a part of its bend. restart ends this at once. HF_DEFORM_PAPER places the handle
-  // only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower
-  // layers hold the surface in place for the higher layers.
+  // the region of the new handle keeps a part of its bend. restart ends this at once. On a higher layer the surface
+  // does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for
+  // the higher layers.
   //
   // region_vertices: lists of whole numbers: all regions one after the other; none: points are given
   // points: `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to
@@ -2103,7 +2097,7 @@ class Pose {
   // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-  // HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+  // HF_ERROR_TOO_LARGE.
   std::vector<uint32_t> add_handles(const std::vector<std::vector<uint32_t>>& region_vertices = {},
       const HandlesOptions& options = {}) {
     Call c(counts_);
@@ -2119,7 +2113,7 @@ class Pose {
   // point: `[3]`.
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-  // HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+  // HF_ERROR_TOO_LARGE.
   uint32_t add_handle_at(const std::vector<double>& point, double radius) {
     Call c(counts_);
     const double* point_ = c.array(point, true, "point", {"3"});
@@ -2192,7 +2186,7 @@ class Pose {
   // handles: `[handle_count]`.
   // free_rotation: 1: the solve finds the rotations; 0: you give them.
   //
-  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND.
   void set_free_rotations(const std::vector<uint32_t>& handles, bool free_rotation = false) {
     Call c(counts_);
     const uint32_t* handles_ = c.array(handles, true, "handles", {"handle_count"});
@@ -3191,7 +3185,7 @@ class Transfer {
   // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-  // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+  // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
   std::vector<uint32_t> add_pairs(const std::vector<std::vector<uint32_t>>& source_vertices,
       const std::vector<std::vector<uint32_t>>& target_vertices, const std::vector<uint32_t>& flags = {},
       const Pairs& options = {}) {
@@ -3867,10 +3861,8 @@ inline hf_direction_desc DirectionOptions::fill([[maybe_unused]] Call& c,
 
 inline hf_pose_desc PoseOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_pose_desc>();
-  desc.mode = mode;
   desc.band_count = band_count;
   desc.iteration_count = iteration_count;
-  desc.rim_site_count = rim_site_count;
   desc.group_count = group_count;
   return desc;
 }

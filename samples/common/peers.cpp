@@ -16,6 +16,16 @@ hf_result create_solver(Engine engine, hf_surface surface, const hf_solver_desc&
   return hf_create(surface, &desc, out_solver);
 }
 
+hf_result create_pose(bool paper, hf_surface surface, const hf_pose_desc& desc, hf_pose* out_pose) {
+  return paper ? hf_peer_pose_create(surface, &desc, 0, out_pose) : hf_pose_create(surface, &desc, out_pose);
+}
+
+hf_result create_transfer(bool paper, hf_surface source, hf_surface target, const hf_transfer_desc& desc,
+                          hf_transfer* out_transfer) {
+  return paper ? hf_peer_transfer_create(source, target, &desc, out_transfer)
+               : hf_transfer_create(source, target, &desc, out_transfer);
+}
+
 #else
 
 namespace {
@@ -30,6 +40,17 @@ void refuse(bool baseline) {
 hf_result create_solver(Engine engine, hf_surface surface, const hf_solver_desc& desc, hf_solver* out_solver) {
   refuse(engine != Engine::green);
   return hf_create(surface, &desc, out_solver);
+}
+
+hf_result create_pose(bool paper, hf_surface surface, const hf_pose_desc& desc, hf_pose* out_pose) {
+  refuse(paper);
+  return hf_pose_create(surface, &desc, out_pose);
+}
+
+hf_result create_transfer(bool paper, hf_surface source, hf_surface target, const hf_transfer_desc& desc,
+                          hf_transfer* out_transfer) {
+  refuse(paper);
+  return hf_transfer_create(source, target, &desc, out_transfer);
 }
 
 #endif

@@ -1,8 +1,11 @@
 // Implements hf/peers.h. Compiled with the room peers, in builds with HF_WITH_PEERS only.
+#include "capi/create.h"
 #include "capi/objects.h"
 #include "field/intake.h"
 #include "hf/peers.h"
 #include "peers/intake.h"
+#include "peers/paper_pose.h"
+#include "peers/paper_transfer.h"
 #include "peers/refactor.h"
 #include "peers/updown.h"
 
@@ -46,6 +49,21 @@ hf_result hf_peer_refactor_create(hf_surface surface, const hf_solver_desc* desc
       return make_owner_in<RefactorSolver>(core->memory, core);
     });
   });
+}
+
+hf_result hf_peer_pose_create(hf_surface surface, const hf_pose_desc* desc, uint32_t rim_site_count,
+                              hf_pose* out_pose) {
+  PoseOptions options;
+  options.rim_site_count = rim_site_count;
+  options.scheme = paper_scheme();
+  return create_pose("hf_peer_pose_create", surface, desc, options, out_pose);
+}
+
+hf_result hf_peer_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
+                                  hf_transfer* out_transfer) {
+  TransferOptions options;
+  options.scheme = paper_clusters();
+  return create_transfer("hf_peer_transfer_create", source, target, desc, options, out_transfer);
 }
 
 }  // extern "C"

@@ -241,6 +241,8 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("proposed handles", NO_INDEX, hf_surface_propose_handles(graph, NULL, 0, NULL, &number));
   NEEDS("extremities", NO_INDEX, hf_surface_find_extremities(graph, NULL, 0, NULL, &number));
   NEEDS("a pose", NO_INDEX, hf_pose_create(graph, NULL, &pose));
+  NEEDS("a transfer of the paper", 0, hf_peer_transfer_create(graph, graph, NULL, &transfer));
+  NEEDS("a pose of the paper", NO_INDEX, hf_peer_pose_create(graph, NULL, 0, &pose));
   NEEDS("a region", NO_INDEX, hf_region_create(graph, NULL, &region));
   NEEDS("a direction field", NO_INDEX, hf_direction_create(graph, NULL, &direction));
   NEEDS("distances", NO_INDEX, hf_geodesics_create(graph, NULL, &geodesics));

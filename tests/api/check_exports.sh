@@ -16,7 +16,7 @@ complain() { printf 'error: %s\n' "$1"; status=1; }
 left_out=
 [ "$with_peers" = ON ] || left_out=peers.h
 check_exported "$library" "$headers" HF_API hf_ "$left_out"
-if [ "$with_peers" = OFF ] && found=$("$nm" -C "$library" 2>/dev/null | grep -E 'hf_peer_|RefactorSolver|UpdownSolver'); then
+if [ "$with_peers" = OFF ] && found=$("$nm" -C "$library" 2>/dev/null | grep -E 'hf_peer_|RefactorSolver|UpdownSolver|Paper'); then
   complain "HF_WITH_PEERS is OFF, but the library names a baseline:"
   printf '%s\n' "$found"
 fi

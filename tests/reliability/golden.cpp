@@ -208,10 +208,8 @@ class Stages {
     const hf_surface surface = make_surface(base_);
     const std::vector<std::uint32_t> ends = both_ends(rings);
     for (int mode = 0; mode < 2; ++mode) {
-      hf_pose_desc wanted = desc<hf_pose_desc>();
-      wanted.mode = mode;
       hf_pose pose = nullptr;
-      must(hf_pose_create(surface, &wanted, &pose), "hf_pose_create");
+      must(create_pose_with(mode, surface, nullptr, &pose), "hf_pose_create");
       const auto half = static_cast<std::uint32_t>(ends.size() / 2);
       const std::uint32_t counts[2] = {half, half};
       hf_handles_desc regions = desc<hf_handles_desc>();
@@ -225,7 +223,7 @@ class Stages {
       hf_deform_desc deform = desc<hf_deform_desc>();
       deform.positions = floats_.data();
       deform.normals = normals.data();
-      deform.refine = mode == HF_DEFORM_SMOOTH;
+      deform.refine = mode == POSE_SMOOTH;
       for (int frame = 1; frame <= 6; ++frame) {  // the turns (1 - t^2, 2 t) / (1 + t^2) need no sine
         const double t = 0.125 * frame, unit = 1 + t * t;
         const hf_transform turned = {{0, 2 * t / unit, 0, (1 - t * t) / unit}, {2 * t, 0.5, -t}};
@@ -245,10 +243,8 @@ class Stages {
     const std::vector<std::uint32_t> ends = both_ends(rings);
     std::vector<float> posed(3 * std::size_t{n_}), out(posed.size());
     for (int mode = 0; mode < 2; ++mode) {
-      hf_transfer_desc wanted = desc<hf_transfer_desc>();
-      wanted.mode = mode;
       hf_transfer transfer = nullptr;
-      must(hf_transfer_create(surface, surface, &wanted, &transfer), "hf_transfer_create");
+      must(create_transfer_with(mode, surface, surface, nullptr, &transfer), "hf_transfer_create");
       const auto half = static_cast<std::uint32_t>(ends.size() / 2);
       const std::uint32_t counts[2] = {half, half};
       hf_pairs_desc pairs = desc<hf_pairs_desc>();

@@ -325,11 +325,10 @@ void read_directions(const Scene& s, const Objects& o, unsigned, Seen& seen) {
 // Makes new objects of the shared ones.
 void make_more(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   hf_pose_desc paper = desc<hf_pose_desc>();
-  paper.mode = t % 2 == 0 ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH;
   paper.iteration_count = 6;
   hf_pose pose = nullptr;
   std::uint32_t handles[2];
-  seen.call(hf_pose_create(o.surface, &paper, &pose));
+  seen.call(create_pose_with(t % 2 == 0 ? POSE_PAPER : POSE_SMOOTH, o.surface, &paper, &pose));
   seen.call(add_ends(s, pose, handles));
   seen.call(turn(pose, handles[0], 0.2 + 0.1 * t));
   take_pose(s, pose, seen);

@@ -125,15 +125,6 @@ namespace Hf
         Geodesic = Constants.HF_EXTREMITIES_GEODESIC,
     }
 
-    /// <summary>Selects how vertices follow the handles.</summary>
-    public enum DeformMode
-    {
-        /// <summary>quadratic bands, reduced elastic energy: the default</summary>
-        Smooth = Constants.HF_DEFORM_SMOOTH,
-        /// <summary>linear bands of equal value, shape matching of overlapping clusters</summary>
-        Paper = Constants.HF_DEFORM_PAPER,
-    }
-
     /// <summary>Says why a place is proposed as a handle.</summary>
     public enum HandleReason
     {
@@ -280,8 +271,6 @@ namespace Hf
     {
         /// <summary>a cluster: vertices with similar values of all fields; the default</summary>
         Fields = Constants.HF_TRANSFER_FIELDS,
-        /// <summary>a cluster: vertices between two levels of one field, as in the paper</summary>
-        Paper = Constants.HF_TRANSFER_PAPER,
         /// <summary>Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each
         /// target vertex i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The
         /// result x' minimises sum over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2 with
@@ -1024,12 +1013,8 @@ namespace Hf
     /// <summary>Pose.Info writes the options of a pose here, with defaults filled in, and the number of its handles.</summary>
     public sealed unsafe class PoseInfo
     {
-        /// <summary>DeformMode</summary>
-        public DeformMode Mode;
         public uint BandCount;
         public uint IterationCount;
-        /// <summary>sites per handle on its boundary; 0: all of it</summary>
-        public uint RimSiteCount;
         public uint GroupCount;
         public uint HandleCount;
         /// <summary>as given to the surface: rows of Pose.Deform</summary>
@@ -1037,10 +1022,8 @@ namespace Hf
 
         internal PoseInfo(hf_pose_info* raw)
         {
-            Mode = (DeformMode)raw->mode;
             BandCount = raw->band_count;
             IterationCount = raw->iteration_count;
-            RimSiteCount = raw->rim_site_count;
             GroupCount = raw->group_count;
             HandleCount = raw->handle_count;
             VertexCount = raw->vertex_count;
@@ -1057,7 +1040,7 @@ namespace Hf
         public uint Component;
         /// <summary>of the rest region, in the unit of the mesh</summary>
         public double[] Centroid = new double[3];
-        /// <summary>with rim_site_count: how far fields are off on the regions; 0 with full rings</summary>
+        /// <summary>how far fields are off on the regions: 0 in poses of Pose</summary>
         public double Leak;
         /// <summary>where the handle stood in the last Pose.Deform, as in Transform; on higher layers with what the layers
         /// below did to it</summary>
@@ -3949,33 +3932,27 @@ namespace Hf
     ///
     /// Creates a pose without handles.
     ///
-    /// mode: DeformMode
-    /// bandCount: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-    /// iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-    /// rimSiteCount: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-    /// groupCount: rotation groups of the smooth mode, 1 to 2000; 0 = 250</summary>
+    /// bandCount: bands per field, 2 to 64; 0 = 10
+    /// iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10
+    /// groupCount: groups of vertices that share a rotation, 1 to 2000; 0 = 250</summary>
     public sealed unsafe class Pose : Recorded
     {
         Pose() { }
 
         /// <summary>Creates a pose without handles.
         ///
-        /// mode: DeformMode
-        /// bandCount: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-        /// iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-        /// rimSiteCount: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-        /// groupCount: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+        /// bandCount: bands per field, 2 to 64; 0 = 10
+        /// iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10
+        /// groupCount: groups of vertices that share a rotation, 1 to 2000; 0 = 250
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT.</summary>
-        public Pose(Surface surface, DeformMode mode = default(DeformMode), uint bandCount = 0, uint iterationCount = 0,
-                uint rimSiteCount = 0, uint groupCount = 0)
+        public Pose(Surface surface, uint bandCount = 0, uint iterationCount = 0, uint groupCount = 0)
         {
             using (var c = new Call(null))
             {
                 c.Parent("surface", surface);
-                var descStruct = new hf_pose_desc { struct_size = (uint)sizeof(hf_pose_desc), mode = (int)mode,
-                    band_count = bandCount, iteration_count = iterationCount, rim_site_count = rimSiteCount,
-                    group_count = groupCount };
+                var descStruct = new hf_pose_desc { struct_size = (uint)sizeof(hf_pose_desc), band_count = bandCount,
+                    iteration_count = iterationCount, group_count = groupCount };
                 hf_pose_desc* desc = &descStruct;
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_pose_create(c.Handle(surface), desc, raw)));
@@ -4016,9 +3993,8 @@ namespace Hf
         /// motion that its region has in the last pose (Pose.Handle writes it), and the surface stays where it is
         /// (to 1e-6 of the box). It goes over to the best pose of the new handles while handles move by 0.05 of the
         /// box, or back to rest. Until then the region of the new handle keeps a part of its bend. restart ends
-        /// this at once. DeformMode.Paper places the handle only. On a higher layer the surface does not move (to
-        /// 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for the
-        /// higher layers.
+        /// this at once. On a higher layer the surface does not move (to 1e-9 of the box) until you move the
+        /// handle. Handles of lower layers hold the surface in place for the higher layers.
         ///
         /// regionVertices: lists of whole numbers: all regions one after the other; null: points are given
         /// points: [handleCount x 3] at rest. The region is the vertex nearest to the point and what is edge-
@@ -4031,7 +4007,7 @@ namespace Hf
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-        /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        /// HF_ERROR_TOO_LARGE.</summary>
         public uint[] AddHandles(uint[][] regionVertices = null, double[] points = null, double[] radii = null,
                 uint layer = 0, bool inPlace = false, bool freeRotation = false, Progress progress = null)
         {
@@ -4059,7 +4035,7 @@ namespace Hf
         /// point: [3].
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-        /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        /// HF_ERROR_TOO_LARGE.</summary>
         public uint AddHandleAt(double[] point, double radius)
         {
             using (var c = new Call(this))
@@ -4145,7 +4121,7 @@ namespace Hf
         /// handles: [handleCount].
         /// freeRotation: 1: the solve finds the rotations; 0: you give them.
         ///
-        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
+        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND.</summary>
         public void SetFreeRotations(uint[] handles, bool freeRotation = false)
         {
             using (var c = new Call(this))
@@ -5702,7 +5678,7 @@ namespace Hf
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-        /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public uint[] AddPairs(uint[][] sourceVertices = null, uint[][] targetVertices = null, uint[] flags = null,
                 Progress progress = null)
         {

@@ -67,8 +67,6 @@ namespace Hf.Native
         public const int HF_GEODESICS_HEAT = 3;
         public const int HF_EXTREMITIES_POISSON = 0;
         public const int HF_EXTREMITIES_GEODESIC = 1;
-        public const int HF_DEFORM_SMOOTH = 0;
-        public const int HF_DEFORM_PAPER = 1;
         public const int HF_LAYER_COUNT = 8;
         public const int HF_HANDLE_LIMIT = 256;
         public const int HF_HANDLE_REASON_FOOT = 0;
@@ -125,8 +123,7 @@ namespace Hf.Native
         public const int HF_JOINT_KIND_END = 2;
         public const int HF_JOINT_KIND_TWIST = 3;
         public const int HF_TRANSFER_FIELDS = 0;
-        public const int HF_TRANSFER_PAPER = 1;
-        public const int HF_TRANSFER_STRETCH = 2;
+        public const int HF_TRANSFER_STRETCH = 1;
         public const int HF_GROUND_KEEP = 0;
         public const int HF_GROUND_OFF = 1;
         public const int HF_PAIR_ANCHOR = 1;
@@ -688,10 +685,8 @@ namespace Hf.Native
     public unsafe struct hf_pose_desc
     {
         public uint struct_size;
-        public int mode;
         public uint band_count;
         public uint iteration_count;
-        public uint rim_site_count;
         public uint group_count;
     }
 
@@ -699,10 +694,8 @@ namespace Hf.Native
     public unsafe struct hf_pose_info
     {
         public uint struct_size;
-        public int mode;
         public uint band_count;
         public uint iteration_count;
-        public uint rim_site_count;
         public uint group_count;
         public uint handle_count;
         public uint vertex_count;

@@ -153,10 +153,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const poseDesc = (c, prefix, options) => {
-    const { mode = 0, bandCount = 0, iterationCount = 0, rimSiteCount = 0, groupCount = 0, ...more } = options;
+    const { bandCount = 0, iterationCount = 0, groupCount = 0, ...more } = options;
     none(more);
-    const desc = c.struct('hf_pose_desc', { mode, band_count: bandCount, iteration_count: iterationCount,
-            rim_site_count: rimSiteCount, group_count: groupCount });
+    const desc = c.struct('hf_pose_desc', { band_count: bandCount, iteration_count: iterationCount,
+            group_count: groupCount });
     return desc;
   };
 

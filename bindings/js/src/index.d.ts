@@ -480,12 +480,8 @@ export interface DirectionStatistics {
 
 /** Pose.info writes the options of a pose here, with defaults filled in, and the number of its handles. */
 export interface PoseInfo {
-  /** HF_DEFORM_* */
-  mode: number;
   bandCount: number;
   iterationCount: number;
-  /** sites per handle on its boundary; 0: all of it */
-  rimSiteCount: number;
   groupCount: number;
   handleCount: number;
   /** as given to the surface: rows of Pose.deform */
@@ -513,7 +509,7 @@ export interface HandleInfo {
   component: number;
   /** of the rest region, in the unit of the mesh */
   centroid: number[];
-  /** with rim_site_count: how far fields are off on the regions; 0 with full rings */
+  /** how far fields are off on the regions: 0 in poses of Pose */
   leak: number;
   /**
    * where the handle stood in the last Pose.deform, as in Transform; on higher layers with what the layers below
@@ -1686,11 +1682,9 @@ export interface DirectionClass {
  *
  * Creates a pose without handles.
  *
- * mode: HF_DEFORM_*
- * bandCount: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
- * iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
- * rimSiteCount: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
- * groupCount: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+ * bandCount: bands per field, 2 to 64; 0 = 10
+ * iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10
+ * groupCount: groups of vertices that share a rotation, 1 to 2000; 0 = 250
  */
 export interface Pose extends Recorded {
   readonly vertexCount: number;
@@ -1703,9 +1697,9 @@ export interface Pose extends Recorded {
    * posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
    * that its region has in the last pose (Pose.handle writes it), and the surface stays where it is (to 1e-6 of
    * the box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to
-   * rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once.
-   * HF_DEFORM_PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until
-   * you move the handle. Handles of lower layers hold the surface in place for the higher layers.
+   * rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once. On a higher
+   * layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold
+   * the surface in place for the higher layers.
    *
    * regionVertices: lists of whole numbers: all regions one after the other; null: points are given
    * points: [handleCount x 3] at rest. The region is the vertex nearest to the point and what is edge-connected to
@@ -1718,7 +1712,7 @@ export interface Pose extends Recorded {
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-   * HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   * HF_ERROR_TOO_LARGE.
    */
   addHandles(regionVertices?: ReadonlyArray<Numbers> | null,
           options?: { points?: Rows | null; radii?: Rows | null; layer?: number; inPlace?: boolean | number; freeRotation?: boolean | number; progress?: Progress | null }): Uint32Array;
@@ -1729,7 +1723,7 @@ export interface Pose extends Recorded {
    * point: [3].
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-   * HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   * HF_ERROR_TOO_LARGE.
    */
   addHandleAt(point: Rows, radius: number): number;
   /**
@@ -1780,7 +1774,7 @@ export interface Pose extends Recorded {
    * handles: [handleCount].
    * freeRotation: 1: the solve finds the rotations; 0: you give them.
    *
-   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND.
    */
   setFreeRotations(handles: Rows, freeRotation?: boolean | number): void;
   /**
@@ -1854,8 +1848,7 @@ export interface Pose extends Recorded {
   readonly deformInfo: DeformInfo;
 }
 export interface PoseClass {
-  new (surface: Surface,
-          options?: { mode?: number; bandCount?: number; iterationCount?: number; rimSiteCount?: number; groupCount?: number }): Pose;
+  new (surface: Surface, options?: { bandCount?: number; iterationCount?: number; groupCount?: number }): Pose;
 }
 
 /**
@@ -2224,7 +2217,7 @@ export interface Transfer extends Handle {
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
   addPairs(sourceVertices?: ReadonlyArray<Numbers> | null, targetVertices?: ReadonlyArray<Numbers> | null,
           flags?: Rows | null, options?: { progress?: Progress | null }): Uint32Array;

@@ -176,15 +176,6 @@ class ExtremityKind(IntEnum):
     """mean geodesic distance to the rest of the component (Hilaga et al. 2001)"""
 
 
-class DeformMode(IntEnum):
-    """Selects how vertices follow the handles."""
-
-    SMOOTH = _raw.HF_DEFORM_SMOOTH
-    """quadratic bands, reduced elastic energy: the default"""
-    PAPER = _raw.HF_DEFORM_PAPER
-    """linear bands of equal value, shape matching of overlapping clusters"""
-
-
 class HandleReason(IntEnum):
     """Says why a place is proposed as a handle."""
 
@@ -330,8 +321,6 @@ class JointKind(IntEnum):
 class TransferMode(IntEnum):
     FIELDS = _raw.HF_TRANSFER_FIELDS
     """a cluster: vertices with similar values of all fields; the default"""
-    PAPER = _raw.HF_TRANSFER_PAPER
-    """a cluster: vertices between two levels of one field, as in the paper"""
     STRETCH = _raw.HF_TRANSFER_STRETCH
     """Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target vertex
     i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x' minimises sum
@@ -745,10 +734,10 @@ def _direction_desc(c: Call, prefix: str = '', *, degree: int = 0, site_limit: i
     return desc
 
 
-def _pose_desc(c: Call, prefix: str = '', *, mode: int = DeformMode.SMOOTH, band_count: int = 0,
-        iteration_count: int = 0, rim_site_count: int = 0, group_count: int = 0) -> Any:
-    desc = c.struct(_raw.hf_pose_desc, {'mode': mode, 'band_count': band_count, 'iteration_count': iteration_count,
-            'rim_site_count': rim_site_count, 'group_count': group_count})
+def _pose_desc(c: Call, prefix: str = '', *, band_count: int = 0, iteration_count: int = 0,
+        group_count: int = 0) -> Any:
+    desc = c.struct(_raw.hf_pose_desc, {'band_count': band_count, 'iteration_count': iteration_count,
+            'group_count': group_count})
     return desc
 
 
@@ -2069,11 +2058,9 @@ class Pose(Recorded):
 
     Creates a pose without handles.
 
-    mode: DeformMode
-    band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-    iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-    rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-    group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+    band_count: bands per field, 2 to 64; 0 = 10
+    iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10
+    group_count: groups of vertices that share a rotation, 1 to 2000; 0 = 250
     """
 
     _destroy = 'hf_pose_destroy'
@@ -2084,11 +2071,10 @@ class Pose(Recorded):
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
 
-    def __init__(self, surface: Surface, *, mode: int = DeformMode.SMOOTH, band_count: int = 0,
-            iteration_count: int = 0, rim_site_count: int = 0, group_count: int = 0) -> None:
+    def __init__(self, surface: Surface, *, band_count: int = 0, iteration_count: int = 0,
+            group_count: int = 0) -> None:
         c = Call(surface=surface)
-        desc = _pose_desc(c, mode=mode, band_count=band_count, iteration_count=iteration_count,
-                rim_site_count=rim_site_count, group_count=group_count)
+        desc = _pose_desc(c, band_count=band_count, iteration_count=iteration_count, group_count=group_count)
         self._own('hf_pose_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
 
     def clone(self) -> "Pose":
@@ -2114,9 +2100,9 @@ class Pose(Recorded):
         posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
         that its region has in the last pose (Pose.handle writes it), and the surface stays where it is (to 1e-6 of
         the box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to
-        rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once.
-        DeformMode.PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box)
-        until you move the handle. Handles of lower layers hold the surface in place for the higher layers.
+        rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once. On a higher
+        layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold
+        the surface in place for the higher layers.
 
         region_vertices: lists of whole numbers: all regions one after the other; None: points are given
         points: (handle_count, 3) at rest. The region is the vertex nearest to the point and what is edge-connected to
@@ -2128,7 +2114,7 @@ class Pose(Recorded):
         free_rotation: 1: you give the places of the handles only; see Pose.set_free_rotations
         progress: an object to poll and cancel through
 
-        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, UnsupportedError.
+        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
         """
         c = Call(self)
         desc = _handles_desc(c, region_vertices=region_vertices, points=points, radii=radii, layer=layer,
@@ -2143,7 +2129,7 @@ class Pose(Recorded):
 
         point: (3,).
 
-        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, UnsupportedError.
+        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
         """
         c = Call(self)
         point_ = c.array('point', point, 'f8', (3,))
@@ -2214,7 +2200,7 @@ class Pose(Recorded):
         handles: (handle_count,).
         free_rotation: 1: the solve finds the rotations; 0: you give them.
 
-        Raises InvalidArgumentError, NotFoundError, UnsupportedError.
+        Raises InvalidArgumentError, NotFoundError.
         """
         c = Call(self)
         handles_ = c.array('handles', handles, 'u4', ('handle_count',))
@@ -2966,8 +2952,7 @@ class Transfer(Object):
         flags: (pair_count,) PairFlag, or None for none
         progress: an object to poll and cancel through
 
-        Raises CancelledError, ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
-        UnsupportedError.
+        Raises CancelledError, ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
         """
         c = Call(self)
         desc = _pairs_desc(c, source_vertices=source_vertices, target_vertices=target_vertices, flags=flags,
@@ -3378,13 +3363,13 @@ class Weights(Recorded):
 
 __all__ = [
     'Base', 'BodySide', 'Certificate', 'Chain', 'ChainMatch', 'Critical', 'CriticalInfo', 'CriticalPoint',
-    'CurveKind', 'DeformInfo', 'DeformMode', 'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod',
-    'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo',
-    'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo', 'JointKind',
-    'Levels', 'Link', 'LinkMode', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag',
-    'PairInfo', 'Path', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh',
-    'Region', 'RegionInfo', 'RegionList', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion',
-    'Route', 'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo',
+    'CurveKind', 'DeformInfo', 'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod', 'Extremity',
+    'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal',
+    'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo', 'JointKind', 'Levels', 'Link',
+    'LinkMode', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo',
+    'Path', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh', 'Region',
+    'RegionInfo', 'RegionList', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion', 'Route',
+    'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo',
     'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo', 'SurfacePoint',
     'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode',
     'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo', 'WeightsOrigin', 'WeightsOut',

@@ -79,8 +79,6 @@ HF_GEODESICS_EXACT = 2
 HF_GEODESICS_HEAT = 3
 HF_EXTREMITIES_POISSON = 0
 HF_EXTREMITIES_GEODESIC = 1
-HF_DEFORM_SMOOTH = 0
-HF_DEFORM_PAPER = 1
 HF_LAYER_COUNT = 8
 HF_HANDLE_LIMIT = 256
 HF_HANDLE_REASON_FOOT = 0
@@ -137,8 +135,7 @@ HF_JOINT_KIND_HELPER = 1
 HF_JOINT_KIND_END = 2
 HF_JOINT_KIND_TWIST = 3
 HF_TRANSFER_FIELDS = 0
-HF_TRANSFER_PAPER = 1
-HF_TRANSFER_STRETCH = 2
+HF_TRANSFER_STRETCH = 1
 HF_GROUND_KEEP = 0
 HF_GROUND_OFF = 1
 HF_PAIR_ANCHOR = 1
@@ -1080,17 +1077,13 @@ class hf_direction_statistics(Struct):
 
 class hf_pose_desc(Struct):
     struct_size: int
-    mode: int
     band_count: int
     iteration_count: int
-    rim_site_count: int
     group_count: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("mode", c_int32),
         ("band_count", c_uint32),
         ("iteration_count", c_uint32),
-        ("rim_site_count", c_uint32),
         ("group_count", c_uint32),
     ]
 
@@ -1098,19 +1091,15 @@ class hf_pose_desc(Struct):
 class hf_pose_info(Struct):
     """hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles."""
     struct_size: int
-    mode: int
     band_count: int
     iteration_count: int
-    rim_site_count: int
     group_count: int
     handle_count: int
     vertex_count: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("mode", c_int32),
         ("band_count", c_uint32),
         ("iteration_count", c_uint32),
-        ("rim_site_count", c_uint32),
         ("group_count", c_uint32),
         ("handle_count", c_uint32),
         ("vertex_count", c_uint32),

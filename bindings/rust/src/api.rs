@@ -500,25 +500,19 @@ impl<'a> DirectionOptions<'a> {
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PoseOptions {
-    /// `HF_DEFORM_*`
-    pub mode: i32,
-    /// bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+    /// bands per field, 2 to 64; 0 = 10
     pub band_count: u32,
-    /// iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+    /// iterations of a pose solve, 1 to 1000; 0 = 10
     pub iteration_count: u32,
-    /// sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-    pub rim_site_count: u32,
-    /// rotation groups of the smooth mode, 1 to 2000; 0 = 250
+    /// groups of vertices that share a rotation, 1 to 2000; 0 = 250
     pub group_count: u32,
 }
 impl PoseOptions {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "mode" => self.mode = Number::fit(name, value)?,
             "band_count" => self.band_count = Number::fit(name, value)?,
             "iteration_count" => self.iteration_count = Number::fit(name, value)?,
-            "rim_site_count" => self.rim_site_count = Number::fit(name, value)?,
             "group_count" => self.group_count = Number::fit(name, value)?,
             _ => return Err(unknown(name)),
         }
@@ -527,9 +521,8 @@ impl PoseOptions {
 
     #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_pose_desc> {
-        let mut desc = raw::hf_pose_desc { mode: self.mode, band_count: self.band_count,
-            iteration_count: self.iteration_count, rim_site_count: self.rim_site_count, group_count: self.group_count,
-            ..Default::default() };
+        let mut desc = raw::hf_pose_desc { band_count: self.band_count, iteration_count: self.iteration_count,
+            group_count: self.group_count, ..Default::default() };
         Ok(desc)
     }
 }
@@ -2838,11 +2831,9 @@ object!(
 impl Pose {
     /// Creates a pose without handles.
     ///
-    /// mode: `HF_DEFORM_*`
-    /// band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-    /// iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-    /// rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-    /// group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+    /// band_count: bands per field, 2 to 64; 0 = 10
+    /// iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10
+    /// group_count: groups of vertices that share a rotation, 1 to 2000; 0 = 250
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2880,9 +2871,9 @@ impl Pose {
     /// surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion that its
     /// region has in the last pose (`Pose::handle` writes it), and the surface stays where it is (to 1e-6 of the box). It
     /// goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then
-    /// the region of the new handle keeps a part of its bend. restart ends this at once. [`raw::HF_DEFORM_PAPER`] places
-    /// the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle.
-    /// Handles of lower layers hold the surface in place for the higher layers.
+    /// the region of the new handle keeps a part of its bend. restart ends this at once. On a higher layer the surface
+    /// does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place
+    /// for the higher layers.
     ///
     /// region_vertices: lists of whole numbers: all regions one after the other; `None`: points are given
     /// points: `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to
@@ -2895,7 +2886,7 @@ impl Pose {
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
-    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_handles(&mut self, region_vertices: Option<&[&[u32]]>, handles: &HandlesOptions) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
@@ -2912,7 +2903,7 @@ impl Pose {
     /// point: `[3]`.
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
-    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_handle_at(&mut self, point: &[f64], radius: f64) -> Result<u32> {
         let mut c = Call::new(&self.counts);
@@ -3005,7 +2996,7 @@ impl Pose {
     /// handles: `[handle_count]`.
     /// free_rotation: 1: the solve finds the rotations; 0: you give them.
     ///
-    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_UNSUPPORTED`].
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_free_rotations(&mut self, handles: &[u32], free_rotation: bool) -> Result<()> {
         let mut c = Call::new(&self.counts);
@@ -4011,8 +4002,7 @@ impl Transfer {
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
-    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
-    /// [`raw::HF_ERROR_UNSUPPORTED`].
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_pairs(&mut self, source_vertices: &[&[u32]], target_vertices: &[&[u32]], flags: Option<&[u32]>,
             pairs: &Pairs) -> Result<Vec<u32>> {

@@ -64,8 +64,6 @@ pub const HF_GEODESICS_EXACT: i32 = 2;
 pub const HF_GEODESICS_HEAT: i32 = 3;
 pub const HF_EXTREMITIES_POISSON: i32 = 0;
 pub const HF_EXTREMITIES_GEODESIC: i32 = 1;
-pub const HF_DEFORM_SMOOTH: i32 = 0;
-pub const HF_DEFORM_PAPER: i32 = 1;
 pub const HF_LAYER_COUNT: i32 = 8;
 pub const HF_HANDLE_LIMIT: i32 = 256;
 pub const HF_HANDLE_REASON_FOOT: i32 = 0;
@@ -122,8 +120,7 @@ pub const HF_JOINT_KIND_HELPER: i32 = 1;
 pub const HF_JOINT_KIND_END: i32 = 2;
 pub const HF_JOINT_KIND_TWIST: i32 = 3;
 pub const HF_TRANSFER_FIELDS: i32 = 0;
-pub const HF_TRANSFER_PAPER: i32 = 1;
-pub const HF_TRANSFER_STRETCH: i32 = 2;
+pub const HF_TRANSFER_STRETCH: i32 = 1;
 pub const HF_GROUND_KEEP: i32 = 0;
 pub const HF_GROUND_OFF: i32 = 1;
 pub const HF_PAIR_ANCHOR: i32 = 1;
@@ -1278,10 +1275,8 @@ impl hf_direction_statistics {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pose_desc {
     pub struct_size: u32,
-    pub mode: i32,
     pub band_count: u32,
     pub iteration_count: u32,
-    pub rim_site_count: u32,
     pub group_count: u32,
 }
 impl Default for hf_pose_desc {
@@ -1298,10 +1293,8 @@ impl Default for hf_pose_desc {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pose_info {
     pub struct_size: u32,
-    pub mode: i32,
     pub band_count: u32,
     pub iteration_count: u32,
-    pub rim_site_count: u32,
     pub group_count: u32,
     pub handle_count: u32,
     pub vertex_count: u32,
@@ -1319,10 +1312,8 @@ impl hf_pose_info {
     pub fn figure(&self, name: &str) -> Option<f64> {
         Some(match name {
             "struct_size" => f64::from(self.struct_size),
-            "mode" => f64::from(self.mode),
             "band_count" => f64::from(self.band_count),
             "iteration_count" => f64::from(self.iteration_count),
-            "rim_site_count" => f64::from(self.rim_site_count),
             "group_count" => f64::from(self.group_count),
             "handle_count" => f64::from(self.handle_count),
             "vertex_count" => f64::from(self.vertex_count),
