@@ -9,7 +9,7 @@
 namespace sequences {
 namespace {
 
-constexpr double updown_penalty = 1e8;  // the default of hf_solver_desc.penalty
+constexpr double updown_penalty = 1e8;  // the default of hf_peer_updown_create
 
 bool all_finite(const double* values, std::size_t count) {
   return std::all_of(values, values + count, [](double x) { return std::isfinite(x); });
