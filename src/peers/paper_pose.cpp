@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "base/elementary.h"
 
@@ -208,8 +209,10 @@ class PaperScheme final : public PoseScheme {
 }  // namespace
 
 std::shared_ptr<const PoseScheme> paper_scheme() noexcept {
-  static const PaperScheme scheme;
-  return {std::shared_ptr<void>(), &scheme};  // nobody frees it
+  // A static object with a destructor would be a call at the end of the process; this one holds nothing and stays.
+  alignas(PaperScheme) static unsigned char room[sizeof(PaperScheme)];
+  static const PaperScheme* const scheme = new (room) PaperScheme;
+  return {std::shared_ptr<void>(), scheme};
 }
 
 }  // namespace hf_inner

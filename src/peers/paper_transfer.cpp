@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "base/index.h"
 #include "base/progress.h"
@@ -124,8 +125,10 @@ class PaperClusters final : public ClusterScheme {
 }  // namespace
 
 std::shared_ptr<const ClusterScheme> paper_clusters() noexcept {
-  static const PaperClusters scheme;
-  return {std::shared_ptr<void>(), &scheme};  // nobody frees it
+  // A static object with a destructor would be a call at the end of the process; this one holds nothing and stays.
+  alignas(PaperClusters) static unsigned char room[sizeof(PaperClusters)];
+  static const PaperClusters* const scheme = new (room) PaperClusters;
+  return {std::shared_ptr<void>(), scheme};
 }
 
 }  // namespace hf_inner

@@ -22,7 +22,7 @@ static void axes_hold_within_1e_3(void** state) {
       const double exact = *entry;
       hf_transfer transfer = NULL;
       *entry = exact + 0.99e-3;
-      assert_ok(create_transfer_with(kind, surface, surface, &desc, &transfer));
+      assert_ok(hf_transfer_create(surface, surface, &desc, &transfer));
       hf_transfer_destroy(transfer);
       *entry = exact + 1.01e-3;
       assert_code(HF_ERROR_INVALID_ARGUMENT, hf_transfer_create(surface, surface, &desc, &transfer));
