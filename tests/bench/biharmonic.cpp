@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/inner_factor.h"
+#include "support/peers.h"
 
 namespace bench {
 namespace {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "setting.h"
+#include "support/peers.h"
 
 namespace invariance {
 namespace {

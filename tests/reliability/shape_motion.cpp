@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "shape_play.h"
+#include "support/peers.h"
 
 namespace shapes {
 

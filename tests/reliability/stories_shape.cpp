@@ -1,5 +1,6 @@
 // Stories of analysis, directions, poses, transfers, quads, regions and skin weights.
 #include "stories.h"
+#include "support/peers.h"
 
 namespace refusal {
 namespace {

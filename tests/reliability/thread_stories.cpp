@@ -1,3 +1,4 @@
+#include "support/peers.h"
 #include "thread_stories.h"
 
 namespace reliability {

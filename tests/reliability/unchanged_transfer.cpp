@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/peers.h"
 #include "unchanged.h"
 
 namespace unchanged {
