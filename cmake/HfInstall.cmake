@@ -5,7 +5,11 @@ install(TARGETS ${hf_installed} EXPORT hf_targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/hf DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+set(hf_left_header)
+if(NOT HF_WITH_PEERS)
+  set(hf_left_header PATTERN peers.h EXCLUDE)
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/hf DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${hf_left_header})
 install(EXPORT hf_targets NAMESPACE hf:: FILE hfTargets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hf)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/hfConfig.cmake.in ${PROJECT_BINARY_DIR}/hfConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/hf)

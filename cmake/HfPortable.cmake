@@ -25,7 +25,7 @@ function(hf_add_portable)
   target_compile_options(hf_old_threads PRIVATE -fno-builtin -w)
   target_link_options(hf_old_threads PRIVATE -nostdlib -Wl,--version-script=${folder}/threads.map)
 
-  add_library(hf_portable SHARED $<TARGET_OBJECTS:hf_objects> $<TARGET_OBJECTS:${hf_peers}> ${folder}/single.c)
+  add_library(hf_portable SHARED ${hf_parts} ${folder}/single.c)
   hf_target_defaults(hf_portable)
   set_target_properties(hf_portable PROPERTIES OUTPUT_NAME hf VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
     LIBRARY_OUTPUT_DIRECTORY ${folder})

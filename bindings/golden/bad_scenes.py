@@ -20,10 +20,10 @@ def bad_scenes():
             ("thread_count", 257, "INVALID_ARGUMENT"), ("field_kind", 9, "INVALID_ARGUMENT"),
             ("weld", 2, "INVALID_ARGUMENT")):
         bad(error, **surface(options={option: value}))
-    for option in ("no_such_option", "positions_", "Weld", "engine", "channel_count"):
+    for option in ("no_such_option", "positions_", "Weld", "channel_count"):
         bad("INVALID_ARGUMENT", **surface(options={option: 1}))
     made.append(surface(mesh="small"))
-    for option, value in (("engine", 7), ("engine", -1), ("channel_count", 65), ("field_kind", 9), ("penalty", -1.0),
+    for option, value in (("channel_count", 65), ("field_kind", 9),
             ("no_such_option", 1), ("weld", 1), ("operator_kind", 1)):
         bad("INVALID_ARGUMENT", **solver(options={option: value}))
     bad("INVALID_ARGUMENT", do="save", on="m", field_kind=9, **{"as": "f"})
@@ -147,7 +147,6 @@ def bad_scenes():
     bad("INVALID_ARGUMENT", do="set_transforms", handles=[0], translations=[0.0, 0.0], **on)
     bad("INVALID_ARGUMENT", do="set_transforms", handles=[0], rotations=[0.0, 0.0], **on)
     bad("INVALID_ARGUMENT", do="skin", influence_count=5, **on)
-    bad("INVALID_ARGUMENT", do="pose", **{"on": "m", "as": "q"}, options={"mode": 9})
     bad("INVALID_ARGUMENT", do="pose", **{"on": "m", "as": "q"}, options={"band_count": 1})
     bad("INVALID_ARGUMENT", do="transfer", **{"as": "x"}, source="m", target="m", options={"mode": 9})
     made.append({"do": "transfer", "as": "x", "source": "m", "target": "m"})

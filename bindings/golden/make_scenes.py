@@ -348,7 +348,7 @@ def plain_calls(scene, mesh, surface, solver):
           {"do": "surface_info", "on": "m", "expect": {"vertex_count": 288, "triangle_count": 576, "operator_kind": 3,
               "field_kind": 0, "thread_count": 1, "vertex_limit": 20000000}},
           {"do": "solver_info", "on": "s", "expect": {"site_limit": 9, "site_count": 2, "channel_count": 1,
-              "vertex_count": 288, "field_kind": 0, "engine": 0}},
+              "vertex_count": 288, "field_kind": 0}},
           {"do": "components", "on": "m", "expect": expect(np.zeros(288), 0)},
           {"do": "pose", "on": "m", "as": "p"},
           {"do": "add_handle_at", "on": "p", "point": far, "radius": 0.9, "numbers": [0]},

@@ -171,14 +171,10 @@ struct PickOptions {
 struct SolverOptions {
   // HF_FIELD_*; if the surface has no factor of that kind yet, it is made now
   int32_t field_kind = 0;
-  // HF_ENGINE_*
-  int32_t engine = 0;
   // fields solved at once, 1 to 64; 0 = 1
   uint32_t channel_count = 0;
   // at most this many sites; 0 = 100,000
   uint32_t site_limit = 0;
-  // HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
-  double penalty = 0;
   // none, or an object to poll and cancel through
   const Progress* progress = nullptr;
   hf_solver_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
@@ -261,15 +257,11 @@ struct DirectionOptions {
 };
 
 struct PoseOptions {
-  // HF_DEFORM_*
-  int32_t mode = 0;
-  // bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+  // bands per field, 2 to 64; 0 = 10
   uint32_t band_count = 0;
-  // iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+  // iterations of a pose solve, 1 to 1000; 0 = 10
   uint32_t iteration_count = 0;
-  // sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-  uint32_t rim_site_count = 0;
-  // rotation groups of the smooth mode, 1 to 2000; 0 = 250
+  // groups of vertices that share a rotation, 1 to 2000; 0 = 250
   uint32_t group_count = 0;
   hf_pose_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
@@ -1259,13 +1251,11 @@ class Solver {
   // Creates a solver without sites.
   //
   // field_kind: HF_FIELD_*; if the surface has no factor of that kind yet, it is made now
-  // engine: HF_ENGINE_*
   // channel_count: fields solved at once, 1 to 64; 0 = 1
   // site_limit: at most this many sites; 0 = 100,000
-  // penalty: HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
   // progress: an object to poll and cancel through
   //
-  // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_UNSUPPORTED.
+  // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE.
   Solver(const Surface& surface, const SolverOptions& options = {}) {
     Call c;
     c.parent("surface", surface.known_counts());
@@ -1562,8 +1552,8 @@ class Solver {
   // error below 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of Solver.solve.
   //
   // The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on the
-  // surface share the copy. It is freed with the last of these solvers, or by Solver::release_preview. Engines other
-  // than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites. info.exact is then 1.
+  // surface share the copy. It is freed with the last of these solvers, or by Solver::release_preview. A solver whose
+  // factor eliminates sites gives the exact field. info.exact is then 1.
   //
   // correction_count: 0 to 8.
   // out: `[vertex_count x channel_count]` of float or double, as Solver::solve. Single precision rounds most
@@ -1644,7 +1634,7 @@ class Solver {
   // HF_ERROR_INACCURATE (index = worst vertex) if the check fails, and writes certificate then too. Do not use fields
   // of that solver; make the surface again.
   //
-  // tolerance: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5
+  // tolerance: largest error to accept, > 0; 0 = 1e-8
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT.
   hf_certificate certify(double tolerance = 0) const {
@@ -1661,7 +1651,7 @@ class Solver {
   // hf_solver_statistics.rebase_advised is 1. An edit of very many sites does this by itself when that is quicker.
   // Memory: one more factor, for as long as it eliminates sites.
   //
-  // Fails with HF_ERROR_BUSY, HF_ERROR_EMPTY, HF_ERROR_UNSUPPORTED.
+  // Fails with HF_ERROR_BUSY, HF_ERROR_EMPTY.
   void prepare_rebase() const {
     Call c(counts_);
     check(hf_solver_prepare_rebase(get()));
@@ -2069,11 +2059,9 @@ class Pose {
  public:
   // Creates a pose without handles.
   //
-  // mode: HF_DEFORM_*
-  // band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-  // iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-  // rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-  // group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+  // band_count: bands per field, 2 to 64; 0 = 10
+  // iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10
+  // group_count: groups of vertices that share a rotation, 1 to 2000; 0 = 250
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT.
   Pose(const Surface& surface, const PoseOptions& options = {}) {
@@ -2105,9 +2093,9 @@ class Pose {
   // surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion that its
   // region has in the last pose (Pose::handle writes it), and the surface stays where it is (to 1e-6 of the box). It
   // goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then
-  // the region of the new handle keeps a part of its bend. restart ends this at once. HF_DEFORM_PAPER places the handle
-  // only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower
-  // layers hold the surface in place for the higher layers.
+  // the region of the new handle keeps a part of its bend. restart ends this at once. On a higher layer the surface
+  // does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for
+  // the higher layers.
   //
   // region_vertices: lists of whole numbers: all regions one after the other; none: points are given
   // points: `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to
@@ -2120,7 +2108,7 @@ class Pose {
   // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-  // HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+  // HF_ERROR_TOO_LARGE.
   std::vector<uint32_t> add_handles(const std::vector<std::vector<uint32_t>>& region_vertices = {},
       const HandlesOptions& options = {}) {
     Call c(counts_);
@@ -2136,7 +2124,7 @@ class Pose {
   // point: `[3]`.
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-  // HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+  // HF_ERROR_TOO_LARGE.
   uint32_t add_handle_at(const std::vector<double>& point, double radius) {
     Call c(counts_);
     const double* point_ = c.array(point, true, "point", {"3"});
@@ -2209,7 +2197,7 @@ class Pose {
   // handles: `[handle_count]`.
   // free_rotation: 1: the solve finds the rotations; 0: you give them.
   //
-  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND.
   void set_free_rotations(const std::vector<uint32_t>& handles, bool free_rotation = false) {
     Call c(counts_);
     const uint32_t* handles_ = c.array(handles, true, "handles", {"handle_count"});
@@ -3226,7 +3214,7 @@ class Transfer {
   // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-  // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+  // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
   std::vector<uint32_t> add_pairs(const std::vector<std::vector<uint32_t>>& source_vertices,
       const std::vector<std::vector<uint32_t>>& target_vertices, const std::vector<uint32_t>& flags = {},
       const Pairs& options = {}) {
@@ -3831,10 +3819,8 @@ inline hf_pick_desc PickOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]]
 inline hf_solver_desc SolverOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_solver_desc>();
   desc.field_kind = field_kind;
-  desc.engine = engine;
   desc.channel_count = channel_count;
   desc.site_limit = site_limit;
-  desc.penalty = penalty;
   c.known("channel_count", channel_count ? channel_count : 1);
   desc.progress = progress ? progress->get() : nullptr;
   return desc;
@@ -3899,10 +3885,8 @@ inline hf_direction_desc DirectionOptions::fill([[maybe_unused]] Call& c,
 
 inline hf_pose_desc PoseOptions::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_pose_desc>();
-  desc.mode = mode;
   desc.band_count = band_count;
   desc.iteration_count = iteration_count;
-  desc.rim_site_count = rim_site_count;
   desc.group_count = group_count;
   return desc;
 }

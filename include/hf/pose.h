@@ -4,8 +4,8 @@
  * too or leave that free (free_rotation): then the solve finds it, as for a hand that is pulled. Each handle has one
  * harmonic field, which is 1 on the handle and 0 on the others. It says how much a vertex follows the handle. The
  * vertices between two levels of a field form a cluster, and clusters overlap. A small prefactored solve finds the
- * motion of each cluster, and each vertex blends these motions. HF_DEFORM_PAPER does this exactly as Section 5 of Xu,
- * Zhang, Cohen-Or and Xiong (2009) describes.
+ * motion of each cluster, and each vertex blends these motions (Xu, Zhang, Cohen-Or and Xiong 2009, Section 5, with
+ * quadratic bands and a reduced elastic energy).
  *
  * Handles have layers. Handles of layer 0 move the rest pose. Handles of a higher layer edit the surface that the lower
  * layers produce. They do not move the lower layers, so you can add and remove them freely. */
@@ -21,12 +21,6 @@ extern "C" {
 /* A set of handles on a surface. */
 typedef struct hf_pose_object* hf_pose;
 
-/* Selects how vertices follow the handles. */
-enum hf_deform_mode {
-  HF_DEFORM_SMOOTH = 0, /* quadratic bands, reduced elastic energy: the default */
-  HF_DEFORM_PAPER = 1   /* linear bands of equal value, shape matching of overlapping clusters */
-};
-
 enum {
   HF_LAYER_COUNT = 8,
   HF_HANDLE_LIMIT = 256 /* most handles of a pose */
@@ -34,11 +28,9 @@ enum {
 
 typedef struct hf_pose_desc {
   uint32_t struct_size;
-  int32_t mode;             /* HF_DEFORM_* */
-  uint32_t band_count;      /* bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper) */
-  uint32_t iteration_count; /* iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper) */
-  uint32_t rim_site_count;  /* sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens" */
-  uint32_t group_count;     /* rotation groups of the smooth mode, 1 to 2000; 0 = 250 */
+  uint32_t band_count;      /* bands per field, 2 to 64; 0 = 10 */
+  uint32_t iteration_count; /* iterations of a pose solve, 1 to 1000; 0 = 10 */
+  uint32_t group_count;     /* groups of vertices that share a rotation, 1 to 2000; 0 = 250 */
 } hf_pose_desc;
 
 /* Creates a pose without handles. desc: NULL for defaults. Sets *out_pose to NULL first. The pose needs the harmonic
@@ -56,10 +48,8 @@ HF_API void hf_pose_destroy(hf_pose pose);
 /* hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles. */
 typedef struct hf_pose_info {
   uint32_t struct_size;
-  int32_t mode; /* HF_DEFORM_* */
   uint32_t band_count;
   uint32_t iteration_count;
-  uint32_t rim_site_count; /* sites per handle on its boundary; 0: all of it */
   uint32_t group_count;
   uint32_t handle_count;
   uint32_t vertex_count; /* as given to the surface: rows of hf_deform */
@@ -92,16 +82,15 @@ typedef struct hf_handles_desc {
  * surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion that its
  * region has in the last pose (hf_pose_get_handle writes it), and the surface stays where it is (to 1e-6 of the box).
  * It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then
- * the region of the new handle keeps a part of its bend. restart ends this at once. HF_DEFORM_PAPER places the handle
- * only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower
- * layers hold the surface in place for the higher layers. out_handles: NULL, or uint32_t[handle_count]. Cost: one field
- * solve for the layer of the handles and for each higher layer. On large meshes a frame may be late. To avoid that, add
- * the handles to a clone in another thread and pose the old one meanwhile. Then set the transforms of the clone. No two
- * regions may overlap, on any layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and
- * HF_ERROR_CONFLICT (index = position in region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT
- * (isolated vertex, layer, in_place, free_rotation, a radius, regions and points at once), HF_ERROR_NON_FINITE,
- * HF_ERROR_TOO_LARGE (HF_HANDLE_LIMIT, a point two boxes or more away), HF_ERROR_UNSUPPORTED (free_rotation with
- * HF_DEFORM_PAPER). Thread safety: changes `pose`. Since 0.1. */
+ * the region of the new handle keeps a part of its bend. restart ends this at once. On a higher layer the surface does
+ * not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for the
+ * higher layers. out_handles: NULL, or uint32_t[handle_count]. Cost: one field solve for the layer of the handles and
+ * for each higher layer. On large meshes a frame may be late. To avoid that, add the handles to a clone in another
+ * thread and pose the old one meanwhile. Then set the transforms of the clone. No two regions may overlap, on any
+ * layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and HF_ERROR_CONFLICT (index = position in
+ * region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT (isolated vertex, layer, in_place,
+ * free_rotation, a radius, regions and points at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (HF_HANDLE_LIMIT, a
+ * point two boxes or more away). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
 
 /* Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
@@ -149,7 +138,7 @@ HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_t
  * layer a changed handle moves the surface at the next frame. A handle alone in its component keeps the rotation it
  * has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose. Cost: one iteration of a
  * solve for each free handle, at this call and when handles are added or removed; little in a frame. Errors:
- * HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (free_rotation), HF_ERROR_UNSUPPORTED (HF_DEFORM_PAPER). Thread safety:
+ * HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (free_rotation). Thread safety:
  * changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
                                             int32_t free_rotation);
@@ -169,7 +158,7 @@ typedef struct hf_handle_info {
   uint32_t site_count;   /* of its boundary */
   uint32_t component;
   double centroid[3];    /* of the rest region, in the unit of the mesh */
-  double leak;           /* with rim_site_count: how far fields are off on the regions; 0 with full rings */
+  double leak;           /* how far fields are off on the regions: 0 in poses of hf_pose_create */
   double rotation[4];    /* where the handle stood in the last hf_deform, as in hf_transform; on higher layers with
                             what the layers below did to it */
   double translation[3]; /* the same of its translation */

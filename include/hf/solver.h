@@ -19,31 +19,17 @@ extern "C" {
 /* A set of sites on a surface, and their field. */
 typedef struct hf_solver_object* hf_solver;
 
-/* Selects the engine: how a solver combines its sites with the factor. All engines give the same field. */
-enum hf_engine {
-  HF_ENGINE_GREEN = 0,   /* sites are rows of a small dense system beside the factor: the default */
-  HF_ENGINE_UPDOWN = 1,  /* as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds
-                            with HF_WITH_GPL. The field meets its sites to about 1e-8 of the value range, a bi-harmonic
-                            one to 2e-7 */
-  HF_ENGINE_REFACTOR = 2 /* eliminates the sites and factorises again at every change: the baseline */
-};
-
 typedef struct hf_solver_desc {
   uint32_t struct_size;
   int32_t field_kind;     /* HF_FIELD_*; if the surface has no factor of that kind yet, it is made now */
-  int32_t engine;         /* HF_ENGINE_* */
   uint32_t channel_count; /* fields solved at once, 1 to 64; 0 = 1 */
   uint32_t site_limit;    /* at most this many sites; 0 = 100,000 */
-  uint32_t reserved;      /* 0 */
-  double penalty; /* HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10 */
-  hf_progress progress; /* NULL, or an object to poll and cancel through */
+  hf_progress progress;   /* NULL, or an object to poll and cancel through */
 } hf_solver_desc;
 
 /* Creates a solver without sites. desc: NULL for defaults. Sets *out_solver to NULL first. Cost: none, unless the
- * surface has no factor of that field kind and makes one. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED
- * (engine not in this build, or not HF_ENGINE_GREEN for a bi-harmonic field on a surface with a vertex of more than
- * 1,000 neighbours), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. Thread safety: reads `surface`. Since
- * 0.1. */
+ * surface has no factor of that field kind and makes one. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_CANCELLED,
+ * HF_ERROR_NOT_POSITIVE_DEFINITE. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver);
 
 /* Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share the factor and
@@ -60,13 +46,10 @@ HF_API void hf_solver_destroy(hf_solver solver);
 typedef struct hf_solver_info {
   uint32_t struct_size;
   int32_t field_kind; /* HF_FIELD_* */
-  int32_t engine;     /* HF_ENGINE_* */
   uint32_t channel_count;
   uint32_t site_limit;
   uint32_t site_count;
-  double penalty;
   uint32_t vertex_count; /* as given to the surface: rows of a field */
-  uint32_t reserved;
 } hf_solver_info;
 
 /* Writes the options of a solver. Thread safety: reads `solver`. Since 0.1. */
@@ -175,8 +158,8 @@ HF_API hf_result hf_solver_get_sites(hf_solver solver, hf_sites_info* inout_info
  * radius holds the rim of its disc only. Undo restores the screening with the sites. Cost: a numeric factorisation with
  * the ordering of the surface, two sweeps and the paths of the sites. Errors: HF_ERROR_NON_FINITE,
  * HF_ERROR_INVALID_ARGUMENT (H below 0) and HF_ERROR_TOO_LARGE (A H, or p above 1e200), index = vertex;
- * HF_ERROR_NOT_POSITIVE_DEFINITE (all H of a component are lost in rounding), and HF_ERROR_UNSUPPORTED (a graph,
- * another engine than HF_ENGINE_GREEN, a bi-harmonic field). Thread safety: changes `solver`. Since 0.1. */
+ * HF_ERROR_NOT_POSITIVE_DEFINITE (all H of a component are lost in rounding), and HF_ERROR_UNSUPPORTED (a graph, a
+ * bi-harmonic field). Thread safety: changes `solver`. Since 0.1. */
 HF_API hf_result hf_solver_set_screening(hf_solver solver, const double* screening, const double* targets);
 
 /* ---- fields ---- */
@@ -246,9 +229,8 @@ typedef struct hf_preview_info {
  * 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of hf_solve.
  *
  * The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on the
- * surface share the copy. It is freed with the last of these solvers, or by hf_solver_release_preview. Engines other
- * than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites. out_info->exact is then
- * 1.
+ * surface share the copy. It is freed with the last of these solvers, or by hf_solver_release_preview. A solver whose
+ * factor eliminates sites gives the exact field. out_info->exact is then 1.
  *
  * out_values: [vertex_count][channel_count] of float or double, as hf_solver_solve. Single precision rounds most
  * corrections away. correction_count: 0 to 8. out_info: NULL, or a struct. Errors: HF_ERROR_INVALID_ARGUMENT
@@ -286,7 +268,7 @@ typedef struct hf_certificate {
   uint32_t struct_size;
   int32_t overshoot_checked; /* out; 1: the field must keep to the range of its sites: harmonic, intrinsic Delaunay
                                 or clamped operator, all sites at vertices */
-  double tolerance;          /* in: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5; out: the one used */
+  double tolerance;          /* in: largest error to accept, > 0; 0 = 1e-8; out: the one used */
   double value_range;        /* out: largest less smallest value (or target), the widest over components and channels */
   double residual;   /* out: largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours */
   double site_error; /* out: largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
@@ -312,14 +294,14 @@ HF_API hf_result hf_solver_certify(hf_solver solver, hf_certificate* inout_certi
  * calling thread, while other threads edit and solve with this solver. The next edit switches to the new factor. Fields
  * before and after are the same up to rounding. Call it on a thread of yours when hf_solver_statistics.rebase_advised
  * is 1. An edit of very many sites does this by itself when that is quicker. Memory: one more factor, for as long as it
- * eliminates sites. Errors: HF_ERROR_EMPTY (no hard site at a vertex), HF_ERROR_UNSUPPORTED (other engines),
- * HF_ERROR_BUSY (another thread is in this call). Thread safety: can run during any other call on the same solver.
+ * eliminates sites. Errors: HF_ERROR_EMPTY (no hard site at a vertex), HF_ERROR_BUSY (another
+ * thread is in this call). Thread safety: can run during any other call on the same solver.
  * Since 0.1. */
 HF_API hf_result hf_solver_prepare_rebase(hf_solver solver);
 
 /* These values say how the solver carried out the last edit of site places (hf_solver_statistics.last_route). */
 enum hf_route {
-  HF_ROUTE_NONE = 0,  /* no place was edited yet, or the engine is not green */
+  HF_ROUTE_NONE = 0,  /* no place was edited yet */
   HF_ROUTE_DENSE = 1, /* rows of the dense system were added and removed */
   HF_ROUTE_FRESH = 2, /* the dense system was recomputed, which was quicker */
   HF_ROUTE_REBASE = 3 /* factorised again with hard vertex sites eliminated */

@@ -19,14 +19,13 @@ typedef struct hf_transfer_object* hf_transfer;
 
 enum hf_transfer_mode {
   HF_TRANSFER_FIELDS = 0, /* a cluster: vertices with similar values of all fields; the default */
-  HF_TRANSFER_PAPER = 1,  /* a cluster: vertices between two levels of one field, as in the paper */
   /* Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target vertex
    * i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x' minimises sum
    * over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2 with cotangent weights w. It is a Poisson
    * equation with the factor of the surface. Borders match borders, and narrow openings between them, such as lids,
    * close as on the source. There is no ground, no rest alignment, no dial, no hold and no skin; flags of pairs have no
    * effect but on the scale. A surface on itself gets its own pose */
-  HF_TRANSFER_STRETCH = 2
+  HF_TRANSFER_STRETCH = 1
 };
 
 enum hf_ground {

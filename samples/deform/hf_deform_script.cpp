@@ -32,7 +32,7 @@ const char* usage =
     "  --sheet FILE       a contact sheet, .png\n"
     "  --tiles N          frames on the sheet, 2 to 23 (default 7)\n"
     "  --frames-obj DIR   every key frame as DIR/frame_0000.obj ..., in the vertex order of MESH\n"
-    "  --mode MODE        smooth or paper, instead of the script's\n"
+    "  --mode MODE        smooth, or paper in builds with HF_WITH_PEERS; instead of the script's\n"
     "  --given-rotations  a drag without a turn keeps the rotation of its handle; otherwise the rotation is free\n"
     "  --no-links         pieces of the surface stay apart; otherwise links join them\n"
     "  --refine           one full-mesh step on every frame\n"

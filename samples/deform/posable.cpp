@@ -9,6 +9,7 @@
 
 #include "common/limits.h"
 #include "common/links.h"
+#include "common/peers.h"
 #include "gltf/file_kind.h"
 #include "gltf/gltf_read.h"
 
@@ -57,9 +58,8 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   else
     surface_ = options.on->surface_;
   hf_pose_desc pose = HF_INIT(hf_pose_desc);
-  pose.mode = options.paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH;
   pose.band_count = options.bands;
-  const hf_result result = hf_pose_create(surface_, &pose, &pose_);
+  const hf_result result = create_pose(options.paper, surface_, pose, &pose_);
   if (result != HF_OK) {
     if (own_) hf_surface_destroy(surface_);
     expect_ok(result, "the pose");

@@ -38,7 +38,7 @@ const char* const field_usage =
     "  --strips N         number of strips (24)\n"
     "  --direction X,Y,Z  from where the picture looks (0.8,0.35,1)\n"
     "  --sheet MESH ...   every kind of field on every mesh, one picture a kind: START_harmonic.png and so on\n"
-    "  --engine NAME      green (default), updown, refactor\n"
+    "  --engine NAME      green (default); updown, refactor: baselines, in builds with HF_WITH_PEERS\n"
     "  --operator NAME    delaunay (default), clamped, uniform, cotangent (the paper's)\n"
     "  --paper            the paper's own way: --engine updown --operator cotangent\n"
     "  --weld NAME        exact (default), none\n"
@@ -179,13 +179,13 @@ FieldOptions read_field_options(int argc, char** argv) {
     else if (name == "--threads")
       options.threads = read_index(next(), name);
     else if (name == "--engine")
-      options.engine = read_choice(next(), {"green", "updown", "refactor"}, name);
+      options.engine = static_cast<Engine>(read_choice(next(), {"green", "updown", "refactor"}, name));
     else if (take_limit(name, next))
       continue;
     else if (name == "--operator")
       options.operator_kind = read_choice(next(), {"delaunay", "clamped", "uniform", "cotangent"}, name);
     else if (name == "--paper") {
-      options.engine = HF_ENGINE_UPDOWN;
+      options.engine = Engine::updown;
       options.operator_kind = HF_OPERATOR_COTANGENT;
       options.links = false;
     } else if (name == "--weld")

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/peers.h"
+
 namespace samples {
 
 // A place on the surface: a vertex, or a point in a triangle.
@@ -41,7 +43,8 @@ struct FieldOptions {
   int isolines = 0;      // lines to draw; 0 = none
   int levels = 0;        // of strips and lines: equal value, area, length
   bool critical_points = false;
-  int engine = 0, operator_kind = 0, weld = 0;
+  Engine engine = Engine::green;
+  int operator_kind = 0, weld = 0;
   uint32_t threads = 1;
   bool links = true;
   int strips = 24;

@@ -105,12 +105,11 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
   links.mode = HF_LINK_PIECES;
   if (options.links) desc.links = &links;
   hf_solver_desc sites = HF_INIT(hf_solver_desc);
-  sites.engine = options.engine;
   sites.channel_count = options.kind == FieldType::vector ? 3 : 1;
   if (options.kind == FieldType::biharmonic) desc.field_kind = sites.field_kind = HF_FIELD_BIHARMONIC;
   limit_surface(desc);
   check(hf_surface_create(&desc, &surface_));
-  hf_result result = hf_create(surface_, &sites, &solver_);
+  hf_result result = create_solver(options.engine, surface_, sites, &solver_);
   if (result == HF_OK && options.kind == FieldType::direction)
     result = hf_direction_create(surface_, nullptr, &direction_);
   if (result != HF_OK) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/links.h"
+#include "common/peers.h"
 #include "gltf/animate.h"
 #include "gltf/landmarks.h"
 #include "transfer/posed_region.h"
@@ -83,7 +84,7 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
 
   const TransferSettings& settings = file_.settings;
   hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-  desc.mode = settings.paper ? HF_TRANSFER_PAPER : settings.stretch ? HF_TRANSFER_STRETCH : HF_TRANSFER_FIELDS;
+  desc.mode = settings.stretch ? HF_TRANSFER_STRETCH : HF_TRANSFER_FIELDS;
   desc.cluster_count = settings.clusters;
   desc.kernel_width = settings.width;
   // the paper measures the legs by its fields
@@ -94,7 +95,8 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
   desc.ground = ground_ ? HF_GROUND_KEEP : HF_GROUND_OFF;
   copy_axes(file_.source_axes, desc.source_axes);
   copy_axes(file_.target_axes, desc.target_axes);
-  check(hf_transfer_create(source_surface_->get(), target_surface_->get(), &desc, &transfer_), "the transfer");
+  check(create_transfer(settings.paper, source_surface_->get(), target_surface_->get(), desc, &transfer_),
+        "the transfer");
   set_dials(file_.dials);
   bar.begin("pairs, fields and clusters");
   add(file_.pairs);

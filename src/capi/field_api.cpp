@@ -155,7 +155,7 @@ hf_result hf_solver_certify(hf_solver handle, hf_certificate* inout_certificate)
     const auto solver = get<SolverObject>(handle, "solver");
     hf_certificate report = read_struct(inout_certificate, "inout_certificate");
     const Reading reading(*solver);
-    const double tolerance = certificate_tolerance(report.tolerance, solver->field.engine().kind());
+    const double tolerance = certificate_tolerance(report.tolerance, solver->field.engine());
     const Certificate found = certify(solver->field);
     report.overshoot_checked = found.overshoot_checked;
     report.tolerance = tolerance;

@@ -74,21 +74,20 @@ inline std::shared_ptr<const Core> unlinked_core(hf_surface handle, const char* 
 
 struct SolverObject final : Object {
   static constexpr Kind kind_of = Kind::solver;
-  SolverObject(std::shared_ptr<const Core> core, const SolverOptions& options)
+  // engine: as ScalarField takes it.
+  SolverObject(std::shared_ptr<const Core> core, const SolverOptions& options,
+               std::shared_ptr<SiteSolver> engine = nullptr)
       : Object(kind_of),
         site_limit(options.site_limit),
-        penalty(options.penalty),
         memory(core->memory),
-        field(std::move(core), options.engine, penalty, options.channels, site_limit) {}
+        field(std::move(core), options.channels, site_limit, std::move(engine)) {}
   SolverObject(const SolverObject& other)
       : Object(kind_of),
         site_limit(other.site_limit),
-        penalty(other.penalty),
         memory(other.memory),
         field(other.field),
         site_count(other.field.sites().count()) {}
   const std::uint32_t site_limit;
-  const double penalty;
   std::shared_ptr<Memory> memory;  // outlives everything below
   ScalarField field;
   // The site count after the last finished change. Another thread may read it while a change runs.

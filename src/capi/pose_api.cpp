@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "capi/create.h"
 #include "capi/objects.h"
 #include "capi/skin_out.h"
 #include "capi/vertex_writer.h"
@@ -138,6 +139,19 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
 }
 
 }  // namespace
+
+hf_result create_pose(const char* function, hf_surface surface, const hf_pose_desc* desc, PoseOptions options,
+                      hf_pose* out_pose) {
+  return create(function, out_pose, "out_pose", [&] {
+    const std::shared_ptr<const Core> core = harmonic_core(surface, "a pose");
+    const hf_pose_desc given = read_optional(desc, "desc");
+    options.band_count = given.band_count;
+    options.iteration_count = given.iteration_count;
+    options.group_count = given.group_count;
+    return make_object(PoseStack::make(core, options));
+  });
+}
+
 }  // namespace hf_inner::capi
 
 using namespace hf_inner;
@@ -145,18 +159,8 @@ using namespace hf_inner::capi;
 
 extern "C" {
 
-hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* given, hf_pose* out_pose) {
-  return create("hf_pose_create", out_pose, "out_pose", [&] {
-    const std::shared_ptr<const Core> core = harmonic_core(surface, "a pose");
-    const hf_pose_desc desc = read_optional(given, "desc");
-    PoseOptions options;
-    options.mode = static_cast<DeformMode>(desc.mode);
-    options.band_count = desc.band_count;
-    options.iteration_count = desc.iteration_count;
-    options.rim_site_count = desc.rim_site_count;
-    options.group_count = desc.group_count;
-    return make_object(PoseStack::make(core, options));
-  });
+hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* desc, hf_pose* out_pose) {
+  return create_pose("hf_pose_create", surface, desc, {}, out_pose);
 }
 
 hf_result hf_pose_clone(hf_pose handle, hf_pose* out_pose) {
@@ -176,10 +180,8 @@ hf_result hf_pose_get_info(hf_pose handle, hf_pose_info* out_info) {
     const Reading reading(*pose);
     const PoseOptions& options = pose->pose->options();
     hf_pose_info info{};
-    info.mode = options.mode == DeformMode::paper ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH;
     info.band_count = options.band_count;
     info.iteration_count = options.iteration_count;
-    info.rim_site_count = options.rim_site_count;
     info.group_count = options.group_count;
     info.handle_count = pose->pose->handle_count();
     info.vertex_count = pose->pose->core().mesh.report.vertex_count;

@@ -7,8 +7,9 @@
 using namespace hf_inner;
 using namespace hf_inner::capi;
 
-extern "C" hf_result hf_surface_propose_handles(hf_surface handle, const hf_handle_proposals_desc* given, uint32_t capacity,
-                                        hf_handle_proposal* out_proposals, uint32_t* out_count) {
+extern "C" hf_result hf_surface_propose_handles(hf_surface handle, const hf_handle_proposals_desc* given,
+                                                uint32_t capacity, hf_handle_proposal* out_proposals,
+                                                uint32_t* out_count) {
   return guarded("hf_surface_propose_handles", [&] {
     const std::shared_ptr<const Core> shared = harmonic_core(handle, "proposed handles");
     const hf_handle_proposals_desc desc = read_optional(given, "desc");

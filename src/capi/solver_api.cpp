@@ -72,11 +72,9 @@ hf_result hf_solver_get_info(hf_solver handle, hf_solver_info* out_info) {
     const Reading reading(*solver);
     hf_solver_info info{};
     info.field_kind = static_cast<std::int32_t>(solver->field.core().field_kind);
-    info.engine = static_cast<std::int32_t>(solver->field.engine().kind());
     info.channel_count = static_cast<std::uint32_t>(solver->field.sites().channels());
     info.site_limit = solver->site_limit;
     info.site_count = solver->field.sites().count();
-    info.penalty = solver->penalty;
     info.vertex_count = solver->field.core().mesh.report.vertex_count;
     write_struct(out_info, info);
   });
@@ -208,9 +206,7 @@ hf_result hf_solver_get_statistics(hf_solver handle, hf_solver_statistics* out_s
     const EngineCounters counters = solver->field.engine().counters();
     hf_solver_statistics statistics{};
     statistics.site_count = solver->field.sites().count();
-    statistics.factorisation_count = counters.factorisations;
-    // The engine green counts the factor of the surface as its first factorisation, so one is subtracted.
-    if (solver->field.engine().kind() == EngineKind::green) --statistics.factorisation_count;
+    statistics.factorisation_count = counters.factorisations - 1;  // the surface's own is not counted
     statistics.path_solve_count = counters.path_solves;
     statistics.sweep_count = counters.sweeps;
     statistics.last_route = static_cast<std::uint32_t>(counters.last_route);

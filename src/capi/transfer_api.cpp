@@ -1,4 +1,5 @@
 // Implements hf/transfer.h: transfers.
+#include "capi/create.h"
 #include "capi/objects.h"
 #include "capi/skin_out.h"
 #include "capi/vertex_writer.h"
@@ -37,6 +38,24 @@ struct TransferObject final : Object {
 };
 
 }  // namespace
+
+hf_result create_transfer(const char* function, hf_surface source, hf_surface target, const hf_transfer_desc* desc,
+                          TransferOptions options, hf_transfer* out_transfer) {
+  return create(function, out_transfer, "out_transfer", [&] {
+    get<SurfaceObject>(source, "source", 0);
+    get<SurfaceObject>(target, "target", 1);
+    const hf_transfer_desc given = read_optional(desc, "desc");
+    read_transfer_options(given, options);
+    const auto from = harmonic_core(source, "a transfer", "source", 0),
+               to = harmonic_core(target, "a transfer", "target", 1);
+    const Vector<Vec3> source_rest = read_rest(given.source_rest, *from, "source_rest"),
+                       target_rest = read_rest(given.target_rest, *to, "target_rest");
+    options.source_rest = {source_rest.data(), source_rest.size()};
+    options.target_rest = {target_rest.data(), target_rest.size()};
+    return make_owner_in<TransferObject>(to->memory, from, to, options);
+  });
+}
+
 }  // namespace hf_inner::capi
 
 using namespace hf_inner;
@@ -46,19 +65,7 @@ extern "C" {
 
 hf_result hf_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,
                              hf_transfer* out_transfer) {
-  return create("hf_transfer_create", out_transfer, "out_transfer", [&] {
-    get<SurfaceObject>(source, "source", 0);
-    get<SurfaceObject>(target, "target", 1);
-    const hf_transfer_desc given = read_optional(desc, "desc");
-    TransferOptions options = read_transfer_options(given);
-    const auto from = harmonic_core(source, "a transfer", "source", 0),
-               to = harmonic_core(target, "a transfer", "target", 1);
-    const Vector<Vec3> source_rest = read_rest(given.source_rest, *from, "source_rest"),
-                       target_rest = read_rest(given.target_rest, *to, "target_rest");
-    options.source_rest = {source_rest.data(), source_rest.size()};
-    options.target_rest = {target_rest.data(), target_rest.size()};
-    return make_owner_in<TransferObject>(to->memory, from, to, options);
-  });
+  return create_transfer("hf_transfer_create", source, target, desc, {}, out_transfer);
 }
 
 void hf_transfer_destroy(hf_transfer transfer) { destroy<TransferObject>(transfer); }

@@ -91,7 +91,7 @@ hf_result hf_weights_get(hf_weights handle, hf_weights_out* inout) {
 }
 
 hf_result hf_weights_get_joints(hf_weights handle, uint32_t capacity, uint32_t* out_flags, uint32_t* out_vertex_counts,
-                               uint32_t* out_count) {
+                                uint32_t* out_count) {
   return guarded("hf_weights_get_joints", [&] {
     const auto object = get<WeightsObject>(handle, "weights");
     if (!out_flags && !out_vertex_counts) require(out_count, "out_flags, out_vertex_counts and out_count");

@@ -77,7 +77,7 @@ hf_result hf_weights_get_helpers(hf_weights handle, const char* names, uint32_t 
 }
 
 hf_result hf_weights_transfer(hf_surface source, hf_surface target, const hf_weights_transfer_desc* given,
-                           hf_weights_out* inout_weights, hf_weights_transfer_info* out_info) {
+                              hf_weights_out* inout_weights, hf_weights_transfer_info* out_info) {
   return guarded("hf_weights_transfer", [&] {
     const auto from = mesh_surface(source, "carried weights", "source");
     const auto to = mesh_surface(target, "carried weights", "target");

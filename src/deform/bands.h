@@ -21,7 +21,7 @@ struct BandOptions {
   int degree = 2;
   BandSpacing spacing = BandSpacing::equal_length;
   // Wished number of level bands per field (K); bands_for gives the real one.
-  std::int32_t band_count = static_cast<std::int32_t>(default_bands_smooth);
+  std::int32_t band_count = static_cast<std::int32_t>(default_pose_bands);
 };
 
 // Returns the number of level bands per field: at most `wished`, at least 2. All `field_count` fields together then

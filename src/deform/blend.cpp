@@ -92,4 +92,16 @@ void blend(const Mesh& mesh, const ClusterWeights& weights, const Affine* transf
   });
 }
 
+Affine to_affine(const RigidMotion& motion) noexcept {
+  Affine affine;
+  const Mat3 r = motion.rotation.toRotationMatrix();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) affine.a[i][j] = r(i, j);
+  }
+  affine.a[0][3] = motion.translation.x;
+  affine.a[1][3] = motion.translation.y;
+  affine.a[2][3] = motion.translation.z;
+  return affine;
+}
+
 }  // namespace hf_inner

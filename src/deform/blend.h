@@ -14,6 +14,9 @@ struct Affine {
   double a[3][4];
 };
 
+// Turns a rigid motion x = R p + t into a transform.
+Affine to_affine(const RigidMotion& motion) noexcept;
+
 // Lists in `weights` the blocks of eight vertices that share most of their clusters. The work of a block grows with the
 // number of different clusters in it; without a block, each vertex pays for its own clusters. Neighbouring vertices
 // share clusters in every mesh but a shuffled one. Cost: two passes over the weights. When it throws, `weights` has no

@@ -49,13 +49,13 @@ constexpr float shortest_sum = 1e-15f, longest_sum = 1e15f;
 
 // ---- pose.cpp, pose_stack.cpp ----
 
-// Level bands per handle's field, in smooth and paper mode. With 5 smooth bands, the elastic energy of a scanned mesh
+// Level bands per handle's field. With 5, the elastic energy of a scanned mesh
 // is 8 to 18 % larger. With 20 it is 6 % smaller, but the largest edge stretch grows from 1.29 to 1.42.
-constexpr std::uint32_t default_bands_smooth = 10, default_bands_paper = 12;
+constexpr std::uint32_t default_pose_bands = 10;
 // Iterations per frame. They trade time for a surface that stands still when a drag stops. On 36 poses of 12 shapes,
 // dragged as in docs/studies/poses.md, it creeps on by 6.5e-5 of the box in the mean, with 8 by 1.1e-4, with 6 by
-// 5.1e-4. Each takes 0.16 ms with five handles. In paper mode, motion moves on by only one level band per iteration.
-constexpr std::uint32_t default_iterations_smooth = 10, default_iterations_paper = 200;
+// 5.1e-4. Each takes 0.16 ms with five handles.
+constexpr std::uint32_t default_pose_iterations = 10;
 // Groups of vertices that share a rotation: more of them fit better but make each iteration slower. With 125, the
 // smallest edge stretch of a pulled scan falls from 0.74 to 0.68. Ten times the groups with twice the bands lower the
 // elastic energy of a bent cylinder and a twisted bar by 0.3 %. The full-mesh step (refine.h) lowers these two energies
@@ -64,10 +64,9 @@ constexpr std::uint32_t default_groups = 250;
 // A pose counts as converged when no group's rotation changes by more in an iteration (Frobenius norm). Solving it
 // again then does nothing. At 1e-6, poses at rest stay 2e-5 of the box away from it.
 constexpr double settled_change = 1e-9;
-// At most this many iterations while the handles stay in place. More would unwind twists of many turns in smooth mode.
-// The paper mode needs hundreds to converge. They are a bound: half and double change no bit of twelve poses, whose
-// motion settles before.
-constexpr std::uint32_t idle_limit_smooth = 100, idle_limit_paper = 2000;
+// At most this many iterations while the handles stay in place. More would unwind twists of many turns. A bound: half
+// and double change no bit of twelve poses, whose motion settles before.
+constexpr std::uint32_t pose_idle_limit = 100;
 // If a handle turns by more radians in one step, the rotations start again from all handles' whole turns. Otherwise the
 // step is added to the last rotations. A smaller angle forgets fast drags, a larger one keeps a twist that was meant
 // anew. Half and double change no bit of twelve poses, one of which turns by more at once, nor a figure of the
@@ -95,7 +94,8 @@ constexpr double anderson_growth = 4;
 // Damps directions in which the steps hardly differ, beside 1. With 1e-12 the mean is 2.5e-4, with 1e-6 2.6e-4.
 constexpr double anderson_damping = 1e-9;
 // The acceleration moves the rotation of a group by at most this (Frobenius norm; 0.3 radians), and by as much a motion
-// of the paper's mode. Without it, one pose of 36 went to another minimum and stayed there. 0.1 gives the same mean.
+// of a scheme (pose_scheme.h). Without it, one pose of 36 went to another minimum and stayed there. 0.1 gives the same
+// mean.
 constexpr double longest_leap = 0.4;
 // When handles turn against each other by more than the first angle, the rotation of each vertex group must stay near
 // the blended turns. From the second angle on it stays within least_turn_limit (all in radians). Otherwise a twist of
@@ -251,12 +251,6 @@ constexpr std::int32_t block_sharing = 4;
 // A pivot of the poses' dense system below this share of its diagonal means that the unknown depends on earlier ones.
 // Less lets rounding through, more drops clusters that could move. Half and double change no bit of twelve poses.
 constexpr double pivot_floor = 1e-10;
-
-// ---- paper_scheme.cpp ----
-
-// Sampled vertices that give a cluster of vertices its motion: fewer take less time. With 240, elastic energies in the
-// benchmark fall by 7 to 11 %.
-constexpr std::int32_t samples_per_cluster = 40;
 
 // ---- proposals.cpp, trunk.cpp: shares of the box diagonal, where nothing else is said ----
 //

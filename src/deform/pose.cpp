@@ -17,17 +17,15 @@ void require_range(std::uint32_t value, std::uint32_t low, std::uint32_t high, c
 }
 
 PoseOptions checked(const PoseOptions& options) {
-  if (options.mode != DeformMode::smooth && options.mode != DeformMode::paper)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode is %d; use HF_DEFORM_SMOOTH or HF_DEFORM_PAPER",
-         static_cast<int>(options.mode));
   require_range(options.band_count, least_bands, most_bands, "band_count");
   require_range(options.iteration_count, 1, most_iterations, "iteration_count");
   require_range(options.group_count, 1, most_groups, "group_count");
   PoseOptions filled = options;
-  const bool smooth = options.mode == DeformMode::smooth;
-  if (filled.band_count == 0) filled.band_count = smooth ? default_bands_smooth : default_bands_paper;
+  const PoseScheme* scheme = options.scheme.get();
+  if (filled.band_count == 0)
+    filled.band_count = scheme ? static_cast<std::uint32_t>(scheme->bands.band_count) : default_pose_bands;
   if (filled.iteration_count == 0)
-    filled.iteration_count = smooth ? default_iterations_smooth : default_iterations_paper;
+    filled.iteration_count = scheme ? scheme->default_iterations : default_pose_iterations;
   if (filled.group_count == 0) filled.group_count = default_groups;
   return filled;
 }
@@ -222,15 +220,14 @@ std::shared_ptr<const Groups> Pose::meet(const Layout& layout) const {
 }
 
 std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) const {
-  auto layout = make_shared_in<Layout>(
-      memory(), handles, layout_ ? layout_->sites->clone() : SiteSolver::make(EngineKind::green, core_, 0), *core_,
-      memory());
+  auto layout = make_shared_in<Layout>(memory(), handles, layout_ ? layout_->sites->clone() : SiteSolver::make(core_),
+                                       *core_, memory());
   const Handles none(&memory());
   const auto solve = [&] {
     set_handle_sites(*core_, *layout->sites, layout_ ? layout_->handles : none, layout->handles, memory());
     layout->fields = solve_handle_fields(*core_, *layout->sites, layout->handles, layout->reach, memory());
   };
-  if (options_.mode != DeformMode::smooth) {
+  if (options_.scheme) {
     solve();
   } else if (groups_) {
     solve();
@@ -244,19 +241,15 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) co
       }
     });
   }
-  BandOptions bands;
+  BandOptions bands = options_.scheme ? options_.scheme->bands : BandOptions();
   bands.band_count = static_cast<std::int32_t>(options_.band_count);
-  if (options_.mode == DeformMode::paper) {
-    bands.degree = 1;
-    bands.spacing = BandSpacing::equal_value;
-  }
   layout->weights = make_cluster_weights(*core_, *rest_, layout->reach, layout->fields, bands, memory());
   list_blocks(layout->weights, *core_->jobs);
-  if (options_.mode == DeformMode::smooth) {
+  if (options_.scheme) {
+    layout->rigid = options_.scheme->prepare(*core_, layout->weights, memory());
+  } else {
     layout->smooth = make_shared_in<SmoothSystem>(memory(), *core_, *rest_, layout->weights, *layout->groups,
                                                   layout->fields, memory());
-  } else {
-    layout->paper = make_shared_in<PaperSystem>(memory(), *core_, layout->weights, memory());
   }
   return layout;
 }
@@ -292,14 +285,14 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout, bool free_tu
     const Buffer<float>& correction = state_->followed->correction;
     std::copy(correction.begin(), correction.end(), state->followed->correction.begin());
   }
-  if (layout.paper) {
-    state->paper.fit(*layout.paper);
+  if (layout.rigid) {
+    state->rigid = layout.rigid->rest(memory());
     if (posed_) {
       ensure_surface();
       Vector<Vec3> own_unit(&memory());
       own_unit.reserve(positions_.size());
       for (const Vec3& x : positions_) own_unit.push_back(core_->mesh.to_inner(x));
-      fit_motions(*layout.paper, core_->mesh, own_unit.data(), state->paper);
+      layout.rigid->fit(core_->mesh, own_unit.data(), *state->rigid);
     }
     return state;
   }

@@ -14,21 +14,20 @@
 
 #include "deform/crossfade.h"
 #include "deform/normals.h"
-#include "deform/paper_scheme.h"
+#include "deform/pose_scheme.h"
 #include "deform/pose_solver.h"
 #include "deform/refine.h"
 
 namespace hf_inner {
 
-enum class DeformMode : std::int32_t { smooth = 0, paper = 1 };
-
 // Options of a pose. Zeros mean defaults; the ranges are those of hf_pose_desc.
 struct PoseOptions {
-  DeformMode mode = DeformMode::smooth;
-  std::uint32_t band_count = 0;       // 2 to 64; 10 (smooth) or 12 (paper)
-  std::uint32_t iteration_count = 0;  // 1 to 1000; 10 or 200
-  std::uint32_t rim_site_count = 0;   // sites per handle on its boundary ring; 0: all its vertices
-  std::uint32_t group_count = 0;      // 1 to 2000; 250
+  std::uint32_t band_count = 0;       // 2 to 64
+  std::uint32_t iteration_count = 0;  // 1 to 1000
+  std::uint32_t group_count = 0;      // 1 to 2000
+  // The next two are of baselines alone.
+  std::uint32_t rim_site_count = 0;          // sites per handle on its boundary ring; 0: all its vertices
+  std::shared_ptr<const PoseScheme> scheme;  // null: the reduced energy of pose_solver.h
 };
 
 // The motion p -> rotation (p - centroid) + centroid + translation, in the unit of the mesh as given. The quaternion
@@ -96,8 +95,8 @@ class Pose {
   void set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTransform> transforms);
 
   // Frees the rotations of handles, or gives them: where they stand. With in_place the surface stays where it is, as
-  // after add_handles. Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE (index: position), or HF_ERROR_UNSUPPORTED in the paper's
-  // mode.
+  // after add_handles. Throws HF_ERROR_EMPTY, _NO_SUCH_HANDLE (index: position), or HF_ERROR_UNSUPPORTED with a
+  // scheme.
   void set_free_turns(Span<const std::uint32_t> numbers, bool free_turn, bool in_place = true);
   bool free_turn(std::uint32_t number) const;
 
@@ -158,13 +157,13 @@ class Pose {
     bool free_turn = false;  // rotation and turn are those of the last solve
   };
   struct State {
-    explicit State(Memory& memory) : handles(&memory), transforms(&memory), smooth(memory), paper(memory) {}
+    explicit State(Memory& memory) : handles(&memory), transforms(&memory), smooth(memory) {}
     State(const State& other, Memory& memory)
         : handles(other.handles, &memory),
           transforms(other.transforms, &memory),
           columns(memory, other.columns.size()),
           smooth(other.smooth, memory),
-          paper(other.paper, memory),
+          rigid(other.rigid ? other.rigid->clone(memory) : nullptr),
           started(other.started),
           changed(other.changed),
           last_change(other.last_change),
@@ -176,9 +175,9 @@ class Pose {
     Vector<Affine> transforms;    // per cluster (handle or overlapping band of vertices)
     Buffer<double> columns;       // scratch of the blend
     SmoothState smooth;
-    PaperState paper;
-    bool started = false;  // a solved pose exists, from which to continue
-    bool changed = true;   // transforms or handles changed since the last solve
+    std::shared_ptr<PoseScheme::State> rigid;  // null: without a scheme
+    bool started = false;                      // a solved pose exists, from which to continue
+    bool changed = true;                       // transforms or handles changed since the last solve
     double last_change = 0;
     std::uint32_t idle_iterations = 0;           // iterations since the last change
     std::shared_ptr<const Crossfade> crossfade;  // null: the surface is that of the transforms
@@ -210,7 +209,7 @@ class Pose {
   void install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept;
   bool restore_previous(const Handles& remaining);
   void solve_smooth(std::uint32_t iterations) noexcept;
-  void solve_paper(std::uint32_t iterations) noexcept;
+  void solve_rigid(std::uint32_t iterations) noexcept;
   void prepare(const DeformRequest& request);
   void write_surface(const DeformRequest& request, DeformReport& report);
   void ensure_surface() const;

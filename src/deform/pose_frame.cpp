@@ -122,13 +122,13 @@ void Pose::solve_smooth(std::uint32_t iterations) noexcept {
   }
 }
 
-void Pose::solve_paper(std::uint32_t iterations) noexcept {
+void Pose::solve_rigid(std::uint32_t iterations) noexcept {
   for (HandleState& handle : state_->handles) {
     handle.solved = handle.rotation;
     handle.solved_turn = handle.turn;
   }
-  report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state_->paper,
-                             state_->transforms.data());
+  report_ = layout_->rigid->solve(core_->mesh, layout_->weights, iterations, settled_change, *state_->rigid,
+                                  state_->transforms.data());
 }
 
 void Pose::make_refinement(const Layout& layout, std::uint32_t steps, const Followed* followed) {
@@ -273,7 +273,7 @@ DeformReport Pose::deform(const DeformRequest& request) {
   State& state = *state_;
   if (request.restart) {
     for (HandleState& handle : state.handles) handle.turn = logarithm(handle.rotation);
-    for (RigidMotion& motion : state.paper.motion) motion = RigidMotion();
+    if (state.rigid) std::fill(state.rigid->motion.begin(), state.rigid->motion.end(), RigidMotion());
     state.started = false;
     state.changed = true;
     state.crossfade.reset();
@@ -283,14 +283,14 @@ DeformReport Pose::deform(const DeformRequest& request) {
   DeformReport report;
   const Timer solve_timer;
   if (state.changed) state.idle_iterations = 0;
-  const std::uint32_t idle_limit = layout_->smooth ? idle_limit_smooth : idle_limit_paper;
+  const std::uint32_t idle_limit = options_.scheme ? options_.scheme->idle_limit : pose_idle_limit;
   if (state.changed || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
     const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
     place_handles(*layout_, state);
     if (layout_->smooth) {
       solve_smooth(iterations);
     } else {
-      solve_paper(iterations);
+      solve_rigid(iterations);
     }
     report.iteration_count = report_.iterations;
     state.idle_iterations += report_.iterations;
@@ -314,7 +314,7 @@ void Pose::prepare_start() {
   if (layout_->smooth) {
     start_.choose(*core_, *layout_->groups, layout_->smooth->subspace.group);
   } else {
-    start_.motion.assign(state_->paper.motion.begin(), state_->paper.motion.end());
+    start_.motion.assign(state_->rigid->motion.begin(), state_->rigid->motion.end());
     start_.own_unit.resize(core_->size());
   }
 }
@@ -323,9 +323,10 @@ void Pose::take_start(Span<const Vec3> surface) noexcept {
   if (layout_->smooth) return start_.fit(*core_, *rest_, surface);
   for (std::size_t v = 0; v < surface.size(); ++v) start_.own_unit[v] = core_->mesh.to_inner(surface[v]);
   // Of equal fits the one nearest to rest is taken, so the last frame does not show.
-  std::fill(state_->paper.motion.begin(), state_->paper.motion.end(), RigidMotion());
-  fit_motions(*layout_->paper, core_->mesh, start_.own_unit.data(), state_->paper);
-  std::copy(state_->paper.motion.begin(), state_->paper.motion.end(), start_.motion.begin());
+  Vector<RigidMotion>& motion = state_->rigid->motion;
+  std::fill(motion.begin(), motion.end(), RigidMotion());
+  layout_->rigid->fit(core_->mesh, start_.own_unit.data(), *state_->rigid);
+  std::copy(motion.begin(), motion.end(), start_.motion.begin());
 }
 
 DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const DeformRequest& request) {
@@ -345,9 +346,9 @@ DeformReport Pose::deform_from(const Pose& start, Span<const Vec3> turns, const 
     report_ = solve_pose(*layout_->smooth, iterations, settled_change, state.smooth, state.transforms.data());
     take_turns(state);
   } else {
-    std::copy(start.start_.motion.begin(), start.start_.motion.end(), state.paper.motion.begin());
-    report_ = solve_paper_pose(*layout_->paper, core_->mesh, layout_->weights, iterations, settled_change, state.paper,
-                               state.transforms.data());
+    std::copy(start.start_.motion.begin(), start.start_.motion.end(), state.rigid->motion.begin());
+    report_ = layout_->rigid->solve(core_->mesh, layout_->weights, iterations, settled_change, *state.rigid,
+                                    state.transforms.data());
   }
   report.iteration_count = report_.iterations;
   state.started = true;

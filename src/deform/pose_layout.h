@@ -17,8 +17,8 @@ struct Pose::Layout {
   HandleFields fields;
   ClusterWeights weights;
   std::shared_ptr<const Groups> groups;
-  std::shared_ptr<const SmoothSystem> smooth;
-  std::shared_ptr<const PaperSystem> paper;
+  std::shared_ptr<const SmoothSystem> smooth;       // null: with a scheme
+  std::shared_ptr<const PoseScheme::System> rigid;  // null: without one
 };
 
 }  // namespace hf_inner

@@ -6,8 +6,9 @@
 namespace hf_inner {
 
 void Pose::check_free_turn(bool free_turn) const {
-  if (free_turn && options_.mode == DeformMode::paper)
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "HF_DEFORM_PAPER needs the rotation of every handle; use HF_DEFORM_SMOOTH");
+  if (free_turn && options_.scheme)
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "a baseline of poses needs the rotation of every handle; make the pose with hf_pose_create");
 }
 
 bool Pose::free_turn(std::uint32_t number) const { return state_->handles[require(number, HF_NO_INDEX)].free_turn; }

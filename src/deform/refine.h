@@ -113,9 +113,9 @@ class GroupStart {
   // Chooses sample vertices for the groups of vertices in `active`. `rotation` gets an entry for every group.
   void choose(const Core& core, const Groups& groups, const Vector<std::int32_t>& active);
   void fit(const Core& core, const Rest& rest, Span<const Vec3> surface) noexcept;
-  Vector<Quaternion> rotation;  // by group of vertices; smooth mode
-  Vector<RigidMotion> motion;   // by cluster that is no handle; the paper's mode
-  Vector<Vec3> own_unit;        // scratch of the paper's mode
+  Vector<Quaternion> rotation;  // by group of vertices; without a scheme
+  Vector<RigidMotion> motion;   // by cluster that is no handle; with a scheme
+  Vector<Vec3> own_unit;        // scratch with a scheme
 
  private:
   Vector<std::int32_t> group_, start_, vertex_;

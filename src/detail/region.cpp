@@ -188,7 +188,7 @@ RegionState::RegionState(const RegionSurface& surface, std::shared_ptr<const Reg
 Region::Region(std::shared_ptr<const RegionSurface> surface) : surface_(std::move(surface)) {
   const auto shape = make_shared_in<RegionShape>(memory(), core(), Span<const Index>(), memory());
   const auto state = make_shared_in<RegionState>(memory(), *surface_, shape, memory());
-  state->engine = SiteSolver::make(EngineKind::green, surface_->core, 0);
+  state->engine = SiteSolver::make(surface_->core);
   state_ = state;
 }
 

@@ -23,7 +23,7 @@ struct CoreOptions {
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
   FieldKind field_kind = FieldKind::harmonic;
   Ordering ordering = Ordering::nested_dissection;
-  // False for the engines updown and refactor, which keep factors of their own.
+  // False for a caller that keeps a factor of its own.
   bool need_factor = true;
   // If this is not empty, the factor is loaded from these bytes.
   Span<const std::uint8_t> saved_factor;

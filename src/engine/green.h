@@ -31,7 +31,7 @@ class GreenSolver final : public SiteSolver {
                     Vector<double>& high) const;
   void rebase(JobRunner& jobs) override { system_.rebase(jobs); }
   void succeed(const SiteSolver& predecessor) noexcept override;
-  EngineKind kind() const noexcept override { return EngineKind::green; }
+  bool takes_screening() const noexcept override { return true; }
   EngineCounters counters() const noexcept override;
   std::int32_t site_count(std::int32_t component) const noexcept override { return state().sites_of[at(component)]; }
   std::int32_t slot_count() const noexcept override { return static_cast<std::int32_t>(state().entries.size()); }

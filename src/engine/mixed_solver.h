@@ -43,7 +43,6 @@ class MixedSolver final : public SiteSolver {
   void succeed(const SiteSolver& predecessor) noexcept override {
     inner_.succeed(static_cast<const MixedSolver&>(predecessor).inner_);
   }
-  EngineKind kind() const noexcept override { return EngineKind::green; }
   EngineCounters counters() const noexcept override { return inner_.counters(); }
   std::int32_t site_count(std::int32_t component) const noexcept override { return inner_.site_count(component); }
   std::int32_t slot_count() const noexcept override { return inner_.slot_count(); }

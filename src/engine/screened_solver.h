@@ -42,7 +42,7 @@ class ScreenedSolver final : public SiteSolver {
                double* flux_change) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<ScreenedSolver>(core().memory, *this); }
   void rebase(JobRunner& jobs) override { system_.rebase(jobs); }
-  EngineKind kind() const noexcept override { return EngineKind::green; }
+  bool takes_screening() const noexcept override { return true; }
   EngineCounters counters() const noexcept override;
   // The sites of a component; screening counts as one more.
   std::int32_t site_count(std::int32_t component) const noexcept override {

@@ -1,4 +1,5 @@
-// The interface of the engines that solve harmonic fields u under changing constraints. There are three engines.
+// The interface of the engines that solve harmonic fields u under changing constraints. Green (green.h) is the one of
+// hosts. The room peers has the baselines it is compared with.
 //
 //     K u = W lambda,   w_i' u + lambda_i / alpha_i = s_i     (alpha_i = infinity: a hard site)
 //
@@ -17,10 +18,12 @@ namespace hf_inner {
 // Channels of one field; hf/solver.h states it. The rows of writers have this width.
 constexpr std::uint32_t most_channels = 64;
 
-enum class EngineKind : std::int32_t { green = 0, updown = 1, refactor = 2 };
+// Tolerance of a certificate unless the caller gives one. Fields of exact engines stay well below it.
+constexpr double exact_tolerance = 1e-8;
 
 struct EngineCounters {
-  std::uint32_t factorisations = 0, path_solves = 0, sweeps = 0;
+  std::uint32_t factorisations = 0;  // the core's own is the first
+  std::uint32_t path_solves = 0, sweeps = 0;
   std::uint32_t rebases = 0, dense_edits = 0;
   std::uint32_t dense_rows = 0, eliminated = 0;  // sites as dense rows, and sites eliminated in the factor
   EditRoute last_route = EditRoute::none;
@@ -49,8 +52,8 @@ class FieldSink {
 
 class SiteSolver {
  public:
-  // penalty: weight of hard sites relative to the mean diagonal of K. Only the engine updown uses it.
-  static std::shared_ptr<SiteSolver> make(EngineKind kind, std::shared_ptr<const Core> core, double penalty);
+  // Makes the engine of hosts: green, or the mixed solver (mixed_solver.h) on a core with a root.
+  static std::shared_ptr<SiteSolver> make(std::shared_ptr<const Core> core);
   virtual ~SiteSolver() = default;
 
   // Applies an edit completely, or throws and changes nothing. Throws HF_ERROR_CONFLICT (index = position in edit.add)
@@ -106,7 +109,10 @@ class SiteSolver {
   // Adds the counts that `predecessor` has made since this engine was cloned from it.
   virtual void succeed(const SiteSolver& predecessor) noexcept { (void)predecessor; }
 
-  virtual EngineKind kind() const noexcept = 0;
+  // Whether its field can be screened (screened_solver.h).
+  virtual bool takes_screening() const noexcept { return false; }
+  // How exactly a field of this engine meets its equations: the tolerance of a certificate unless the caller gives one.
+  virtual double tolerance() const noexcept { return exact_tolerance; }
   virtual EngineCounters counters() const noexcept = 0;
   // Returns the present number of sites of a component.
   virtual std::int32_t site_count(std::int32_t component) const noexcept = 0;

@@ -32,10 +32,6 @@
 namespace hf_inner {
 namespace {
 
-// Default tolerances of the errors. All engines (ways to solve) stay well below them. The engine updown treats sites as
-// penalties, which meet their values only to about 1 / penalty.
-constexpr double exact_tolerance = 1e-8, penalty_tolerance = 1e-5;
-
 // The smallest and largest site value of each component and channel, and target where the field is screened.
 struct Ranges {
   Ranges(const ScalarField& field, std::size_t components, std::size_t channels, Memory& memory)
@@ -353,8 +349,8 @@ class Check {
 
 }  // namespace
 
-double certificate_tolerance(double asked, EngineKind engine) {
-  if (asked == 0) return engine == EngineKind::updown ? penalty_tolerance : exact_tolerance;
+double certificate_tolerance(double asked, const SiteSolver& engine) {
+  if (asked == 0) return engine.tolerance();
   if (!(asked > 0) || !std::isfinite(asked))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
          "tolerance is %g; it must be above 0 and finite, or 0 for the engine's own", asked);

@@ -18,9 +18,9 @@ struct Certificate {
   std::int32_t vertex = Mesh::none;  // inner vertex of the largest of error, site_error and overshoot
 };
 
-// Returns the tolerance that the caller asked for, or the default of the engine for 0. Throws HF_ERROR_INVALID_ARGUMENT
+// Returns the tolerance that the caller asked for, or that of the engine for 0. Throws HF_ERROR_INVALID_ARGUMENT
 // unless the tolerance is above 0 and finite.
-double certificate_tolerance(double asked, EngineKind engine);
+double certificate_tolerance(double asked, const SiteSolver& engine);
 
 // Solves the field and measures its errors. A value that is not finite has an infinite error. Throws HF_ERROR_EMPTY.
 Certificate certify(const ScalarField& field);

@@ -5,15 +5,11 @@
 
 #include "base/arguments.h"
 #include "engine/surface_intake.h"
-#include "engine/updown.h"
 #include "mesh/vertex_lists.h"
 
 namespace hf_inner {
 namespace {
 
-// Weight of hard sites as penalties, as in Xu et al. 2009. With more than the second number, rounding hides the other
-// terms of the equation.
-constexpr double default_penalty = 1e8, largest_penalty = 1e10;
 // Two corrections of a preview are enough for a well-posed system.
 constexpr std::uint32_t most_corrections = 8;
 // Most sites of a solver or a direction field unless the caller says so: bounds the memory of a runaway host.
@@ -52,18 +48,9 @@ void check_vertex_value(double value, std::uint32_t vertex, const char* name) {
 }  // namespace
 
 SolverOptions read_solver_options(const hf_solver_desc& desc) {
-  const FieldKind kind = read_field_kind(desc.field_kind);
-  check_choice(desc.engine, 3, "engine");
-  if (desc.engine == HF_ENGINE_UPDOWN) require_updown();
-  require_zero(desc.reserved);
   SolverOptions options;
-  options.field_kind = kind;
-  options.engine = static_cast<EngineKind>(desc.engine);
+  options.field_kind = read_field_kind(desc.field_kind);
   options.channels = static_cast<std::int32_t>(count_of(desc.channel_count, 1, 1, most_channels, "channel_count"));
-  if (desc.penalty != 0 && !(desc.penalty > 0 && desc.penalty <= largest_penalty))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "penalty is %g; it must be above 0 and at most %g, or 0 for %g",
-         desc.penalty, largest_penalty, default_penalty);
-  options.penalty = desc.penalty > 0 ? desc.penalty : default_penalty;
   options.site_limit = read_site_limit(desc.site_limit);
   return options;
 }
@@ -167,8 +154,8 @@ double read_map_radius(const Mesh& mesh, double given) {
 double read_least_length(double given) {
   if (given != 0 && !(given > 0 && given <= most_least_length))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "least_length_share is %g; it is a share of the box diagonal above 0 and up to %g, or 0 for %g",
-         given, most_least_length, default_least_length);
+         "least_length_share is %g; it is a share of the box diagonal above 0 and up to %g, or 0 for %g", given,
+         most_least_length, default_least_length);
   return given > 0 ? given : default_least_length;
 }
 

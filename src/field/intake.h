@@ -12,13 +12,10 @@ namespace hf_inner {
 
 struct SolverOptions {
   FieldKind field_kind = FieldKind::harmonic;
-  EngineKind engine = EngineKind::green;
-  double penalty = 0;
   std::int32_t channels = 1;
   std::uint32_t site_limit = 0;
 };
-// Returns the options with the defaults filled in. Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC,
-// HF_ERROR_UNSUPPORTED (an engine that is not in this build).
+// Returns the options with the defaults filled in. Throws HF_ERROR_INVALID_ARGUMENT.
 SolverOptions read_solver_options(const hf_solver_desc& desc);
 
 // Write the sites to add, or the moves of sites, into an edit, which refers to the arrays of the caller. Throw

@@ -17,12 +17,12 @@ void check_counts(const FieldEdit& edit, std::uint32_t there) {
 
 }  // namespace
 
-ScalarField::ScalarField(std::shared_ptr<const Core> core, EngineKind engine, double penalty, std::int32_t channels,
-                         std::uint32_t site_limit)
+ScalarField::ScalarField(std::shared_ptr<const Core> core, std::int32_t channels, std::uint32_t site_limit,
+                         std::shared_ptr<SiteSolver> engine)
     : core_(std::move(core)),
       site_limit_(site_limit),
       sites_(*core_->memory, channels),
-      engine_(SiteSolver::make(engine, core_, penalty)) {}
+      engine_(engine ? std::move(engine) : SiteSolver::make(core_)) {}
 
 ScalarField::ScalarField(const ScalarField& other)
     : core_(other.core_),
@@ -111,13 +111,13 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
 
 void ScalarField::set_screening(Span<const double> strength, const double* target) {
   const std::lock_guard<std::mutex> lock(guard_);
-  if (engine_->kind() != EngineKind::green || core_->field_kind != FieldKind::harmonic || core_->mesh.is_graph())
+  if (!engine_->takes_screening() || core_->field_kind != FieldKind::harmonic || core_->mesh.is_graph())
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "only harmonic fields of HF_ENGINE_GREEN on a mesh can be screened; make such a solver");
+         "only harmonic fields on a mesh can be screened, in solvers of hf_create; make such a solver");
   std::shared_ptr<const Screening> screening;
   if (!strength.empty()) screening = Screening::make(core_, strength, target, sites_.channels());
-  std::shared_ptr<SiteSolver> engine = screening ? make_owner_in<ScreenedSolver>(core_->memory, screening)
-                                                 : SiteSolver::make(EngineKind::green, core_, 0);
+  std::shared_ptr<SiteSolver> engine =
+      screening ? make_owner_in<ScreenedSolver>(core_->memory, screening) : SiteSolver::make(core_);
   const SiteDifference difference(SiteSet(memory(), sites_.channels()), sites_, memory());
   if (!difference.empty()) engine->edit(difference.edit());
   prepared_.reset();

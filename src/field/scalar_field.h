@@ -30,14 +30,15 @@ struct FieldEdit {
 
 class ScalarField {
  public:
-  ScalarField(std::shared_ptr<const Core> core, EngineKind engine, double penalty, std::int32_t channels,
-              std::uint32_t site_limit);
+  // engine: one without sites on the same core; null: the engine of hosts.
+  ScalarField(std::shared_ptr<const Core> core, std::int32_t channels, std::uint32_t site_limit,
+              std::shared_ptr<SiteSolver> engine = nullptr);
   ScalarField(const ScalarField& other);  // shares the core and the immutable parts of the engine
 
   // out_sites: null, or room for add.count numbers. The numbers are written only on success.
   void edit(const FieldEdit& edit, std::uint32_t* out_sites);
   // Screens the field: (K + A H) u = A H p + W lambda. strength: H by inner vertex; empty: no screening. target: p,
-  // [vertex][channels]; null: 0. Throws HF_ERROR_UNSUPPORTED (engines other than green, bi-harmonic fields, graphs) and
+  // [vertex][channels]; null: 0. Throws HF_ERROR_UNSUPPORTED (baselines, bi-harmonic fields, graphs) and
   // what Screening::make throws.
   void set_screening(Span<const double> strength, const double* target);
 
@@ -71,7 +72,7 @@ class ScalarField {
  private:
   struct Prepared {
     Prepared(const SiteSet& set, std::shared_ptr<SiteSolver> solver, std::shared_ptr<const Screening> screen,
-           Memory& memory)
+             Memory& memory)
         : sites(set, memory), engine(std::move(solver)), screening(std::move(screen)) {}
     SiteSet sites;
     std::shared_ptr<SiteSolver> engine;
@@ -85,7 +86,7 @@ class ScalarField {
   SiteSet sites_;
   std::shared_ptr<SiteSolver> engine_;
   std::shared_ptr<const Screening> screening_;  // null: none
-  std::mutex guard_;  // guards sites_, engine_ and prepared_ while prepare_rebase runs
+  std::mutex guard_;                            // guards sites_, engine_ and prepared_ while prepare_rebase runs
   AtomicFlag preparing_{0};
   std::optional<Prepared> prepared_;  // a rebased engine and the sites it was made for
 };

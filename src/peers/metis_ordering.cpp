@@ -1,5 +1,5 @@
-// The ordering of METIS, through CHOLMOD's Partition module. See CMakeLists.txt: absent.cpp takes its place in what
-// ships.
+// The ordering of METIS, through CHOLMOD's Partition module. In builds without HF_WITH_GPL gpl_absent.cpp takes
+// its place.
 #include <cholmod.h>
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-#include "engine/updown.h"
+#include "peers/updown.h"
 
 #include <cholmod.h>
 
@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/index.h"
+#include "peers/intake.h"
 
 namespace hf_inner {
 namespace {
@@ -16,6 +17,8 @@ namespace {
 // After this many edited sites since the last factorisation, a solve takes a refinement step. A step costs one more
 // sweep in every field. Fewer refine sooner. Half and double pass the 70 tests of the engine.
 constexpr std::uint32_t refine_after = 256;
+// Default tolerance of a certificate. A penalty of 1e8 holds a site to about 1e-8, a weaker one to less.
+constexpr double penalty_tolerance = 1e-5;
 
 // CHOLMOD's workspace, with its printing switched off.
 struct Common {
@@ -179,10 +182,10 @@ class UpdownSolver final : public SiteSolver {
   }
 
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<UpdownSolver>(core_->memory, *this); }
-  EngineKind kind() const noexcept override { return EngineKind::updown; }
+  double tolerance() const noexcept override { return penalty_tolerance; }
   EngineCounters counters() const noexcept override {
     EngineCounters counters;
-    counters.factorisations = factorisations_;
+    counters.factorisations = 1 + factorisations_;  // the core's own first
     counters.sweeps = sweeps_;
     const std::lock_guard<std::mutex> lock(mutex_);
     if (factor_) counters.bytes = static_cast<double>(factor_->nzmax) * (sizeof(double) + sizeof(Index));
@@ -352,6 +355,7 @@ class UpdownSolver final : public SiteSolver {
 void require_updown() {}
 
 std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core> core, double penalty) {
+  require_formed(*core);
   const std::shared_ptr<Memory> memory = core->memory;
   return make_owner_in<UpdownSolver>(memory, std::move(core), penalty);
 }

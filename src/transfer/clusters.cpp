@@ -101,42 +101,6 @@ void weigh_by_distance(double kernel_width, const Vector<NearestCentres>& neares
   }
 }
 
-// Returns the weight of one level band at the field value u. It is a hat function of `bands` bands over [0, 1], times
-// u^band_exponent.
-double band_weight(double u, std::int32_t band, std::int32_t bands) noexcept {
-  const double hat = 1 - std::abs(u * (bands - 1) - band);
-  static_assert(band_exponent == 4, "the power is two squares");
-  return hat > 0 ? hat * ((u * u) * (u * u)) : 0.0;
-}
-
-void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> field, Clusters& out, Memory& memory) {
-  Vector<Candidate> candidates(at(2 * width), &memory);
-  Poller poller;
-  for (std::size_t v = 0; v < field.size() / at(width); ++v) {
-    poller.due();
-    std::int32_t count = 0;
-    for (std::int32_t h = 0; h < width; ++h) {
-      const double u = field[v * at(width) + at(h)];
-      const auto low = std::min(bands - 2, static_cast<std::int32_t>(u * (bands - 1)));
-      for (std::int32_t k = low; k <= low + 1; ++k) {
-        const double w = band_weight(u, k, bands);
-        if (w > 0) {
-          candidates[at(count)].cluster = h * bands + k;
-          candidates[at(count++)].weight = w;
-        }
-      }
-    }
-    write_weights(candidates.data(), count, out.joint.data() + v * blend_count, out.weight.data() + v * blend_count);
-  }
-}
-
-// The source vertices that one kernel (Gaussian weight around a cluster's centre) covers, with their weights.
-struct KernelRow {
-  explicit KernelRow(Memory& memory) : vertex(&memory), weight(&memory) {}
-  Vector<std::int32_t> vertex;
-  Vector<double> weight;
-};
-
 void thin(KernelRow& row, std::size_t most) {
   const std::size_t size = row.vertex.size();
   if (size <= most) return;
@@ -159,13 +123,6 @@ void finish(KernelRow& row, std::size_t most, std::int32_t fallback) {
     return;
   }
   for (double& w : row.weight) w /= sum;
-}
-
-// Scales a cluster's slopes (vectors g of clusters.h), from index `begin` on, so that the moment matrix (clusters.h)
-// has trace 1 at rest. Then marks where the cluster's slopes end.
-void close_row(std::size_t begin, double trace, SourceKernels& out) {
-  for (std::size_t i = begin; i < out.slope.size(); ++i) out.slope[i] = (trace > 0 ? 1 / trace : 0.0) * out.slope[i];
-  out.start.push_back(static_cast<std::int32_t>(out.slope.size()));
 }
 
 // Scratch arrays by source vertex; all are zero again after each cluster.
@@ -221,27 +178,6 @@ void append_edges(const KernelRow& row, const Core& core, EdgeScratch& scratch, 
   for (const std::int32_t v : row.vertex) kernel[at(v)] = 0;
 }
 
-void append_vertices(const KernelRow& row, const Core& core, SourceKernels& out) {
-  const std::size_t begin = out.slope.size();
-  Vec3 centroid;
-  for (std::size_t i = 0; i < row.vertex.size(); ++i)
-    centroid = centroid + row.weight[i] * core.mesh.positions[at(row.vertex[i])];
-  double trace = 0;
-  for (std::size_t i = 0; i < row.vertex.size(); ++i) {
-    const Vec3 p = core.mesh.positions[at(row.vertex[i])] - centroid;
-    out.vertex.push_back(row.vertex[i]);
-    out.slope.push_back(row.weight[i] * p);
-    trace += row.weight[i] * dot(p, p);
-  }
-  close_row(begin, trace, out);
-}
-
-struct ClusterRows {
-  explicit ClusterRows(Memory& memory) : narrow(memory), broad(memory) {}
-  KernelRow narrow, broad;
-  std::int32_t support = 0;
-};
-
 // Collects the source vertices of a cluster's two Gaussian kernels around its centre. Where the source is coarse, the
 // kernels are wider.
 void centre_rows(const ClusterOptions& options, const double* centre, std::int32_t width, Span<const double> field,
@@ -270,37 +206,7 @@ void centre_rows(const ClusterOptions& options, const double* centre, std::int32
     if (distance[v] <= kernel_cut * base) ++out.support;
     if (distance[v] < distance[at(nearest)]) nearest = static_cast<std::int32_t>(v);
   }
-  finish(out.narrow, most_narrow, nearest);
-  finish(out.broad, most_broad, nearest);
-}
-
-// Paper mode: the narrow kernel of a cluster (which gives its rotation) has the weights of one level band. The broad
-// kernel also covers the neighbouring bands.
-void band_rows(std::int32_t h, std::int32_t band, std::int32_t bands, std::int32_t width, Span<const double> field,
-               Span<const double> area, ClusterRows& out) {
-  std::int32_t nearest = 0;
-  double best = 2;
-  const double level = static_cast<double>(band) / (bands - 1);
-  for (std::size_t v = 0; v < area.size(); ++v) {
-    const double u = field[v * at(width) + at(h)];
-    const double narrow = band_weight(u, band, bands);
-    const double around = 1 - std::abs(u * (bands - 1) - band) / broad_bands;
-    if (narrow > 0) {
-      out.narrow.vertex.push_back(static_cast<std::int32_t>(v));
-      out.narrow.weight.push_back(area[v] * narrow);
-      ++out.support;
-    }
-    if (around > 0) {
-      out.broad.vertex.push_back(static_cast<std::int32_t>(v));
-      out.broad.weight.push_back(area[v] * around * (u * u + broad_band_floor));
-    }
-    if (std::abs(u - level) < best) {
-      best = std::abs(u - level);
-      nearest = static_cast<std::int32_t>(v);
-    }
-  }
-  finish(out.narrow, most_narrow, nearest);
-  finish(out.broad, most_broad, nearest);
+  finish_rows(out, nearest);
 }
 
 // Computes mass and centroid of every cluster on the target. Clusters without mass are dropped, and the others
@@ -330,6 +236,16 @@ void measure_target(Span<const double> area, const Mesh& mesh, Clusters& out, Ve
 }
 
 }  // namespace
+
+void finish_rows(ClusterRows& rows, std::int32_t nearest) {
+  finish(rows.narrow, most_narrow, nearest);
+  finish(rows.broad, most_broad, nearest);
+}
+
+void close_row(std::size_t begin, double trace, SourceKernels& out) {
+  for (std::size_t i = begin; i < out.slope.size(); ++i) out.slope[i] = (trace > 0 ? 1 / trace : 0.0) * out.slope[i];
+  out.start.push_back(static_cast<std::int32_t>(out.slope.size()));
+}
 
 void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* joint, float* weight) noexcept {
   std::sort(candidates, candidates + count, [](const Candidate& a, const Candidate& b) {
@@ -374,12 +290,10 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   const std::size_t n = target_area.size();
   out.joint.resize(n * blend_count);
   out.weight.resize(n * blend_count);
-  std::int32_t bands = 0;
-  if (options.paper_bands) {
-    bands = options.cluster_count ? std::clamp(options.cluster_count / field_count, least_paper_bands, most_paper_bands)
-                                  : default_bands;
-    out.count = bands * field_count;
-    weigh_by_bands(field_count, bands, target_field, out, memory);
+  const ClusterScheme* scheme = options.scheme;
+  if (scheme) {
+    out.count = scheme->cluster_count(options.cluster_count, field_count);
+    scheme->weigh(out.count, field_count, target_field, out.joint.data(), out.weight.data(), memory);
   } else {
     Vector<NearestCentres> nearest(&memory);
     sample_centres(options, field_count, target_field, out, nearest, memory, jobs);
@@ -392,17 +306,17 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   rows.reserve(kept.size());
   for (std::size_t c = 0; c < kept.size(); ++c) rows.emplace_back(memory);
   jobs.for_each(static_cast<std::uint32_t>(kept.size()), [&](std::uint32_t c) {
-    if (options.paper_bands) {
-      band_rows(kept[c] / bands, kept[c] % bands, bands, field_count, source_field, source_area, rows[c]);
+    if (scheme) {
+      scheme->collect(kept[c], out.count, field_count, source_field, source_area, rows[c]);
     } else {
       centre_rows(options, out.centre.data() + at(kept[c] * field_count), field_count, source_field, rows[c], memory);
     }
   });
 
-  // Copies the centres of the clusters that remain. In paper mode, a cluster's centre is the mean of its vertices'
+  // Copies the centres of the clusters that remain. With a scheme, a cluster's centre is the mean of its vertices'
   // field values, weighted by area.
   Vector<double> centres(kept.size() * at(field_count), 0.0, &memory);
-  if (!options.paper_bands) {
+  if (!scheme) {
     for (std::size_t c = 0; c < kept.size(); ++c) {
       std::copy_n(out.centre.data() + at(kept[c] * field_count), field_count, centres.data() + c * at(field_count));
     }
@@ -424,9 +338,9 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
   out.narrow.start.assign(1, 0);
   out.broad.start.assign(1, 0);
   for (const ClusterRows& row : rows) {
-    if (options.paper_bands) {
-      append_vertices(row.narrow, source_core, out.narrow);
-      append_vertices(row.broad, source_core, out.broad);
+    if (scheme) {
+      scheme->append(row.narrow, source_core, out.narrow);
+      scheme->append(row.broad, source_core, out.broad);
     } else {
       append_edges(row.narrow, source_core, scratch, out.narrow);
       append_edges(row.broad, source_core, scratch, out.broad);

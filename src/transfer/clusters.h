@@ -2,8 +2,8 @@
 //
 // By default, a cluster is a kernel exp(-|U(v) - c|^2 / 2 s^2) of width s around a centre c. U(v) and c hold one number
 // per field. The centres are a farthest-point sample of the target vertices' U. Source and target share the centres.
-// This generalises the corresponding iso-levels of Xu et al. 2009, Section 6, to all fields at once. In paper mode, a
-// cluster is a level band of one field u_h: a hat function of u_h times a power of u_h, the same on both surfaces.
+// This generalises the corresponding iso-levels of Xu et al. 2009, Section 6, to all fields at once.
+// cluster_scheme.h is an interface to other clusters.
 //
 // Each target vertex keeps its four largest weights. They fall to zero where a fifth would replace one of them. They
 // are multiples of 2^-24 that sum to exactly 1. On the source, each cluster has a narrow and a broad kernel. Their
@@ -15,18 +15,20 @@
 #include "base/jobs.h"
 #include "base/span.h"
 #include "engine/core.h"
+#include "transfer/cluster_scheme.h"
 #include "transfer/constants.h"
 
 namespace hf_inner {
 
 struct ClusterOptions {
-  bool paper_bands = false;
-  std::int32_t cluster_count = 0;  // 0: default_cluster_count; in paper mode default_bands level bands per field
+  const ClusterScheme* scheme = nullptr;  // null: kernels around centres
+  std::int32_t cluster_count = 0;         // 0: default_cluster_count, or the default of the scheme
   double kernel_width = default_kernel_width;
 };
 
 // The moment matrix M from which the rotation of a cluster is computed. p are rest positions, q posed positions, and
-// p', q' their means. The default sums over edges, paper mode over vertices:
+// p', q' their means. The sum runs over edges; a scheme can sum
+// over vertices:
 //     M = sum_ij w_ij (q_i - q_j)(p_i - p_j)',     M = sum_i w_i (q_i - q')(p_i - p')'.
 // An edge sum ignores how two parts shift against each other, which improves the results on the animals. Both sums are
 // linear in q. A kernel therefore stores one constant vector g_v per vertex, and M = sum_v q_v g_v':

@@ -134,23 +134,6 @@ constexpr std::size_t most_narrow = 1536, most_broad = 384;
 // A new cluster's centre must be at least this share of the kernel width from all others. It only matters on tiny
 // meshes. Halving or doubling it changes nothing.
 constexpr double redundant_share = 0.25;
-// Level bands per field in paper mode; each is a cluster of vertices. At half the value: the error of a horse
-// transferred to itself is 0.018 (0.021 now), feet end twice as far from their paths. At twice the value: the error is
-// 0.031, feet a sixth as far.
-constexpr std::int32_t default_bands = 8;
-// Level bands per field in paper mode, at least and at most. Hat functions need two; the upper bound keeps a dense
-// matrix small.
-constexpr std::int32_t least_paper_bands = 2, most_paper_bands = 64;
-// Power of the field that shrinks the clusters of paper mode towards their region. At half the value: the error of a
-// horse transferred to itself is 0.024 (0.021 now). At twice the value: 0.020, but feet end 1.1 times as far from their
-// paths.
-constexpr double band_exponent = 4;
-// In paper mode, a cluster's rotation also reads the level bands up to this far from its own. Halving or doubling it
-// changes errors and edge stretches by at most 3 %. It moves vertices by up to 0.005 boxes.
-constexpr double broad_bands = 3;
-// Weight in paper mode of vertices with field 0 in a cluster's broad kernel. Halving or doubling it moves vertices by
-// at most 2e-6 boxes.
-constexpr double broad_band_floor = 1e-6;
 // A vertex's area counts as at least this share of the mean, so that every vertex has some weight. Halving or doubling
 // it changes no vertex of any frame.
 constexpr double least_area_share = 1e-6;

@@ -6,8 +6,7 @@
 
 namespace hf_inner {
 
-TransferOptions read_transfer_options(const hf_transfer_desc& desc) {
-  TransferOptions options;
+void read_transfer_options(const hf_transfer_desc& desc, TransferOptions& options) {
   options.mode = desc.mode;
   options.cluster_count = desc.cluster_count;
   options.kernel_width = desc.kernel_width;
@@ -17,7 +16,6 @@ TransferOptions read_transfer_options(const hf_transfer_desc& desc) {
   options.keep_ground = desc.ground == HF_GROUND_KEEP;
   std::copy_n(desc.source_axes, 9, options.source_axes);
   std::copy_n(desc.target_axes, 9, options.target_axes);
-  return options;
 }
 
 Dials read_dials(const hf_transfer_dials& desc) {

@@ -5,8 +5,8 @@
 
 namespace hf_inner {
 
-// The constructor of Transfer checks the options.
-TransferOptions read_transfer_options(const hf_transfer_desc& desc);
+// Writes the options of a desc; others stay. The constructor of Transfer checks them.
+void read_transfer_options(const hf_transfer_desc& desc, TransferOptions& options);
 
 // Returns a rest pose by inner vertex; empty where none is given. name: of the array, for errors.
 Vector<Vec3> read_rest(const hf_array& given, const Core& core, const char* name);

@@ -13,7 +13,7 @@ constexpr std::int32_t none = -1;
 
 PairFields::PairFields(std::shared_ptr<const Core> core)
     : core_(std::move(core)),
-      solver_(SiteSolver::make(EngineKind::green, core_, 0)),
+      solver_(SiteSolver::make(core_)),
       owner_(at(core_->size()), none, core_->memory.get()),
       regions_(core_->memory.get()) {}
 

@@ -3,7 +3,7 @@
 //     M_c = sum_ij w_cij (q_i - q_j)(p_i - p_j)',   R_c = argmax tr(R' (M_c + e R_b))
 //
 // R_c is the rotation of cluster c, p the rest and q the posed vertices. R_b is found in the same way, from the broad
-// kernel and the rotation of the whole body. The sum runs over the edges of the cluster's kernel, in paper mode over
+// kernel and the rotation of the whole body. The sum runs over the edges of the cluster's kernel, or over
 // its vertices (clusters.h). This is the rotation of as-rigid-as-possible cells (Sorkine and Alexa 2007), averaged over
 // the cluster. R_b, with the small weight e, decides the twist of thin, flat and collinear clusters. A rigid motion q =
 // R p + t gives R to every cluster, because M_c = R S with a positive S.

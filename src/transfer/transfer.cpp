@@ -26,9 +26,12 @@ Vec3 area_mean(const Mesh& mesh, const Vector<double>& area) noexcept {
 }
 
 void check_options(const TransferOptions& options) {
-  if (options.mode != HF_TRANSFER_FIELDS && options.mode != HF_TRANSFER_PAPER && options.mode != HF_TRANSFER_STRETCH)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "mode is %d; use HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER or HF_TRANSFER_STRETCH", options.mode);
+  if (options.mode != HF_TRANSFER_FIELDS && options.mode != HF_TRANSFER_STRETCH)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode is %d; use HF_TRANSFER_FIELDS or HF_TRANSFER_STRETCH",
+         options.mode);
+  if (options.scheme && options.mode != HF_TRANSFER_FIELDS)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "mode is %d; a baseline of transfers takes HF_TRANSFER_FIELDS",
+         options.mode);
   if (options.cluster_count > cluster_limit)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "cluster_count is %u; it must be 1 to %u, or 0 for the default",
          options.cluster_count, cluster_limit);
@@ -188,7 +191,7 @@ void Transfer::prepare_alignment(Prepared& p) const {
     const Vec3 right{target_axes_(0, 0), target_axes_(0, 1), target_axes_(0, 2)};
     p.limb_turn[h] = minimal_rotation(from, to, right);
     p.limb_angle[h] = angle_between(p.limb_turn[h], Quaternion());
-    if (options_.mode == HF_TRANSFER_FIELDS && options_.alignment_angle > 0 && !(flags & HF_PAIR_NO_ALIGNMENT))
+    if (has_kernels() && options_.alignment_angle > 0 && !(flags & HF_PAIR_NO_ALIGNMENT))
       p.aligned[h] =
           smooth_step(align_from * options_.alignment_angle, align_to * options_.alignment_angle, p.limb_angle[h]);
   }
@@ -237,7 +240,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
     holds_trunk = holds_trunk || (flags_[number] & HF_PAIR_TRUNK);
   }
   TranslationOptions options;
-  if (options_.mode == HF_TRANSFER_PAPER) options.spread_share = 0;
+  if (options_.scheme) options.spread_share = 0;
   // If only feet follow their source's paths (anchors), the trunk would float. So the body's centroid gets more weight
   // then.
   options.root = p.anchors.empty() ? root_alone : holds_trunk ? root_with_trunk : root_without_trunk;
@@ -381,9 +384,9 @@ Transfer::Prepared& Transfer::prepare() {
   source_.solve({numbers_.data(), width}, p.source_field.data(), p.source_leak.data());
   target_.solve({numbers_.data(), width}, p.target_field.data(), p.target_leak.data());
   ClusterOptions cluster_options;
-  cluster_options.paper_bands = options_.mode == HF_TRANSFER_PAPER;
+  cluster_options.scheme = options_.scheme.get();
   cluster_options.cluster_count = static_cast<std::int32_t>(options_.cluster_count);
-  if (options_.cluster_count == 0 && !cluster_options.paper_bands)
+  if (options_.cluster_count == 0 && !cluster_options.scheme)
     cluster_options.cluster_count =
         std::min(static_cast<std::int32_t>(cluster_limit),
                  std::max(default_cluster_count, clusters_per_pair * static_cast<std::int32_t>(width)));
@@ -397,7 +400,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.source_rotations.prepare(source_core_->mesh, source_area_);
   p.refit.prepare(target_core_->mesh, target_area_, p.clusters, memory);
   p.target_centroid = area_mean(target_core_->mesh, target_area_);
-  if (options_.mode == HF_TRANSFER_FIELDS) {
+  if (has_kernels()) {
     const SourceWeights weights = weigh_source(
         p.clusters, kernel_width(), {p.source_field.data(), p.source_field.size()}, memory, *target_core_->jobs);
     const WeightedSurface source{source_core_.get(), source_area_, weights.joint.data(), weights.weight.data()},

@@ -35,12 +35,13 @@ namespace hf_inner {
 
 struct TransferOptions {
   std::int32_t mode = HF_TRANSFER_FIELDS;
-  std::uint32_t cluster_count = 0;  // 0 = default_cluster_count; paper mode: default_bands per pair
-  double kernel_width = 0;          // 0 = from the number of pairs
-  double scale = 0;                 // 0 = from the lengths of legs, or the bounding boxes
-  double alignment_angle = 0;       // radians; 0 = default_alignment_angle; negative = never
-  bool keep_ground = true;          // false: there is no ground (transfer_ground.cpp)
-  double source_axes[9] = {0};      // rows right, up, forward; zero = x, y, z
+  std::shared_ptr<const ClusterScheme> scheme;  // of baselines alone; null: kernels around centres
+  std::uint32_t cluster_count = 0;              // 0 = default_cluster_count, or the default of the scheme
+  double kernel_width = 0;                      // 0 = from the number of pairs
+  double scale = 0;                             // 0 = from the lengths of legs, or the bounding boxes
+  double alignment_angle = 0;                   // radians; 0 = default_alignment_angle; negative = never
+  bool keep_ground = true;                      // false: there is no ground (transfer_ground.cpp)
+  double source_axes[9] = {0};                  // rows right, up, forward; zero = x, y, z
   double target_axes[9] = {0};
   // Rest poses in which the two bodies correspond, by inner vertex in the caller's units; empty: the surfaces as made.
   Span<const Vec3> source_rest, target_rest;  // read by the constructor only
@@ -127,7 +128,9 @@ class Transfer {
   struct Prepared;
   Prepared& prepare();
   double kernel_width() const noexcept;
-  bool has_ground() const noexcept { return options_.mode == HF_TRANSFER_FIELDS && options_.keep_ground; }
+  // Clusters around centres, with all that a character needs beside them.
+  bool has_kernels() const noexcept { return options_.mode == HF_TRANSFER_FIELDS && !options_.scheme; }
+  bool has_ground() const noexcept { return has_kernels() && options_.keep_ground; }
   void prepare_alignment(Prepared& p) const;
   void prepare_anchors(Prepared& p) const;
   void prepare_ground(Prepared& p) const;

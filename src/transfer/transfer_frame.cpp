@@ -221,7 +221,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
     return;
   }
   p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
-  if (options_.mode == HF_TRANSFER_FIELDS) {
+  if (has_kernels()) {
     p.slack.measure(p.given.data(), p.posed.data(), axes_, *target_core_->jobs);
     p.levers.turn(whole.rotation, dials_.long_follow, p.given.data());
   }
@@ -245,8 +245,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
   if (lies > 0) lie_down(p, centroid, lies, rigid, share);
   // If no region follows its source and no constraint is set, no goal pulls the clusters. Then they need no turn
   // towards their neighbours.
-  const std::int32_t rounds =
-      options_.mode == HF_TRANSFER_PAPER || (p.anchors.empty() && holds.empty()) ? 0 : refit_rounds;
+  const std::int32_t rounds = options_.scheme || (p.anchors.empty() && holds.empty()) ? 0 : refit_rounds;
   for (std::int32_t round = 0; round < rounds; ++round) {
     turn_clusters(p);
     settle(p, centroid);

@@ -95,7 +95,7 @@ Solved solve(const Fill& fill, const Vector<std::uint8_t>& known, Memory& memory
   std::shared_ptr<SiteSolver> engine;
   {
     const ProgressRange range(fill_matched, fill_factorised);
-    engine = SiteSolver::make(EngineKind::green, solving_core(fill), 0);
+    engine = SiteSolver::make(solving_core(fill));
   }
   Vector<Index> slots(sites.size(), &memory);
   std::iota(slots.begin(), slots.end(), 0);
@@ -156,8 +156,7 @@ Vector<double> piece_sizes(const Mesh& mesh, Memory& memory) {
 }
 
 // The mean of the rows of every small piece without known weights; empty rows for the others.
-WeightRows piece_means(const Fill& fill, const WeightRows& guessed, const Vector<std::uint8_t>& known,
-                        Memory& memory) {
+WeightRows piece_means(const Fill& fill, const WeightRows& guessed, const Vector<std::uint8_t>& known, Memory& memory) {
   const Mesh& mesh = fill.core->mesh;
   const Vector<double> size = piece_sizes(mesh, memory);
   struct Entry {

@@ -98,7 +98,7 @@ void surface_free(Surface* surface) {
 }
 
 Options options_of(const Surface* surface) {
-  Options o = {HF_INIT(hf_surface_desc), HF_INIT(hf_solver_desc)};
+  Options o = {HF_INIT(hf_surface_desc), HF_INIT(hf_solver_desc), ENGINE_GREEN};
   o.surface.positions = HF_ARRAY(surface->positions, surface->vertex_count);
   o.surface.triangles = HF_ARRAY(surface->triangles, surface->triangle_count);
   return o;
@@ -111,7 +111,7 @@ hf_result make(const Options* options, hf_surface* out_surface, hf_solver* out_s
   *out_solver = NULL;
   if (out_surface) *out_surface = NULL;
   hf_result result = hf_surface_create(&options->surface, &surface);
-  if (result == HF_OK) result = hf_create(surface, &solver, out_solver);
+  if (result == HF_OK) result = create_with(options->engine, surface, &solver, out_solver);
   if (result == HF_OK && out_surface)
     *out_surface = surface;
   else

@@ -59,6 +59,7 @@ void surface_free(Surface* surface);
 typedef struct Options {
   hf_surface_desc surface;
   hf_solver_desc solver;
+  int32_t engine; /* ENGINE_* */
 } Options;
 Options options_of(const Surface* surface);
 /* Makes both, the solver of the surface's kind of field if its own is 0. out_surface: NULL to destroy the surface at

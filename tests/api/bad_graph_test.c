@@ -114,7 +114,7 @@ static void hf_surface_create_graph_refuses_bad_options(void** state) {
   CREATE("progress cancelled before", HF_ERROR_CANCELLED, NO_INDEX,
          (desc.progress = scene.progress, hf_progress_cancel(scene.progress)));
   CREATE("factor of a mesh", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, desc.saved_factor = &saved);
-  if (!has_peers()) {
+  if (!has_gpl()) {
     CREATE("ordering of another build", HF_ERROR_UNSUPPORTED, NO_INDEX, desc.ordering = HF_ORDERING_METIS);
   }
   ROW("no desc", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_create_graph(NULL, &out));
@@ -225,6 +225,11 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   assert_int_equal(number, VERTICES);
   assert_ok(hf_surface_measure_gaps(graph, &posed, 0, NULL, &gaps));
   assert_int_equal(gaps.link_count, 0);
+  hf_solver peer = NULL;
+  assert_ok(hf_peer_refactor_create(graph, NULL, &peer)); /* the baselines of solvers need no triangles */
+  hf_solver_destroy(peer);
+  if (has_gpl()) assert_ok(hf_peer_updown_create(graph, NULL, 0, &peer));
+  if (has_gpl()) hf_solver_destroy(peer);
   NEEDS("a ray", NO_INDEX, hf_surface_cast_ray(graph, point, ray, NULL, &hit));
   NEEDS("the nearest vertex", NO_INDEX, hf_surface_find_vertex(graph, point, NULL, &number, &distance));
   NEEDS("other links", NO_INDEX, hf_surface_relink(graph, NULL, NULL, &relinked));
@@ -234,6 +239,8 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("proposed handles", NO_INDEX, hf_surface_propose_handles(graph, NULL, 0, NULL, &number));
   NEEDS("extremities", NO_INDEX, hf_surface_find_extremities(graph, NULL, 0, NULL, &number));
   NEEDS("a pose", NO_INDEX, hf_pose_create(graph, NULL, &pose));
+  NEEDS("a transfer of the paper", 0, hf_peer_transfer_create(graph, graph, NULL, &transfer));
+  NEEDS("a pose of the paper", NO_INDEX, hf_peer_pose_create(graph, NULL, 0, &pose));
   NEEDS("a region", NO_INDEX, hf_region_create(graph, NULL, &region));
   NEEDS("a direction field", NO_INDEX, hf_direction_create(graph, NULL, &direction));
   NEEDS("distances", NO_INDEX, hf_geodesics_create(graph, NULL, &geodesics));

@@ -91,8 +91,6 @@ static int no_transfer(void) { return out_transfer == NULL && transfer_as_before
 static void bad_poses_are_not_made(void** state) {
   (void)state;
   scene_create(&scene);
-  CREATE_POSE("mode -1", HF_ERROR_INVALID_ARGUMENT, pose_desc.mode = -1);
-  CREATE_POSE("mode 2", HF_ERROR_INVALID_ARGUMENT, pose_desc.mode = 2);
   CREATE_POSE("1 band", HF_ERROR_INVALID_ARGUMENT, pose_desc.band_count = 1);
   CREATE_POSE("65 bands", HF_ERROR_INVALID_ARGUMENT, pose_desc.band_count = 65);
   CREATE_POSE("2^32 - 1 bands", HF_ERROR_INVALID_ARGUMENT, pose_desc.band_count = UINT32_MAX);
@@ -369,7 +367,7 @@ static void bad_transfers_are_not_made(void** state) {
   (void)state;
   scene_create(&scene);
   CREATE_TRANSFER("mode -1", HF_ERROR_INVALID_ARGUMENT, transfer_desc.mode = -1);
-  CREATE_TRANSFER("mode 3", HF_ERROR_INVALID_ARGUMENT, transfer_desc.mode = 3);
+  CREATE_TRANSFER("mode 2", HF_ERROR_INVALID_ARGUMENT, transfer_desc.mode = 2);
   CREATE_TRANSFER("513 clusters", HF_ERROR_INVALID_ARGUMENT, transfer_desc.cluster_count = 513);
   CREATE_TRANSFER("2^32 - 1 clusters", HF_ERROR_INVALID_ARGUMENT, transfer_desc.cluster_count = UINT32_MAX);
   CREATE_TRANSFER("kernel 0.001", HF_ERROR_INVALID_ARGUMENT, transfer_desc.kernel_width = 0.001);

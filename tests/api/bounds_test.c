@@ -281,11 +281,11 @@ static void frames_beyond_1e15_boxes_are_refused_in_every_mode(void** state) {
   double* source = calloc(3 * sheet.vertex_count, sizeof *source);
   double* out = calloc(3 * sheet.vertex_count, sizeof *out);
   const uint32_t ones[2] = {1, 1}, ends[2] = {0, 63};
-  for (int32_t mode = 0; mode < 3; ++mode) {
+  for (int32_t kind = TRANSFER_FIELDS; kind <= TRANSFER_STRETCH; ++kind) {
     hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
     hf_transfer transfer;
-    desc.mode = mode;
-    assert_ok(hf_transfer_create(surface, surface, &desc, &transfer));
+    desc.mode = mode_of(kind);
+    assert_ok(create_transfer_with(kind, surface, surface, &desc, &transfer));
     hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
     pairs.pair_count = 2;
     pairs.source_counts = pairs.target_counts = ones;
@@ -308,7 +308,7 @@ static void frames_beyond_1e15_boxes_are_refused_in_every_mode(void** state) {
       assert_int_equal(result, HF_ERROR_TOO_LARGE);
       assert_ok(hf_error_get_detail(&detail));
       assert_int_equal(detail.index, 10);
-      if (mode == HF_TRANSFER_STRETCH) continue;
+      if (kind == TRANSFER_STRETCH) continue;
       const uint32_t pair = 0;
       const double place[3] = {far[f], 0, 0};
       source[30] = (double)sheet.positions[30];

@@ -28,7 +28,7 @@ static void every_engine_and_operator_passes_with_its_own_tolerance(void** state
     for (int32_t operator_kind = 0; operator_kind < 4; ++operator_kind) {
       for (int32_t field_kind = 0; field_kind < 3; ++field_kind) {
         Options desc = options_of(&tube);
-        desc.solver.engine = engine;
+        desc.engine = engine;
         desc.surface.operator_kind = operator_kind;
         desc.surface.field_kind = field_kind;
         hf_solver solver = NULL;
@@ -36,7 +36,7 @@ static void every_engine_and_operator_passes_with_its_own_tolerance(void** state
         add_sites(solver, 9);
         hf_certificate found = HF_INIT(hf_certificate);
         assert_ok(hf_solver_certify(solver, &found));
-        const int updown = engine == HF_ENGINE_UPDOWN;
+        const int updown = engine == ENGINE_UPDOWN;
         assert_true(found.tolerance == (updown ? 1e-5 : 1e-8));
         assert_true(found.value_range > 1 && found.value_range <= 80);
         assert_true(found.residual >= 0 && found.residual <= found.tolerance);
@@ -214,9 +214,9 @@ static void a_long_chain_is_right_to_rounding(void** state) {
   Options desc = options_of(&tube);
   desc.surface.positions = HF_ARRAY(positions, 2 * CHAIN + 1);
   desc.surface.triangles = HF_ARRAY(triangles, CHAIN);
-  for (int32_t engine = HF_ENGINE_GREEN; engine <= HF_ENGINE_REFACTOR; engine += HF_ENGINE_REFACTOR) {
+  for (int32_t engine = ENGINE_GREEN; engine <= ENGINE_REFACTOR; engine += ENGINE_REFACTOR) {
     hf_solver solver = NULL;
-    desc.solver.engine = engine;
+    desc.engine = engine;
     assert_ok(make(&desc, NULL, &solver));
     add_site(solver, 0, 0);
     add_site(solver, CHAIN, 1);
@@ -246,7 +246,7 @@ static void biharmonic_fans_are_right_and_cost_what_the_mesh_costs(void** state)
   for (int32_t kind = HF_FIELD_BIHARMONIC; kind <= HF_FIELD_BIHARMONIC_GRAPH; ++kind) {
     desc.surface.field_kind = kind;
     desc.surface.saved_factor = NULL;
-    desc.solver.engine = HF_ENGINE_GREEN;
+    desc.engine = ENGINE_GREEN;
     hf_surface surface = NULL;
     hf_solver solver = NULL, loaded = NULL;
     assert_ok(make(&desc, &surface, &solver));
@@ -275,7 +275,7 @@ static void biharmonic_fans_are_right_and_cost_what_the_mesh_costs(void** state)
     assert_memory_equal(field, again, (FAN + 1) * sizeof *field);
     hf_solver_destroy(loaded);
 
-    desc.solver.engine = HF_ENGINE_REFACTOR;
+    desc.engine = ENGINE_REFACTOR;
     desc.surface.saved_factor = NULL;
     assert_code(HF_ERROR_UNSUPPORTED, make(&desc, NULL, &loaded));
     free(field);
@@ -290,9 +290,9 @@ static void biharmonic_fans_are_right_and_cost_what_the_mesh_costs(void** state)
 /* Soft sites pull with what they miss: the engine refactor lost it to rounding and refused its own field. */
 static void very_soft_sites_pass(void** state) {
   (void)state;
-  for (int32_t engine = HF_ENGINE_GREEN; engine <= HF_ENGINE_REFACTOR; engine += HF_ENGINE_REFACTOR) {
+  for (int32_t engine = ENGINE_GREEN; engine <= ENGINE_REFACTOR; engine += ENGINE_REFACTOR) {
     Options desc = options_of(&tube);
-    desc.solver.engine = engine;
+    desc.engine = engine;
     hf_solver solver = NULL;
     assert_ok(make(&desc, NULL, &solver));
     const uint32_t vertices[2] = {0, VERTICES / 2};

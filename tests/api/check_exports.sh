@@ -1,18 +1,25 @@
 #!/usr/bin/env bash
-# The binary gate: check_exports.sh LIBHF.SO HEADER_FOLDER ON|OFF (HF_WITH_GPL) NM READELF
+# The binary gate: check_exports.sh LIBHF.SO HEADER_FOLDER ON|OFF (HF_WITH_PEERS) ON|OFF (HF_WITH_GPL) NM READELF
 #   the exported symbols are exactly the HF_API functions of the headers;
+#   without HF_WITH_PEERS they are those of the headers but hf/peers.h, and no symbol of the room peers is inside;
 #   what is called in other libraries is in the golden list tests/api/called.txt, each with its reason;
 #   nothing that ends, prints, draws random numbers or touches signals is called, whatever the list says;
 #   without HF_WITH_GPL nothing of CHOLMOD or METIS is called or linked.
 set -u
-library=$1 headers=$2 with_gpl=$3 nm=$4 readelf=$5
+library=$1 headers=$2 with_peers=$3 with_gpl=$4 nm=$5 readelf=$6
 here=$(cd "$(dirname "$0")" && pwd)
 export LC_ALL=C
 status=0
 complain() { printf 'error: %s\n' "$1"; status=1; }
 
 . "$here/../support/exports.sh"
-check_exported "$library" "$headers" HF_API hf_
+left_out=
+[ "$with_peers" = ON ] || left_out=peers.h
+check_exported "$library" "$headers" HF_API hf_ "$left_out"
+if [ "$with_peers" = OFF ] && found=$("$nm" -C "$library" 2>/dev/null | grep -E 'hf_peer_|RefactorSolver|UpdownSolver|Paper'); then
+  complain "HF_WITH_PEERS is OFF, but the library names a baseline:"
+  printf '%s\n' "$found"
+fi
 
 # snprintf and vsnprintf write into our own message buffer and are allowed
 called=$("$nm" -D --undefined-only "$library" | awk '{print $NF}' | sed 's/@.*//' | sort -u)

@@ -20,6 +20,14 @@ for header in "$include"/hf*/*.h; do
   try "$name as C++17" "$cxx" -std=c++17 $warnings -fsyntax-only -I"$include" "$folder/alone.cpp"
   if grep -nE '^[^/*]*\binline\b|\(\);' "$header"; then printf 'error  %s: inline, or () without void\n' "$name" && status=1; fi
 done
+# a host does not see the baselines of hf/peers.h
+printf '#include "hf/hf.h"\nvoid* baseline(void) { return (void*)hf_peer_refactor_create; }\n' >"$folder/host.c"
+printf '#include "hf/hf.hpp"\nvoid* baseline() { return (void*)hf_peer_refactor_create; }\n' >"$folder/host.cpp"
+for host in "$cc -std=c99 $folder/host.c" "$cxx -std=c++17 $folder/host.cpp"; do
+  if $host -fsyntax-only -I"$include" 2>"$folder/log" || ! grep -q 'hf_peer_refactor_create' "$folder/log"; then
+    printf 'error  a host that includes hf/hf.h can name a baseline\n' && cat "$folder/log" && status=1
+  fi
+done
 for header in "$include"/hf/*.hpp; do
   [ -e "$header" ] || continue
   name=$(basename "$header")

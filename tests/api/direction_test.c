@@ -293,12 +293,12 @@ static void a_biharmonic_solver_takes_the_same_edits_and_overshoots(void** state
   (void)state;
   Surface sheet = surface_sheet(20, 20);
   for (int32_t kind = HF_FIELD_BIHARMONIC; kind <= HF_FIELD_BIHARMONIC_GRAPH; ++kind) {
-    static const int32_t engines[] = {HF_ENGINE_GREEN, HF_ENGINE_REFACTOR};
+    static const int32_t engines[] = {ENGINE_GREEN, ENGINE_REFACTOR};
     double* fields[2];
     for (int e = 0; e < 2; ++e) {
       Options desc = options_of(&sheet);
       desc.surface.field_kind = kind;
-      desc.solver.engine = engines[e];
+      desc.engine = engines[e];
       hf_solver solver;
       assert_ok(make(&desc, NULL, &solver));
       const uint32_t row = 10 * 21;

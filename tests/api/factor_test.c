@@ -449,14 +449,14 @@ static void previews_of_tiny_huge_and_shifted_values_are_as_close(void** state) 
 static void solvers_without_a_preview_answer_with_the_exact_field(void** state) {
   (void)state;
   Surface tube = surface_tube(AROUND, RINGS);
-  const int32_t engines[] = {HF_ENGINE_REFACTOR, HF_ENGINE_GREEN, HF_ENGINE_UPDOWN};
-  const size_t engine_count = has_peers() ? 3 : 2;
+  const int32_t engines[] = {ENGINE_REFACTOR, ENGINE_GREEN, ENGINE_UPDOWN};
+  const size_t engine_count = has_gpl() ? 3 : 2;
   for (size_t e = 0; e < engine_count; ++e) {
     Options desc = options_of(&tube);
-    desc.solver.engine = engines[e];
+    desc.engine = engines[e];
     hf_solver solver = NULL;
     assert_ok(make(&desc, NULL, &solver));
-    if (engines[e] == HF_ENGINE_GREEN) {
+    if (engines[e] == ENGINE_GREEN) {
       /* enough sites at once to move them into the factor */
       uint32_t vertices[VERTICES / 2];
       double values[VERTICES / 2];

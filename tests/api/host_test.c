@@ -37,7 +37,7 @@ static void note(Work* w, hf_result result) {
 static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t threads, const hf_job_runner* runner) {
   Surface tube = surface_tube(AROUND, RINGS);
   Options desc = options_of(&tube);
-  desc.solver.engine = engine;
+  desc.engine = engine;
   desc.surface.ordering = ordering;
   desc.surface.thread_count = threads;
   if (runner) desc.surface.job_runner = *runner;
@@ -55,7 +55,7 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
   hf_add_sites(solver, &batch, NULL); /* a failure: formats a message */
   hf_pose pose = NULL;
   hf_transfer transfer = NULL;
-  if (engine == HF_ENGINE_GREEN) {
+  if (engine == ENGINE_GREEN) {
     uint32_t* ends = tube_ends(AROUND, RINGS);
     const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
     hf_handles_desc regions = HF_INIT(hf_handles_desc);
@@ -92,9 +92,9 @@ static void work_with(Work* w, int32_t engine, int32_t ordering, uint32_t thread
 
 static void work(Work* w) {
   memset(w, 0, sizeof *w);
-  work_with(w, HF_ENGINE_REFACTOR, HF_ORDERING_MINIMUM_DEGREE, 1, NULL);
-  if (has_peers()) work_with(w, HF_ENGINE_UPDOWN, HF_ORDERING_METIS, 1, NULL);
-  work_with(w, HF_ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, 1, NULL);
+  work_with(w, ENGINE_REFACTOR, HF_ORDERING_MINIMUM_DEGREE, 1, NULL);
+  if (has_gpl()) work_with(w, ENGINE_UPDOWN, HF_ORDERING_METIS, 1, NULL);
+  work_with(w, ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, 1, NULL);
 }
 
 #if LINUX
@@ -118,10 +118,10 @@ static unsigned threads_at_start, threads_after_own_engines;
 
 static int create_expected(void** state) {
   (void)state;
-  /* before anything else has run: Debian's CHOLMOD keeps OpenMP threads of its own once HF_ENGINE_UPDOWN was used */
+  /* before anything else has run: Debian's CHOLMOD keeps OpenMP threads of its own once ENGINE_UPDOWN was used */
   threads_at_start = entries("/proc/self/task");
-  work_with(&expected, HF_ENGINE_REFACTOR, HF_ORDERING_MINIMUM_DEGREE, 1, NULL);
-  work_with(&expected, HF_ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, 1, NULL);
+  work_with(&expected, ENGINE_REFACTOR, HF_ORDERING_MINIMUM_DEGREE, 1, NULL);
+  work_with(&expected, ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, 1, NULL);
   threads_after_own_engines = entries("/proc/self/task");
   work(&expected);
   return expected.worst;
@@ -390,13 +390,13 @@ static void threads_and_job_runners_give_the_same_bits(void** state) {
   static Work done;
   for (uint32_t threads = 1; threads <= 8; ++threads) {
     memset(&done, 0, sizeof done);
-    work_with(&done, HF_ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, threads, NULL);
+    work_with(&done, ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, threads, NULL);
     assert_same_work(done);
   }
   HostJobs jobs = {0, 0};
   const hf_job_runner runner = {host_run, &jobs};
   memset(&done, 0, sizeof done);
-  work_with(&done, HF_ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, 2, &runner);
+  work_with(&done, ENGINE_GREEN, HF_ORDERING_NESTED_DISSECTION, 2, &runner);
   assert_same_work(done);
 }
 

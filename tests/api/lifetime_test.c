@@ -6,7 +6,7 @@ enum { AROUND = 12, RINGS = 16, VERTICES = AROUND * RINGS };
 static void clones_are_independent(int32_t engine) {
   Surface tube = surface_tube(AROUND, RINGS);
   Options desc = options_of(&tube);
-  desc.solver.engine = engine;
+  desc.engine = engine;
   hf_solver original = NULL, copy = NULL;
   assert_ok(make(&desc, NULL, &original));
   const uint32_t first = add_site(original, 0, 0);
@@ -31,7 +31,7 @@ static void clones_are_independent(int32_t engine) {
   assert_true(same_bits(copied, still, sizeof(double) * VERTICES));
   hf_solver_statistics statistics = HF_INIT(hf_solver_statistics);
   assert_ok(hf_solver_get_statistics(copy, &statistics));
-  if (engine == HF_ENGINE_GREEN) assert_int_equal(statistics.factorisation_count, 0);
+  if (engine == ENGINE_GREEN) assert_int_equal(statistics.factorisation_count, 0);
   free(before);
   free(same);
   free(after);
@@ -43,9 +43,9 @@ static void clones_are_independent(int32_t engine) {
 
 static void a_kept_clone_has_the_bits_of_then(void** state) {
   (void)state;
-  clones_are_independent(HF_ENGINE_GREEN);
-  clones_are_independent(HF_ENGINE_REFACTOR);
-  if (has_peers()) clones_are_independent(HF_ENGINE_UPDOWN);
+  clones_are_independent(ENGINE_GREEN);
+  clones_are_independent(ENGINE_REFACTOR);
+  if (has_gpl()) clones_are_independent(ENGINE_UPDOWN);
 }
 
 /* A family: a surface, a solver, two clones, a pose and its clone, a transfer. Each member does its work after any

@@ -105,11 +105,11 @@ static void absurd_stiffness_is_clamped_and_the_field_stays_finite(void** state)
   (void)state;
   const double absurd[] = {5e-324, 1e-300, 1e-13, 1e13, 1e100, 1.7e308};
   for (size_t i = 0; i < COUNT_OF(absurd); ++i) {
-    for (int engine = 0; engine <= HF_ENGINE_REFACTOR; ++engine) {
-      if (engine == HF_ENGINE_UPDOWN) continue; /* its penalties have a limit of their own */
+    for (int engine = 0; engine <= ENGINE_REFACTOR; ++engine) {
+      if (engine == ENGINE_UPDOWN) continue; /* its penalties have a limit of their own */
       tube = surface_tube(AROUND, RINGS);
       Options desc = options_of(&tube);
-      desc.solver.engine = engine;
+      desc.engine = engine;
       hf_solver solver = NULL;
       assert_ok(make(&desc, NULL, &solver));
       const uint32_t vertices[2] = {4, 71};

@@ -31,13 +31,11 @@ static hf_deform_desc to_doubles(double* positions, float* normals) {
   return desc;
 }
 
-static const int32_t modes[] = {HF_DEFORM_SMOOTH, HF_DEFORM_PAPER};
+static const int32_t modes[] = {POSE_SMOOTH, POSE_PAPER};
 
 static hf_pose pose_of(int32_t mode, uint32_t out_handles[2]) {
-  hf_pose_desc desc = HF_INIT(hf_pose_desc);
-  desc.mode = mode;
   hf_pose pose = NULL;
-  assert_ok(hf_pose_create(surface, &desc, &pose));
+  assert_ok(create_pose_with(mode, surface, NULL, &pose));
   uint32_t* ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
   hf_handles_desc handles = HF_INIT(hf_handles_desc);
@@ -150,7 +148,7 @@ static void one_rigid_motion_of_all_handles_moves_everything(void** state) {
     }
     /* the paper's relaxation moves a cluster at a time and needs thousands of iterations to carry 40 units along the
      * tube */
-    const double allowed = modes[m] == HF_DEFORM_PAPER ? 10 : 1e-6;
+    const double allowed = modes[m] == POSE_PAPER ? 10 : 1e-6;
     if (!(worst < allowed)) fail_msg("mode %d: a vertex lies %g beside its rigid place", (int)modes[m], worst);
     hf_pose_destroy(pose);
   }
@@ -159,7 +157,7 @@ static void one_rigid_motion_of_all_handles_moves_everything(void** state) {
 static void the_fields_of_the_handles_sum_to_one(void** state) {
   (void)state;
   uint32_t handles[2];
-  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles);
+  hf_pose pose = pose_of(POSE_SMOOTH, handles);
   static float first[VERTICES], second[2 * VERTICES];
   assert_ok(hf_pose_get_field(pose, handles[0], OUT(first)));
   assert_ok(hf_pose_get_field(pose, handles[1], OUT_ROWS(second, 8)));
@@ -175,7 +173,7 @@ static void the_fields_of_the_handles_sum_to_one(void** state) {
 static void float_double_and_strided_outputs_agree(void** state) {
   (void)state;
   uint32_t handles[2];
-  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles);
+  hf_pose pose = pose_of(POSE_SMOOTH, handles);
   const hf_transform bent = {{0, 0, 0.5, 1}, {2, 0, 0}};
   assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &bent));
   typedef struct Record {
@@ -208,7 +206,7 @@ static void float_double_and_strided_outputs_agree(void** state) {
 static void handles_come_and_go_and_clones_are_independent(void** state) {
   (void)state;
   uint32_t handles[2], third;
-  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles), copy = NULL;
+  hf_pose pose = pose_of(POSE_SMOOTH, handles), copy = NULL;
   const hf_transform bent = {{0, 0, 0.5, 1}, {2, 0, 0}};
   assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &bent));
   static double before[3 * VERTICES], after[3 * VERTICES];
@@ -240,7 +238,7 @@ static void handles_come_and_go_and_clones_are_independent(void** state) {
 static void a_handle_in_place_moves_nothing(void** state) {
   (void)state;
   uint32_t handles[2], added = 0;
-  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles);
+  hf_pose pose = pose_of(POSE_SMOOTH, handles);
   const hf_transform bent = {{0, 0, sin(0.3), cos(0.3)}, {0.4, -0.1, 0.1}};
   assert_ok(hf_pose_set_transform(pose, handles[1], &bent));
   const uint32_t count = AROUND * RINGS;
@@ -278,7 +276,7 @@ static void a_handle_in_place_moves_nothing(void** state) {
 static void handles_come_to_a_clone_while_the_pose_is_dragged(void** state) {
   (void)state;
   uint32_t handles[2], added = 0;
-  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles), next = NULL;
+  hf_pose pose = pose_of(POSE_SMOOTH, handles), next = NULL;
   hf_transform bent = {{0, 0, sin(0.3), cos(0.3)}, {0.4, -0.1, 0.1}};
   const uint32_t count = AROUND * RINGS;
   double* before = malloc(3 * sizeof(double) * count);
@@ -338,13 +336,13 @@ static void what_no_handle_reaches_stays_at_rest(void** state) {
   surface_free(&cut);
 }
 
-static hf_transfer transfer_of(int32_t mode, hf_surface source, hf_surface target, uint32_t source_around,
+static hf_transfer transfer_of(int32_t kind, hf_surface source, hf_surface target, uint32_t source_around,
                                uint32_t source_rings, uint32_t target_around, uint32_t target_rings,
                                uint32_t out_pairs[2]) {
   hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-  desc.mode = mode;
+  desc.mode = mode_of(kind);
   hf_transfer transfer = NULL;
-  assert_ok(hf_transfer_create(source, target, &desc, &transfer));
+  assert_ok(create_transfer_with(kind, source, target, &desc, &transfer));
   uint32_t *from = tube_ends(source_around, source_rings), *to = tube_ends(target_around, target_rings);
   const uint32_t from_counts[2] = {2 * source_around, 2 * source_around},
                  to_counts[2] = {2 * target_around, 2 * target_around};
@@ -364,7 +362,7 @@ static void the_rest_of_the_source_gives_the_rest_of_the_target(void** state) {
   (void)state;
   Surface other = surface_tube(9, 17);
   hf_surface target = surface_on(&other);
-  const int32_t transfer_modes[] = {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER, HF_TRANSFER_STRETCH};
+  const int32_t transfer_modes[] = {TRANSFER_FIELDS, TRANSFER_PAPER, TRANSFER_STRETCH};
   for (size_t m = 0; m < COUNT_OF(transfer_modes); ++m) {
     uint32_t pairs[2];
     hf_transfer transfer = transfer_of(transfer_modes[m], surface, target, AROUND, RINGS, 9, 17, pairs);
@@ -395,7 +393,7 @@ static void a_transfer_of_stretch_swells_with_the_source_and_refuses_holds_and_s
   Surface other = surface_tube(9, 17);
   hf_surface target = surface_on(&other);
   uint32_t pairs[2];
-  hf_transfer transfer = transfer_of(HF_TRANSFER_STRETCH, surface, target, AROUND, RINGS, 9, 17, pairs);
+  hf_transfer transfer = transfer_of(TRANSFER_STRETCH, surface, target, AROUND, RINGS, 9, 17, pairs);
   static double posed[3 * VERTICES], made[3 * TARGET], before[3 * TARGET];
   for (uint32_t i = 0; i < 3 * VERTICES; ++i) posed[i] = 1.5 * (double)tube.positions[i];
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
@@ -435,7 +433,7 @@ static void dials_are_read_back_and_neutral_ones_change_no_bit(void** state) {
   enum { TARGET = 9 * 17 };
   hf_surface target = surface_on(&other);
   uint32_t pairs[2];
-  hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, target, AROUND, RINGS, 9, 17, pairs);
+  hf_transfer transfer = transfer_of(TRANSFER_FIELDS, surface, target, AROUND, RINGS, 9, 17, pairs);
   static float posed[3 * VERTICES], plain[3 * TARGET], dialled[3 * TARGET], again[3 * TARGET];
   for (uint32_t v = 0; v < VERTICES; ++v)
     for (int c = 0; c < 3; ++c) posed[3 * v + c] = tube.positions[3 * v + c] + (c == 0 ? 2.0f : 0.0f);
@@ -483,13 +481,13 @@ static void the_skin_replays_the_transfer(void** state) {
   enum { TARGET = 9 * 17 };
   hf_surface target = surface_on(&other);
   uint32_t handles[2], pairs[2];
-  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles);
+  hf_pose pose = pose_of(POSE_SMOOTH, handles);
   const hf_transform bent = {{0, 0, 0.4, 1}, {1, 0, 0}};
   assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &bent));
   static double posed[3 * VERTICES], moved[3 * TARGET];
   const hf_deform_desc desc = to_doubles(posed, NULL);
   assert_ok(hf_pose_deform(pose, &desc, NULL));
-  hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, target, AROUND, RINGS, 9, 17, pairs);
+  hf_transfer transfer = transfer_of(TRANSFER_FIELDS, surface, target, AROUND, RINGS, 9, 17, pairs);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
   frame.source_positions = HF_ARRAY(posed, VERTICES);
   frame.target_positions = ROWS_OUT(moved);
@@ -547,13 +545,13 @@ static void the_skin_replays_the_transfer(void** state) {
 static void a_frame_may_be_transferred_in_place(void** state) {
   (void)state;
   uint32_t handles[2], pairs[2];
-  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles);
+  hf_pose pose = pose_of(POSE_SMOOTH, handles);
   const hf_transform bent = {{0, 0, 0.4, 1}, {1, 0, 0}};
   assert_ok(hf_pose_set_transforms(pose, 1, &handles[1], &bent));
   static double posed[3 * VERTICES], apart[3 * VERTICES];
   const hf_deform_desc desc = to_doubles(posed, NULL);
   assert_ok(hf_pose_deform(pose, &desc, NULL));
-  hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, surface, AROUND, RINGS, AROUND, RINGS, pairs);
+  hf_transfer transfer = transfer_of(TRANSFER_FIELDS, surface, surface, AROUND, RINGS, AROUND, RINGS, pairs);
   hf_transfer_frame frame = HF_INIT(hf_transfer_frame);
   frame.source_positions = HF_ARRAY(posed, VERTICES);
   frame.target_positions = ROWS_OUT(apart);
@@ -572,7 +570,7 @@ static void a_transfer_says_its_scale_and_holds_regions_where_the_caller_wants_t
   for (uint32_t i = 0; i < 3 * VERTICES; ++i) other.positions[i] *= 2;
   hf_surface target = surface_on(&other);
   uint32_t pairs[2];
-  hf_transfer transfer = transfer_of(HF_TRANSFER_FIELDS, surface, target, AROUND, RINGS, AROUND, RINGS, pairs);
+  hf_transfer transfer = transfer_of(TRANSFER_FIELDS, surface, target, AROUND, RINGS, AROUND, RINGS, pairs);
   hf_transfer_info info = HF_INIT(hf_transfer_info);
   assert_ok(hf_transfer_get_info(transfer, &info));
   assert_int_equal(info.pair_count, 2);
@@ -675,7 +673,7 @@ static void matrices_place_handles_like_transforms(void** state) {
   (void)state;
   uint32_t handles[2];
   static double by_transform[3 * VERTICES], by_matrix[3 * VERTICES];
-  hf_pose pose = pose_of(HF_DEFORM_SMOOTH, handles), other = pose_of(HF_DEFORM_SMOOTH, handles);
+  hf_pose pose = pose_of(POSE_SMOOTH, handles), other = pose_of(POSE_SMOOTH, handles);
   hf_handle_info info = HF_INIT(hf_handle_info);
   assert_ok(hf_pose_get_handle(pose, handles[1], &info));
   const double c = cos(0.8), s = sin(0.8), *p = info.centroid;
@@ -728,7 +726,7 @@ static void a_range_of_vertices_is_the_same_as_in_the_whole(void** state) {
   uint32_t handles[2];
   static double whole[3 * VERTICES], part[3 * VERTICES];
   static float normals[3 * VERTICES], part_normals[3 * VERTICES];
-  hf_pose pose = bent_pose(HF_DEFORM_SMOOTH, handles, whole);
+  hf_pose pose = bent_pose(POSE_SMOOTH, handles, whole);
   hf_deform_desc desc = to_doubles(whole, normals);
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   const uint32_t first = 3 * AROUND + 5, count = 2 * AROUND;
@@ -755,7 +753,7 @@ static void a_refined_frame_keeps_the_handles_and_moves_the_rest_a_little(void**
   (void)state;
   uint32_t handles[2];
   static double plain[3 * VERTICES], refined[3 * VERTICES];
-  hf_pose pose = bent_pose(HF_DEFORM_SMOOTH, handles, plain);
+  hf_pose pose = bent_pose(POSE_SMOOTH, handles, plain);
   hf_deform_desc desc = to_doubles(refined, NULL);
   hf_deform_info info = HF_INIT(hf_deform_info);
   double before = 0;
@@ -784,7 +782,7 @@ static void the_skin_replays_the_pose(void** state) {
   (void)state;
   uint32_t handles[2];
   static double posed[3 * VERTICES];
-  hf_pose pose = bent_pose(HF_DEFORM_SMOOTH, handles, posed);
+  hf_pose pose = bent_pose(POSE_SMOOTH, handles, posed);
   double worst[2] = {0, 0}; /* rigid joints, stretching joints */
   for (uint32_t round = 0; round < 4; ++round) {
     const uint32_t count = round % 2 ? 8 : 4, stretching = round / 2;

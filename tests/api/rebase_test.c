@@ -71,7 +71,7 @@ static void a_rebase_needs_a_solver_with_hard_sites(void** state) {
   assert_code(HF_ERROR_INVALID_OBJECT, hf_solver_prepare_rebase(NULL));
   hf_solver_destroy(solver);
   Options desc = options_of(&sheet);
-  desc.solver.engine = HF_ENGINE_REFACTOR;
+  desc.engine = ENGINE_REFACTOR;
   assert_ok(make(&desc, NULL, &solver));
   add_site(solver, 3, 1);
   assert_code(HF_ERROR_UNSUPPORTED, hf_solver_prepare_rebase(solver));

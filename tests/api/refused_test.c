@@ -57,10 +57,8 @@ static void a_refused_edit_counts_no_factorisation(void** state) {
   (void)state;
   CountingAllocator memory;
   const hf_surface surface = counted_surface(&memory);
-  hf_solver_desc desc = HF_INIT(hf_solver_desc);
-  desc.engine = HF_ENGINE_REFACTOR;
   hf_solver solver = NULL;
-  assert_ok(hf_create(surface, &desc, &solver));
+  assert_ok(hf_peer_refactor_create(surface, NULL, &solver));
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
   const uint32_t triangle = 4;
   const double weights[3] = {0.25, 0.25, 0.5};

@@ -5,17 +5,17 @@ enum { COLUMNS = 14, ROWS_ = 11, VERTICES = (COLUMNS + 1) * (ROWS_ + 1) };
 static Surface sheet;
 
 static const int32_t engines[] = {
-    HF_ENGINE_GREEN,
-    HF_ENGINE_REFACTOR,
-    HF_ENGINE_UPDOWN,
+    ENGINE_GREEN,
+    ENGINE_REFACTOR,
+    ENGINE_UPDOWN,
 };
-static size_t engine_count; /* with the paper's engine, where the library has it */
+static size_t engine_count; /* with updown, where the library has it */
 /* The share of the value range to which an engine holds hard sites and fields. */
-static double tolerance_of(int32_t engine) { return engine == HF_ENGINE_UPDOWN ? 1e-6 : 1e-11; }
+static double tolerance_of(int32_t engine) { return engine == ENGINE_UPDOWN ? 1e-6 : 1e-11; }
 
 static hf_solver solver_of(int32_t engine, uint32_t channels) {
   Options desc = options_of(&sheet);
-  desc.solver.engine = engine;
+  desc.engine = engine;
   desc.solver.channel_count = channels;
   hf_solver solver = NULL;
   assert_ok(make(&desc, NULL, &solver));
@@ -73,7 +73,7 @@ static void a_linear_function_on_the_border_is_continued_inside(void** state) {
 
 static void hard_sites_are_exact_and_soft_ones_give_way(void** state) {
   (void)state;
-  hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
+  hf_solver solver = solver_of(ENGINE_GREEN, 1);
   const uint32_t vertices[3] = {0, 80, VERTICES - 1};
   const double values[3] = {0.1, 1.0 / 3.0, -7.7}, stiffness[3] = {0, 1e-3, 0};
   hf_sites_desc sites = sites_at(3, vertices, values);
@@ -175,7 +175,7 @@ static void a_batch_is_the_same_as_its_single_calls(void** state) {
 
 static void an_empty_batch_changes_nothing(void** state) {
   (void)state;
-  hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
+  hf_solver solver = solver_of(ENGINE_GREEN, 1);
   add_site(solver, 3, 1);
   add_site(solver, 100, 2);
   double* before = field_of(solver, VERTICES);
@@ -190,7 +190,7 @@ static void an_empty_batch_changes_nothing(void** state) {
 
 static void sites_may_swap_places_in_one_move(void** state) {
   (void)state;
-  hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
+  hf_solver solver = solver_of(ENGINE_GREEN, 1);
   const uint32_t numbers[2] = {add_site(solver, 20, 1), add_site(solver, 130, 2)}, swapped[2] = {130, 20};
   const hf_sites_desc to = sites_at(2, swapped, NULL);
   assert_ok(hf_solver_move_sites(solver, 2, numbers, &to));
@@ -256,7 +256,7 @@ static void solving_at_vertices_equals_solving_everywhere(void** state) {
 
 static void the_list_of_solve_at_may_lie_in_its_output(void** state) {
   (void)state;
-  hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
+  hf_solver solver = solver_of(ENGINE_GREEN, 1);
   add_site(solver, 3, 1);
   add_site(solver, 100, 2);
   const uint32_t ask[6] = {5, 50, 99, 100, 3, 7};
@@ -274,7 +274,7 @@ static void the_list_of_solve_at_may_lie_in_its_output(void** state) {
 
 static void float_and_double_outputs_agree_at_any_stride(void** state) {
   (void)state;
-  hf_solver solver = solver_of(HF_ENGINE_GREEN, 2);
+  hf_solver solver = solver_of(ENGINE_GREEN, 2);
   const uint32_t at[2] = {0, VERTICES - 1};
   const double values[4] = {0, 10, 1, -10};
   const hf_sites_desc sites = sites_at(2, at, values);
@@ -305,7 +305,7 @@ static void float_and_double_outputs_agree_at_any_stride(void** state) {
 
 static void vectors_are_tangent_and_follow_their_constraints(void** state) {
   (void)state;
-  hf_solver solver = solver_of(HF_ENGINE_GREEN, 3);
+  hf_solver solver = solver_of(ENGINE_GREEN, 3);
   const uint32_t at[2] = {16, 150};
   const double values[6] = {1, 0, 0, 0, 1, 0};
   const hf_sites_desc sites = sites_at(2, at, values);
@@ -329,7 +329,7 @@ static void vectors_are_tangent_and_follow_their_constraints(void** state) {
 
 static void edits_never_factorise_again(void** state) {
   (void)state;
-  hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
+  hf_solver solver = solver_of(ENGINE_GREEN, 1);
   const hf_solver_statistics before = statistics_of(solver);
   assert_int_equal(before.factorisation_count, 0); /* the surface's own is not counted */
   assert_int_equal(before.site_count, 0);
@@ -358,7 +358,7 @@ static void edits_never_factorise_again(void** state) {
 
 static void values_may_be_set_without_the_factor_being_touched(void** state) {
   (void)state;
-  hf_solver solver = solver_of(HF_ENGINE_GREEN, 1);
+  hf_solver solver = solver_of(ENGINE_GREEN, 1);
   const uint32_t numbers[2] = {add_site(solver, 0, 0), add_site(solver, VERTICES - 1, 1)};
   double* unit = field_of(solver, VERTICES);
   const uint32_t paths = statistics_of(solver).path_solve_count;
@@ -375,7 +375,7 @@ static void values_may_be_set_without_the_factor_being_touched(void** state) {
 
 static void values_around_a_million_lose_nothing(void** state) {
   (void)state;
-  hf_solver solver = solver_of(HF_ENGINE_GREEN, 1), shifted = solver_of(HF_ENGINE_GREEN, 1);
+  hf_solver solver = solver_of(ENGINE_GREEN, 1), shifted = solver_of(ENGINE_GREEN, 1);
   const uint32_t at[3] = {0, 80, VERTICES - 1};
   for (int i = 0; i < 3; ++i) {
     add_site(solver, at[i], i);
@@ -390,7 +390,7 @@ static void values_around_a_million_lose_nothing(void** state) {
 }
 
 int main(void) {
-  engine_count = has_peers() ? COUNT_OF(engines) : COUNT_OF(engines) - 1;
+  engine_count = has_gpl() ? COUNT_OF(engines) : COUNT_OF(engines) - 1;
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_linear_function_on_the_border_is_continued_inside),
       cmocka_unit_test(hard_sites_are_exact_and_soft_ones_give_way),

@@ -57,7 +57,7 @@ double interior_residual(const Mesh& mesh, const std::vector<double>& u, const s
 }
 
 json hard_sites(const Mesh& mesh, const Run& run, Report& report) {
-  const Solver solver(mesh, {HF_ENGINE_GREEN, run.threads});
+  const Solver solver(mesh, {ENGINE_GREEN, run.threads});
   const std::vector<uint32_t> vertices = scattered_vertices(mesh.vertex_count(), 100, 3);
   std::vector<uint8_t> taken(mesh.vertex_count(), 0);
   for (const uint32_t v : vertices) taken[v] = 1;
@@ -134,7 +134,7 @@ double error_after_edits(const Mesh& mesh, const SolverOptions& options, uint32_
   info.vertices = vertices.data();
   info.values = values.data();
   check(hf_solver_get_sites(solver.handle(), &info));
-  const Solver exact(mesh, {HF_ENGINE_REFACTOR, options.threads});
+  const Solver exact(mesh, {ENGINE_REFACTOR, options.threads});
   hf_sites_desc same = HF_INIT(hf_sites_desc);
   same.site_count = info.capacity;
   same.vertices = vertices.data();
@@ -154,7 +154,7 @@ json run_mesh(Family family, const Run& run, Report& report) {
   row["name"] = mesh->name;
   row["n"] = mesh->vertex_count();
   const uint32_t count = run.small ? 500 : 10000;
-  const double green = error_after_edits(*mesh, {HF_ENGINE_GREEN, run.threads}, count, 1e4);
+  const double green = error_after_edits(*mesh, {ENGINE_GREEN, run.threads}, count, 1e4);
   row["edits"] = count;
   row["edits_error"] = green;
   std::printf("%-14s after %u random edits, values offset by 1e4: error / range %.1e\n", "", count, green);
@@ -172,11 +172,11 @@ json run_mesh(Family family, const Run& run, Report& report) {
   std::fflush(stdout);
   report.measure("biharmonic_change", mesh->name, run.threads, bent.change);
   const auto smaller = make_mesh(family, Size::k42, run.small);
-  const double same = error_after_edits(*smaller, {HF_ENGINE_GREEN, run.threads}, count, 1e4);
+  const double same = error_after_edits(*smaller, {ENGINE_GREEN, run.threads}, count, 1e4);
   row["edits_error_42K"] = same;
   std::printf("%-14s the same on %s: green %.1e", "", smaller->name.c_str(), same);
   try {
-    const double updown = error_after_edits(*smaller, {HF_ENGINE_UPDOWN, run.threads, HF_ORDERING_METIS}, count, 1e4);
+    const double updown = error_after_edits(*smaller, {ENGINE_UPDOWN, run.threads, HF_ORDERING_METIS}, count, 1e4);
     row["edits_error_42K_updown"] = updown;
     std::printf(", updown (the paper's, refined) %.1e", updown);
   } catch (const std::runtime_error& error) {

@@ -58,12 +58,11 @@ Solver::Solver(const Mesh& mesh, const SolverOptions& options)
   desc.field_kind = options.field_kind;
   desc.saved_factor = options.saved_factor;
   hf_solver_desc sites = HF_INIT(hf_solver_desc);
-  sites.engine = options.engine;
   sites.channel_count = options.channels;
   sites.field_kind = options.field_kind;
   create_ms_ = time_ms([&] {
     check(hf_surface_create(&desc, &surface_));
-    check(hf_create(surface_, &sites, &handle_));
+    check(create_with(options.engine, surface_, &sites, &handle_));
   });
 }
 

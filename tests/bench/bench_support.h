@@ -49,7 +49,7 @@ struct Mesh {
 };
 
 struct SolverOptions {
-  int engine = HF_ENGINE_GREEN;
+  int engine = ENGINE_GREEN;  // of support/peers.h
   uint32_t threads = 1;
   int ordering = HF_ORDERING_NESTED_DISSECTION;
   uint32_t channels = 1;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/inner_factor.h"
+#include "support/peers.h"
 
 namespace bench {
 namespace {
@@ -30,7 +31,7 @@ BiharmonicResult biharmonic_refinement(const Mesh& mesh, uint32_t threads) {
   std::vector<double> given;
   double low = 1, high = 0;
   {
-    SolverOptions options{HF_ENGINE_GREEN, threads};
+    SolverOptions options{ENGINE_GREEN, threads};
     options.field_kind = HF_FIELD_BIHARMONIC;
     const Solver solver(mesh, options);
     Sites(solver).edit(sites, {});

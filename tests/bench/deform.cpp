@@ -13,6 +13,7 @@
 #include "support/arap_oracle.h"
 #include "support/meshes.h"
 #include "support/arrays.h"
+#include "support/pose_modes.h"
 
 namespace bench {
 namespace {
@@ -49,9 +50,7 @@ class Rig {
  public:
   Rig(const Mesh& mesh, const Solver& solver, const std::vector<std::vector<uint32_t>>& regions, int mode = 0)
       : positions(3 * static_cast<size_t>(mesh.vertex_count())), normals(positions.size()) {
-    hf_pose_desc desc = HF_INIT(hf_pose_desc);
-    desc.mode = mode;
-    check(hf_pose_create(solver.surface(), &desc, &pose));
+    check(create_pose_with(mode, solver.surface(), nullptr, &pose));
     handles = add(regions, 0);
   }
   ~Rig() { hf_pose_destroy(pose); }
@@ -147,7 +146,7 @@ struct Added {
 };
 
 Added add_ms(const Mesh& mesh, const Solver& solver, std::vector<std::vector<uint32_t>> regions, const Run& run,
-             int mode = HF_DEFORM_SMOOTH) {
+             int mode = POSE_SMOOTH) {
   const std::vector<std::vector<uint32_t>> last{regions.back()};
   regions.pop_back();
   Rig rig(mesh, solver, regions, mode);
@@ -176,11 +175,11 @@ struct Exactness {
 };
 
 Exactness exactness(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& regions, uint32_t threads,
-                    hf_inner::DeformMode mode = hf_inner::DeformMode::smooth) {
+                    hf_test::DeformMode mode = hf_test::DeformMode::smooth) {
   using hf_inner::Vec3;
   const auto core = core_of(mesh, threads);
   hf_inner::PoseOptions options;
-  options.mode = mode;
+  options.scheme = hf_test::scheme_of(mode);
   const auto pose = hf_inner::PoseStack::make(core, options);
   const auto add = [&](size_t first, size_t last, uint32_t layer) {
     std::vector<uint32_t> start{0}, numbers(last - first);
@@ -244,11 +243,11 @@ Exactness exactness(const Mesh& mesh, const std::vector<std::vector<uint32_t>>& 
 // The same figures by the paper's scheme, which has no bars: 200 iterations a frame, all that it takes to arrive.
 nlohmann::json run_paper_mode(const Mesh& mesh, const Solver& solver, const std::vector<std::vector<uint32_t>>& regions,
                               const Run& run, double arap) {
-  Rig rig(mesh, solver, regions, HF_DEFORM_PAPER);
+  Rig rig(mesh, solver, regions, POSE_PAPER);
   rig.deform();
   const FrameTimes frames = drag(rig, 2 * run.repetitions, false);
-  const Added added = add_ms(mesh, solver, regions, run, HF_DEFORM_PAPER);
-  const Exactness exact = exactness(mesh, regions, run.threads, hf_inner::DeformMode::paper);
+  const Added added = add_ms(mesh, solver, regions, run, POSE_PAPER);
+  const Exactness exact = exactness(mesh, regions, run.threads, hf_test::DeformMode::paper);
   const double frame = median(frames.frame);
   std::printf(
       "%-12s the paper's scheme, 4 handles: frame %6.2f ms (solve %5.2f), one ARAP iteration = %.1f frames; a handle "

@@ -10,6 +10,7 @@
 #include "bench/commands.h"
 #include "bench/svg_plot.h"
 #include "support/arap_oracle.h"
+#include "support/pose_modes.h"
 #include "unit/deform/cases.h"
 
 namespace bench {
@@ -127,7 +128,7 @@ Rows run_deform_quality(const Run& run, Report& report) {
     std::printf("%s, %d vertices\n", c.name.c_str(), d.core->size());
 
     hf_inner::PoseOptions options;
-    options.mode = hf_inner::DeformMode::paper;
+    options.scheme = hf_test::scheme_of(hf_test::DeformMode::paper);
     Dragged paper = drag(c, options, 30, 10, run.threads);
     const std::vector<Vec3> early = positions(paper.report);
     for (int i = 0; i < 2; ++i) paper.report = paper.pose->deform({false, 1000, false});

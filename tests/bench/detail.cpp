@@ -106,7 +106,7 @@ Growth measure(const Solver& solver, uint32_t vertex, uint32_t wanted, uint32_t 
 // The sites of the grown rim by engine refactor: its edit factorises.
 double refactor_ms(const Mesh& mesh, const Growth& growth, uint32_t threads, uint32_t repetitions) {
   SolverOptions options = own_defaults(threads);
-  options.engine = HF_ENGINE_REFACTOR;
+  options.engine = ENGINE_REFACTOR;
   options.channels = 3;
   const Solver solver(mesh, options);
   std::vector<double> field, times;

@@ -115,7 +115,7 @@ void print_numeric(const char* what, const json& row) {
 
 // Through the C ABI: the factor saved as bytes, then hf_create with them, copied and read in place.
 json store_and_load(const Mesh& mesh, const Run& run) {
-  const SolverOptions options{HF_ENGINE_GREEN, run.threads};
+  const SolverOptions options{ENGINE_GREEN, run.threads};
   const Solver maker(mesh, options);
   const hf_surface_statistics made = maker.surface_statistics();
   const double make_ms = made.ordering_ms + made.symbolic_ms + made.numeric_ms;

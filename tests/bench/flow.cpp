@@ -54,7 +54,7 @@ Rows run_flow(const Run& run, Report& report) {
       const std::vector<uint32_t> places = scattered_vertices(mesh->vertex_count(), 60, 5);
       const std::vector<uint32_t> sites(places.begin(), places.begin() + 8);
       SolverOptions fresh = own_defaults(run.threads);
-      fresh.engine = HF_ENGINE_REFACTOR;
+      fresh.engine = ENGINE_REFACTOR;
       const Solver solver(*mesh, own_defaults(run.threads)), again(*mesh, fresh);
       Sites live(solver), slow(again);
       live.edit(sites, {});

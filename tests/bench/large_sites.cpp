@@ -20,7 +20,7 @@ double insert_and_solve(const Solver& solver, const std::vector<uint32_t>& verti
 
 Rows run_mesh(const Mesh& mesh, const Run& run, Report& report) {
   Rows rows = Rows::array();
-  const Solver green(mesh, {HF_ENGINE_GREEN, run.threads}), refactor(mesh, {HF_ENGINE_REFACTOR, run.threads});
+  const Solver green(mesh, {ENGINE_GREEN, run.threads}), refactor(mesh, {ENGINE_REFACTOR, run.threads});
   std::vector<float> field;
   const uint32_t scale = run.small ? 10 : 1;
   for (const uint32_t count : {100u, 300u, 1000u, 2000u, 5000u, 10000u}) {

@@ -41,7 +41,7 @@ nlohmann::json run_mesh(const Mesh& mesh, const Run& run, Report& report, bool j
   const bool watched = reset_resident_peak();
   const double before = status_bytes("VmRSS");
   std::vector<float> field(mesh.vertex_count());
-  const Solver solver(mesh, {HF_ENGINE_GREEN, run.threads});
+  const Solver solver(mesh, {ENGINE_GREEN, run.threads});
   Sites(solver).edit(scattered_vertices(mesh.vertex_count(), 10, 5), {});
   solver.solve(field);
   const hf_surface_statistics statistics = solver.surface_statistics();

@@ -14,7 +14,7 @@ Rows run_partial(const Run& run, Report&) {
     if (run.small && n > 5000) continue;
     const auto mesh = n == 304000 ? make_mesh(Family::torus, Size::k304, false) : make_mesh(Family::torus, n);
     if (!run.wants(mesh->name)) continue;
-    const Solver solver(*mesh, {HF_ENGINE_GREEN, run.threads});
+    const Solver solver(*mesh, {ENGINE_GREEN, run.threads});
     Sites(solver).edit(scattered_vertices(mesh->vertex_count(), 100, 21), {});
     std::vector<double> at(10), whole, at_times, whole_times;
     for (uint32_t r = 0; r < 5 * run.repetitions; ++r) {

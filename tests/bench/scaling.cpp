@@ -37,7 +37,7 @@ nlohmann::json run_mesh(const Mesh& mesh, const Run& run) {
   std::unique_ptr<Solver> solver;
   for (uint32_t r = 0; r < std::min(run.repetitions, n > 500000 ? 3u : 5u); ++r) {
     solver.reset();
-    solver = std::make_unique<Solver>(mesh, SolverOptions{HF_ENGINE_GREEN, run.threads});
+    solver = std::make_unique<Solver>(mesh, SolverOptions{ENGINE_GREEN, run.threads});
     const hf_surface_statistics s = solver->surface_statistics();
     create.push_back(solver->create_ms());
     ordering.push_back(s.ordering_ms);

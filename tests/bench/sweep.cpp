@@ -22,7 +22,7 @@ using json = nlohmann::json;
 class FieldSource {
  public:
   FieldSource(const Mesh& mesh, const std::vector<uint32_t>& vertices, uint32_t threads, uint32_t channels)
-      : solver_(mesh, {HF_ENGINE_GREEN, threads, HF_ORDERING_NESTED_DISSECTION, channels}),
+      : solver_(mesh, {ENGINE_GREEN, threads, HF_ORDERING_NESTED_DISSECTION, channels}),
         sites_(solver_),
         vertices_(vertices) {
     sites_.edit(vertices, {});

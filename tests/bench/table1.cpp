@@ -67,10 +67,10 @@ struct Batch {
 // Solvers of one mesh, made once for all its rows.
 struct Bed {
   Bed(const Mesh& given, uint32_t threads)
-      : mesh(given), green(mesh, {HF_ENGINE_GREEN, threads}), refactor(mesh, {HF_ENGINE_REFACTOR, threads}) {
+      : mesh(given), green(mesh, {ENGINE_GREEN, threads}), refactor(mesh, {ENGINE_REFACTOR, threads}) {
     // the paper's engine on METIS, as its users have it; not in builds without the GPL part
     try {
-      updown.emplace(mesh, SolverOptions{HF_ENGINE_UPDOWN, threads, HF_ORDERING_METIS});
+      updown.emplace(mesh, SolverOptions{ENGINE_UPDOWN, threads, HF_ORDERING_METIS});
     } catch (const std::runtime_error&) {
       updown.reset();
     }

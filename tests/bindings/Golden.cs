@@ -207,9 +207,9 @@ class Scene
                 }
             case "solver":
                 {
-                    var o = Options(step, "field_kind", "engine", "channel_count", "site_limit", "penalty");
-                    objects[name] = new Solver(surface, (FieldKind)o["field_kind"], (Engine)o["engine"],
-                        (uint)o["channel_count"], (uint)o["site_limit"], o["penalty"]);
+                    var o = Options(step, "field_kind", "channel_count", "site_limit");
+                    objects[name] = new Solver(surface, (FieldKind)o["field_kind"], (uint)o["channel_count"],
+                        (uint)o["site_limit"]);
                     return null;
                 }
             case "clone": objects[name] = solver.Clone(); return null;
@@ -376,8 +376,8 @@ class Scene
                 return null;
             case "directions": return ((Direction)on).SolveDouble();
             case "singularities": return ((Direction)on).Singularities().Select(p => (double)p.Index).ToArray();
-            case "pose": { var o = Options(step, "mode", "band_count");
-                objects[name] = new Pose(surface, (DeformMode)o["mode"], (uint)o["band_count"]); return null; }
+            case "pose": { var o = Options(step, "band_count");
+                objects[name] = new Pose(surface, (uint)o["band_count"]); return null; }
             case "add_handles":
                 bool inPlace = Flag(step, "in_place");
                 return pose.AddHandles(Lists(Get(step, "regions")), Doubles(step, "points"), Doubles(step, "radii"),

@@ -51,7 +51,7 @@ void Scene::make_object(const Json& step, const std::string& what) {
   object.vertex_count = n;
   if (what == "pose") {
     auto desc = make<hf_pose_desc>();
-    set_options(step, {{"mode", &desc.mode}, {"band_count", &desc.band_count}});
+    set_options(step, {{"band_count", &desc.band_count}});
     hf_pose raw = nullptr;
     check(hf_pose_create(surface, &desc, &raw));
     object.pose = hf::Handle<hf_pose, hf_pose_destroy>(raw);

@@ -33,11 +33,9 @@ hf_surface_point place_of(const Json& step, const char* key) {
 
 Result Scene::run_solver(const Json& step) {
   auto desc = make<hf_solver_desc>();
-  set_options(step, {{"field_kind", &desc.field_kind},
-                     {"engine", &desc.engine},
-                     {"channel_count", &desc.channel_count},
-                     {"site_limit", &desc.site_limit},
-                     {"penalty", &desc.penalty}});
+  set_options(
+      step,
+      {{"field_kind", &desc.field_kind}, {"channel_count", &desc.channel_count}, {"site_limit", &desc.site_limit}});
   Object& on = objects_[step["on"]];
   hf_solver raw = nullptr;
   check(hf_create(on.surface.get(), &desc, &raw));
@@ -174,9 +172,11 @@ Result Scene::run(const Json& step) {
   } else if (what == "solver_info") {
     auto info = make<hf_solver_info>();
     check(hf_solver_get_info(solver, &info));
-    result.fields = {{"field_kind", info.field_kind},       {"engine", info.engine},
-                     {"channel_count", info.channel_count}, {"site_limit", info.site_limit},
-                     {"site_count", info.site_count},       {"vertex_count", info.vertex_count}};
+    result.fields = {{"field_kind", info.field_kind},
+                     {"channel_count", info.channel_count},
+                     {"site_limit", info.site_limit},
+                     {"site_count", info.site_count},
+                     {"vertex_count", info.vertex_count}};
   } else if (what == "certify") {
     auto certificate = make<hf_certificate>();
     certificate.tolerance = step.contains("tolerance") ? number(step["tolerance"]) : 0.0;

@@ -199,7 +199,7 @@ class Arrays(unittest.TestCase):
                  lambda: surface.cast_ray([0, 0, 9], [0, 0, -1], positions=points[:5]),
                  lambda: surface.find_vertex("abc"), lambda: surface.find_vertex([np.nan, 0, 0]),
                  lambda: hf.Solver(None), lambda: hf.Solver(solver), lambda: hf.Solver(points),
-                 lambda: hf.Solver(surface, engine=7),
+                 lambda: hf.Solver(surface, field_kind=9),
                  lambda: solver.solve(np.zeros(3, np.float32)),
                  lambda: solver.solve(np.zeros(len(points), np.int32)), lambda: solver.solve(frozen),
                  lambda: solver.solve([0.0] * len(points)),

@@ -4,6 +4,7 @@
 
 #include "setting.h"
 #include "support/arrays.h"
+#include "support/peers.h"
 
 namespace invariance {
 namespace {
@@ -46,10 +47,8 @@ void move_handle(const Setting& s, hf_pose pose, std::uint32_t handle, std::size
 
 // Three handles: one stays, one turns, one is lifted.
 Pose pose_of(const Setting& s, std::int32_t mode) {
-  hf_pose_desc d = HF_INIT(hf_pose_desc);
-  d.mode = mode;
   Pose pose;
-  ok(hf_pose_create(s.surface(), &d, pose.out()));
+  ok(create_pose_with(mode, s.surface(), nullptr, pose.out()));
   add_handle(s, pose, 0, 0);
   move_handle(s, pose, add_handle(s, pose, 1, 0), 1, bend(), 0.05);
   move_handle(s, pose, add_handle(s, pose, 2, 0), 2, identity, 0.1);
@@ -72,7 +71,7 @@ void add_deformed(Measured& out, const Setting& s, hf_pose pose, std::int32_t re
 
 Measured measure_pose(const Setting& s) {
   Measured out;
-  const Pose pose = pose_of(s, HF_DEFORM_SMOOTH);
+  const Pose pose = pose_of(s, POSE_SMOOTH);
   add_deformed(out, s, pose, 0);
   std::vector<float> field(s.copy.points.size());
   ok(hf_pose_get_field(pose, 1, OUT(field.data())));
@@ -82,19 +81,19 @@ Measured measure_pose(const Setting& s) {
 
 Measured measure_refined_pose(const Setting& s) {
   Measured out;
-  add_deformed(out, s, pose_of(s, HF_DEFORM_SMOOTH), 8);
+  add_deformed(out, s, pose_of(s, POSE_SMOOTH), 8);
   return out;
 }
 
 Measured measure_paper_pose(const Setting& s) {
   Measured out;
-  add_deformed(out, s, pose_of(s, HF_DEFORM_PAPER), 0);
+  add_deformed(out, s, pose_of(s, POSE_PAPER), 0);
   return out;
 }
 
 Measured measure_layers(const Setting& s) {
   Measured out;
-  const Pose pose = pose_of(s, HF_DEFORM_SMOOTH);
+  const Pose pose = pose_of(s, POSE_SMOOTH);
   move_handle(s, pose, add_handle(s, pose, 3, 1), 3, bend(), 0.05);
   add_deformed(out, s, pose, 0);
   return out;

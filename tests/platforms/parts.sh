@@ -110,7 +110,7 @@ test_macos() {
       failed=$((failed + 1))
       continue
     fi
-    if "$hf_root/tests/platforms/dylib.sh" "$hf_root/build/$name/src/libhf.dylib" "$hf_root/bindings/functions.txt" "$processor"; then
+    if "$hf_root/tests/platforms/dylib.sh" "$hf_root/build/$name/without_peers/libhf.dylib" "$hf_root/bindings/functions.txt" "$processor"; then
       passed=$((passed + 1))
     else
       failed=$((failed + 1))

@@ -15,6 +15,7 @@
 #include "hf/hf.h"
 #include "report.h"
 #include "support/arrays.h"
+#include "support/peers.h"
 
 using namespace reliability;
 
@@ -99,10 +100,9 @@ void judge(const ExactShape& shape, Factor factor, std::int32_t engine, double s
   hf_solver solver = nullptr;
   hf_solver_desc solver_desc = HF_INIT(hf_solver_desc);
   solver_desc.field_kind = shape.field_kind;
-  solver_desc.engine = engine;
   ++counts.cases;
   const hf_result created = hf_surface_create(&desc, &surface);
-  if (created != HF_OK || hf_create(surface, &solver_desc, &solver) != HF_OK) {
+  if (created != HF_OK || create_with(engine, surface, &solver_desc, &solver) != HF_OK) {
     // too long for the digits of double: a bi-harmonic surface may be refused
     counts.unexpected += shape.field_kind == HF_FIELD_HARMONIC || created != HF_ERROR_NOT_POSITIVE_DEFINITE;
     hf_surface_destroy(surface);
@@ -197,20 +197,20 @@ int main(int argc, char** argv) {
   for (const std::uint32_t n : sizes) {
     for (const auto& make : shapes_of(n, n)) {
       const ExactShape shape = make();
-      judge(shape, Factor::sound, HF_ENGINE_GREEN, 0, list, counts);
-      if (n <= 8000 && !is_green_alone(shape)) judge(shape, Factor::sound, HF_ENGINE_REFACTOR, 0, list, counts);
+      judge(shape, Factor::sound, ENGINE_GREEN, 0, list, counts);
+      if (n <= 8000 && !is_green_alone(shape)) judge(shape, Factor::sound, ENGINE_REFACTOR, 0, list, counts);
       // a small factor has few numbers to be wrong
       if (n < 1000 || n > 50000) continue;
-      for (const double scale : {1 + 1e-4, 3.0}) judge(shape, Factor::damaged, HF_ENGINE_GREEN, scale, list, counts);
-      judge(shape, Factor::forged, HF_ENGINE_GREEN, 1.001, list, counts);
-      if (n <= 8000) judge(shape, Factor::forged, HF_ENGINE_GREEN, 2, list, counts);
+      for (const double scale : {1 + 1e-4, 3.0}) judge(shape, Factor::damaged, ENGINE_GREEN, scale, list, counts);
+      judge(shape, Factor::forged, ENGINE_GREEN, 1.001, list, counts);
+      if (n <= 8000) judge(shape, Factor::forged, ENGINE_GREEN, 2, list, counts);
     }
   }
   if (full) {
     const ExactShape tube = exact_tube(100000, 3, true, HF_FIELD_HARMONIC, 1);
     for (const double scale : {1 + 1e-9, 1 + 1e-6, 1 + 1e-4, 3.0})
-      judge(tube, Factor::damaged, HF_ENGINE_GREEN, scale, list, counts);
-    judge(tube, Factor::forged, HF_ENGINE_GREEN, 1.001, list, counts);
+      judge(tube, Factor::damaged, ENGINE_GREEN, scale, list, counts);
+    judge(tube, Factor::forged, ENGINE_GREEN, 1.001, list, counts);
   }
   report_at_least("CERTIFICATE_CASES", counts.cases, full ? 300 : 250);
   report_at_least("CERTIFICATE_FOUND_OUT", counts.found_out, 1);

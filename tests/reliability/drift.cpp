@@ -1,6 +1,6 @@
 // Whether the field drifts away from the exact one as sites come, go and move. The test makes 30,000 random edits of
 // about 50 sites on 41,000 vertices; a tenth of the sites are soft. One channel has values in [0, 1], the other in
-// [10,000, 10,001]. At every checkpoint a new solver eliminates the same sites (HF_ENGINE_REFACTOR), and the two fields
+// [10,000, 10,001]. At every checkpoint a new solver eliminates the same sites (ENGINE_REFACTOR), and the two fields
 // are compared. The quick form makes 2,000 edits.
 #include <algorithm>
 
@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   for (int done = 1; done <= edits; ++done) {
     solver.edit(50, offsets);
     if (done % (edits / checkpoints) != 0) continue;
-    const std::vector<double> got = solver.field(), exact = solver.fresh_field(HF_ENGINE_REFACTOR);
+    const std::vector<double> got = solver.field(), exact = solver.fresh_field(ENGINE_REFACTOR);
     for (std::size_t i = 0; i < got.size(); ++i) {
       const double error = std::fabs(got[i] - exact[i]);
       worst[i % 2] = error >= 0 ? std::max(worst[i % 2], error) : HUGE_VAL;

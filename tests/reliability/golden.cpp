@@ -155,18 +155,17 @@ class Stages {
     hf_solver_destroy(solver);
   }
 
-  // Solves with every operator and kind of field, with minimum degree and HF_ENGINE_REFACTOR among them.
+  // Solves with every operator and kind of field, with minimum degree and the baseline refactor among them.
   void operators(Hash& hash) {
     for (const int kind : {HF_FIELD_HARMONIC, HF_FIELD_BIHARMONIC, HF_FIELD_BIHARMONIC_GRAPH}) {
       for (const int op :
            {HF_OPERATOR_INTRINSIC_DELAUNAY, HF_OPERATOR_CLAMPED, HF_OPERATOR_UNIFORM, HF_OPERATOR_COTANGENT}) {
         hf_surface_desc d = base_;
-        hf_solver_desc wanted = desc<hf_solver_desc>();
         d.field_kind = kind;
         d.operator_kind = op;
-        wanted.engine = op == HF_OPERATOR_UNIFORM ? HF_ENGINE_REFACTOR : HF_ENGINE_GREEN;
         if (op == HF_OPERATOR_CLAMPED) d.ordering = HF_ORDERING_MINIMUM_DEGREE;
-        const hf_solver solver = make_solver(d, wanted);
+        const hf_solver solver =
+            make_solver(d, desc<hf_solver_desc>(), op == HF_OPERATOR_UNIFORM ? ENGINE_REFACTOR : ENGINE_GREEN);
         add(solver, 9, 701, 3, nullptr);
         must(hf_solver_solve(solver, OUT(doubles_.data()), nullptr), "hf_solver_solve");
         hash.take(doubles_.data(), n_);
@@ -209,10 +208,8 @@ class Stages {
     const hf_surface surface = make_surface(base_);
     const std::vector<std::uint32_t> ends = both_ends(rings);
     for (int mode = 0; mode < 2; ++mode) {
-      hf_pose_desc wanted = desc<hf_pose_desc>();
-      wanted.mode = mode;
       hf_pose pose = nullptr;
-      must(hf_pose_create(surface, &wanted, &pose), "hf_pose_create");
+      must(create_pose_with(mode, surface, nullptr, &pose), "hf_pose_create");
       const auto half = static_cast<std::uint32_t>(ends.size() / 2);
       const std::uint32_t counts[2] = {half, half};
       hf_handles_desc regions = desc<hf_handles_desc>();
@@ -226,7 +223,7 @@ class Stages {
       hf_deform_desc deform = desc<hf_deform_desc>();
       deform.positions = ROWS_OUT(floats_.data());
       deform.normals = ROWS_OUT(normals.data());
-      deform.refine = mode == HF_DEFORM_SMOOTH;
+      deform.refine = mode == POSE_SMOOTH;
       for (int frame = 1; frame <= 6; ++frame) {  // the turns (1 - t^2, 2 t) / (1 + t^2) need no sine
         const double t = 0.125 * frame, unit = 1 + t * t;
         const hf_transform turned = {{0, 2 * t / unit, 0, (1 - t * t) / unit}, {2 * t, 0.5, -t}};
@@ -246,10 +243,8 @@ class Stages {
     const std::vector<std::uint32_t> ends = both_ends(rings);
     std::vector<float> posed(3 * std::size_t{n_}), out(posed.size());
     for (int mode = 0; mode < 2; ++mode) {
-      hf_transfer_desc wanted = desc<hf_transfer_desc>();
-      wanted.mode = mode;
       hf_transfer transfer = nullptr;
-      must(hf_transfer_create(surface, surface, &wanted, &transfer), "hf_transfer_create");
+      must(create_transfer_with(mode, surface, surface, nullptr, &transfer), "hf_transfer_create");
       const auto half = static_cast<std::uint32_t>(ends.size() / 2);
       const std::uint32_t counts[2] = {half, half};
       hf_pairs_desc pairs = desc<hf_pairs_desc>();

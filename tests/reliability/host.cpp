@@ -2,7 +2,7 @@
 // API (whole_api.h). A host with floating-point traps, flush-to-zero or another rounding mode gets the same bits as any
 // other.
 //
-// The runs include HF_ENGINE_UPDOWN and METIS in builds that have them. Threads are counted without these, because
+// The runs include ENGINE_UPDOWN and METIS in builds that have them. Threads are counted without these, because
 // Debian's CHOLMOD keeps OpenMP threads after its first use.
 #include <fcntl.h>
 #include <sched.h>

@@ -108,11 +108,9 @@ void states(const Scene& s) {
   hf_transfer_destroy(transfer);
   hf_solver_destroy(solver);
 
-  hf_solver_desc refactor = desc<hf_solver_desc>();
-  refactor.engine = HF_ENGINE_REFACTOR;
-  solver = make_solver(surface, refactor);
+  solver = make_solver(surface, desc<hf_solver_desc>(), ENGINE_REFACTOR);
   add_one(solver, 3, 1);
-  provoke(hf_solver_prepare_rebase(solver), "a rebase of an engine that has none");
+  provoke(hf_solver_prepare_rebase(solver), "a rebase of a baseline");
   hf_solver_destroy(solver);
   hf_surface_destroy(surface);
 

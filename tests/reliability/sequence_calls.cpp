@@ -149,7 +149,7 @@ void Player::reload() {
   auto fresh = std::make_unique<Branch>(setting_);
   fresh->surface = make_surface(field_kind_, &factor);
   const hf_solver_desc d = solver_desc();
-  expect(HF_OK, hf_create(fresh->surface->handle, &d, &fresh->solver), "hf_create");
+  expect(HF_OK, create_with(setting_.engine, fresh->surface->handle, &d, &fresh->solver), "hf_create");
   const Model::Sites sites = here().model.sites();
   branches_[active_] = std::move(fresh);
   for (const auto& entry : sites) {
@@ -211,9 +211,9 @@ void Player::preview() {
   expect(HF_OK, got, "hf_solver_solve_preview");
   if (info.exact) hold(info.correction_count == 0 && info.error_estimate == 0, "an exact preview says it is not");
   const double error = error_of(here(), field);
-  const double most = setting_.engine == HF_ENGINE_UPDOWN || info.exact ? penalty_tolerance
-                      : corrections == 0                                ? 1e-3
-                                                                        : 1e-6;
+  const double most = setting_.engine == ENGINE_UPDOWN || info.exact ? penalty_tolerance
+                      : corrections == 0                             ? 1e-3
+                                                                     : 1e-6;
   char text[96];
   std::snprintf(text, sizeof text, "a preview with %u corrections is off by %.3g of its scale", corrections, error);
   hold(error <= most, text);
@@ -224,7 +224,7 @@ void Player::rebase() {
   for (const auto& site : here().model.sites())
     hard = hard || (site.second.at_vertex >= 0 && site.second.stiffness == 0);
   const hf_result got = hf_solver_prepare_rebase(here().solver);
-  if (setting_.engine != HF_ENGINE_GREEN) return expect(HF_ERROR_UNSUPPORTED, got, "hf_solver_prepare_rebase");
+  if (setting_.engine != ENGINE_GREEN) return expect(HF_ERROR_UNSUPPORTED, got, "hf_solver_prepare_rebase");
   expect(hard ? HF_OK : HF_ERROR_EMPTY, got, "hf_solver_prepare_rebase");
 }
 

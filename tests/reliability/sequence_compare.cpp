@@ -85,7 +85,7 @@ void Player::compare_sites(Branch& branch) {
         components[i] == static_cast<std::uint32_t>(site.component) && stiffness[i] == site.stiffness &&
         std::equal(site.values.begin(), site.values.end(), values.begin() + static_cast<std::ptrdiff_t>(i * m));
     hold(same, "hf_solver_get_sites: site " + std::to_string(number) + " is not what was set");
-    for (std::size_t c = 0; c < m && setting_.engine != HF_ENGINE_UPDOWN; ++c) {
+    for (std::size_t c = 0; c < m && setting_.engine != ENGINE_UPDOWN; ++c) {
       const Eigen::Index column = static_cast<Eigen::Index>(c);
       // the fluxes of crowded points are far larger than those of the field
       const double unit = std::max(setting_.operation->mean_diagonal[static_cast<std::size_t>(site.component)] *
@@ -95,7 +95,7 @@ void Player::compare_sites(Branch& branch) {
       char text[96];
       std::snprintf(text, sizeof text, "hf_solver_get_sites: the flux of site %u is off by %.3g of its scale", number,
                     error);
-      hold(error <= (setting_.engine == HF_ENGINE_GREEN ? 1e-8 : 1e-6), text);
+      hold(error <= (setting_.engine == ENGINE_GREEN ? 1e-8 : 1e-6), text);
     }
     ++i;
   }
@@ -108,9 +108,9 @@ void Player::compare(Branch& branch) {
   const double error = error_of(branch, field);
   double& worst = outcome_.worst[static_cast<std::size_t>(setting_.engine)];
   worst = std::max(worst, error);
-  const double most = setting_.engine == HF_ENGINE_UPDOWN     ? penalty_tolerance
-                      : setting_.engine == HF_ENGINE_REFACTOR ? baseline_tolerance
-                                                              : exact_tolerance;
+  const double most = setting_.engine == ENGINE_UPDOWN     ? penalty_tolerance
+                      : setting_.engine == ENGINE_REFACTOR ? baseline_tolerance
+                                                           : exact_tolerance;
   char text[64];
   std::snprintf(text, sizeof text, "the field is off by %.3g of its scale", error);
   hold(error <= most, text);

@@ -9,7 +9,7 @@
 namespace sequences {
 namespace {
 
-constexpr double updown_penalty = 1e8;  // the default of hf_solver_desc.penalty
+constexpr double updown_penalty = 1e8;  // the default of hf_peer_updown_create
 
 bool all_finite(const double* values, std::size_t count) {
   return std::all_of(values, values + count, [](double x) { return std::isfinite(x); });
@@ -130,7 +130,7 @@ hf_result Model::judge(const Edit& edit) {
     added_.push_back(site);
   }
   // penalties are never dependent
-  return setting_.engine != HF_ENGINE_UPDOWN && dependent(next_, added_) ? HF_ERROR_CONFLICT : HF_OK;
+  return setting_.engine != ENGINE_UPDOWN && dependent(next_, added_) ? HF_ERROR_CONFLICT : HF_OK;
 }
 
 bool Model::accept(const std::vector<std::uint32_t>& added) {
@@ -180,7 +180,7 @@ void Model::solve_component(int component) {
       a(n + i, local[at(vertex)]) += weight;
     }
     double stiffness = site.stiffness;
-    if (setting_.engine == HF_ENGINE_UPDOWN)
+    if (setting_.engine == ENGINE_UPDOWN)
       stiffness = stiffness > 0 ? std::min(stiffness, updown_penalty) : updown_penalty;
     a(n + i, n + i) = stiffness > 0 ? 1 / stiffness : 0.0;
     for (Eigen::Index c = 0; c < m; ++c) values(i, c) = site.values[static_cast<std::size_t>(c)];

@@ -8,6 +8,7 @@
 
 #include "hf/solver.h"
 #include "sequence_mesh.h"
+#include "support/peers.h"
 
 namespace sequences {
 
@@ -37,7 +38,7 @@ struct Edit {
 struct Setting {
   const Surface* surface = nullptr;
   const Operator* operation = nullptr;
-  int engine = HF_ENGINE_GREEN;
+  int engine = ENGINE_GREEN;
   std::size_t channels = 1;
   std::size_t site_limit = 24;
 };

@@ -37,7 +37,6 @@ hf_surface_desc Player::surface_desc(int field_kind) const {
 hf_solver_desc Player::solver_desc() const {
   hf_solver_desc d = HF_INIT(hf_solver_desc);
   d.field_kind = field_kind_;
-  d.engine = setting_.engine;
   d.channel_count = static_cast<std::uint32_t>(setting_.channels);
   d.site_limit = static_cast<std::uint32_t>(setting_.site_limit);
   return d;
@@ -66,9 +65,9 @@ void Player::begin() {
   const int fields[4] = {HF_FIELD_HARMONIC, HF_FIELD_HARMONIC, HF_FIELD_BIHARMONIC, HF_FIELD_BIHARMONIC_GRAPH};
   field_kind_ = fields[bytes_.take() % 4];
   const unsigned engine = bytes_.take() % 8;
-  setting_.engine = engine < 6 ? HF_ENGINE_GREEN : HF_ENGINE_REFACTOR;
-  static const bool peers = has_peers();
-  if (engine == 7 && peers) setting_.engine = HF_ENGINE_UPDOWN;
+  setting_.engine = engine < 6 ? ENGINE_GREEN : ENGINE_REFACTOR;
+  static const bool gpl = has_gpl();
+  if (engine == 7 && gpl) setting_.engine = ENGINE_UPDOWN;
   ordering_ = static_cast<int>(bytes_.take() % 2);
   setting_.channels = 1 + bytes_.take() % 3;
   setting_.surface = surface_;
@@ -77,7 +76,7 @@ void Player::begin() {
   // one surface in two lacks the factor of the solver
   here().surface = make_surface(ordering_ == 0 ? field_kind_ : HF_FIELD_HARMONIC);
   const hf_solver_desc d = solver_desc();
-  expect(HF_OK, hf_create(here().surface->handle, &d, &here().solver), "hf_create");
+  expect(HF_OK, create_with(setting_.engine, here().surface->handle, &d, &here().solver), "hf_create");
 }
 
 Place Player::take_place(bool points) {

@@ -11,7 +11,8 @@ void Player::share() {
   surface_of(here());
   made->surface = here().surface;
   const hf_solver_desc d = solver_desc();
-  expect(HF_OK, hf_create(made->surface->handle, &d, &made->solver), "hf_create on a shared surface");
+  expect(HF_OK, create_with(setting_.engine, made->surface->handle, &d, &made->solver),
+         "hf_create on a shared surface");
   compare(*made);
   if (branches_.size() == 3) return;
   branches_.push_back(std::move(made));

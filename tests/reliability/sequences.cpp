@@ -46,6 +46,6 @@ int main(int argc, char** argv) {
   report_at_most("sequences_failed", static_cast<double>(failures), 0);
   report_at_most("sequences_error_green", worst[0], sequences::exact_tolerance);
   report_at_most("sequences_error_refactor", worst[2], sequences::baseline_tolerance);
-  if (has_peers()) report_at_most("sequences_error_penalty", worst[1], sequences::penalty_tolerance);
+  if (has_gpl()) report_at_most("sequences_error_penalty", worst[1], sequences::penalty_tolerance);
   return report_status();
 }

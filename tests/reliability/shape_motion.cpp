@@ -3,6 +3,7 @@
 
 #include "shape_play.h"
 #include "support/arrays.h"
+#include "support/peers.h"
 
 namespace shapes {
 
@@ -20,12 +21,13 @@ bool Player::transfer() {
   }
   const Mesh& target = itself ? mesh_ : other;
   hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-  desc.mode = static_cast<int>(how / 2 % 4);
+  std::int32_t kind = static_cast<std::int32_t>(how / 2 % 4);
   desc.ground = how & 8 ? HF_GROUND_OFF : HF_GROUND_KEEP;
-  if (desc.mode == 3) desc.mode = HF_TRANSFER_FIELDS;
+  if (kind == 3) kind = TRANSFER_FIELDS;
+  desc.mode = mode_of(kind);
   desc.cluster_count = how & 16 ? 6 : 0;
   Owned<hf_transfer, hf_transfer_destroy> transfer;
-  expect(HF_OK, hf_transfer_create(surface_, itself ? surface_ : second.handle, &desc, &transfer.handle),
+  expect(HF_OK, create_transfer_with(kind, surface_, itself ? surface_ : second.handle, &desc, &transfer.handle),
          "hf_transfer_create");
   const std::uint32_t flags[] = {0,
                                  HF_PAIR_TRUNK | HF_PAIR_ANCHOR,
@@ -67,7 +69,7 @@ bool Player::transfer() {
     return out;
   };
   std::vector<std::uint8_t> sinking(target.vertex_count(), 2);
-  if (desc.mode != HF_TRANSFER_STRETCH || how & 32) {
+  if (kind != TRANSFER_STRETCH || how & 32) {
     if (done("hf_transfer_get_sinking", hf_transfer_get_sinking(transfer.handle, sinking.data()), HF_ERROR_UNSUPPORTED))
       hold(*std::max_element(sinking.begin(), sinking.end()) <= 1, "hf_transfer_get_sinking: neither 0 nor 1");
   }

@@ -46,18 +46,18 @@ void take_field(Story& s, hf_solver solver, std::size_t channels = 1) {
 }
 
 // A solver on a surface of its own, which is destroyed at once.
-hf_solver made(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
+hf_solver made(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc, std::int32_t engine = ENGINE_GREEN) {
   hf_surface surface = nullptr;
   hf_solver solver = nullptr;
   s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&on, &surface); });
-  if (surface) s.make_factor("hf_create", solver, [&] { return hf_create(surface, &desc, &solver); });
+  if (surface) s.make_factor("hf_create", solver, [&] { return create_with(engine, surface, &desc, &solver); });
   hf_surface_destroy(surface);
   return solver;
 }
 
 // Edits of every kind, a clone from before them and one from after.
-void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
-  const hf_solver solver = made(s, on, desc);
+void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc, std::int32_t engine = ENGINE_GREEN) {
+  const hf_solver solver = made(s, on, desc, engine);
   hf_solver before = nullptr, copy = nullptr;
   if (!solver) return;
   const std::uint32_t places[4] = {0, 30, 51, 79}, others[3] = {5, 44, 62};
@@ -78,7 +78,7 @@ void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
   s.make("hf_solver_clone", copy, [&] { return hf_solver_clone(solver, &copy); });
   take_field(s, solver);
   take_field(s, before);
-  if (desc.engine == HF_ENGINE_GREEN && desc.field_kind == HF_FIELD_HARMONIC) {
+  if (engine == ENGINE_GREEN && desc.field_kind == HF_FIELD_HARMONIC) {
     const std::vector<double> screening(Tube::vertices, 0.5), targets(Tube::vertices, 2.0);
     s.call("hf_solver_set_screening",
            [&] { return hf_solver_set_screening(solver, screening.data(), targets.data()); });
@@ -106,14 +106,10 @@ void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc) {
 
 void green(Story& s, const Tube& tube, Allocator& memory) { edits(s, tube.desc(memory), HF_INIT(hf_solver_desc)); }
 void refactor(Story& s, const Tube& tube, Allocator& memory) {
-  hf_solver_desc desc = HF_INIT(hf_solver_desc);
-  desc.engine = HF_ENGINE_REFACTOR;
-  edits(s, tube.desc(memory), desc);
+  edits(s, tube.desc(memory), HF_INIT(hf_solver_desc), ENGINE_REFACTOR);
 }
 void updown(Story& s, const Tube& tube, Allocator& memory) {
-  hf_solver_desc desc = HF_INIT(hf_solver_desc);
-  desc.engine = HF_ENGINE_UPDOWN;
-  edits(s, tube.desc(memory), desc);
+  edits(s, tube.desc(memory), HF_INIT(hf_solver_desc), ENGINE_UPDOWN);
 }
 void biharmonic(Story& s, const Tube& tube, Allocator& memory) {
   hf_surface_desc on = tube.desc(memory);
@@ -342,7 +338,7 @@ hf_surface_desc Tube::desc(Allocator& memory) const {
 
 std::vector<Chapter> field_chapters() {
   std::vector<Chapter> chapters;
-  if (has_peers()) chapters.push_back({"updown", updown});
+  if (has_gpl()) chapters.push_back({"updown", updown});
   const Chapter others[] = {{"green", green},
                             {"refactor", refactor},
                             {"biharmonic", biharmonic},

@@ -1,6 +1,7 @@
 // Stories of analysis, directions, poses, transfers, quads, regions and skin weights.
 #include "stories.h"
 #include "support/arrays.h"
+#include "support/peers.h"
 
 namespace refusal {
 namespace {
@@ -90,10 +91,8 @@ void directions(Story& s, const Tube& tube, Allocator& memory) {
 
 void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   const hf_surface surface = made(s, tube, memory);
-  hf_pose_desc desc = HF_INIT(hf_pose_desc);
-  desc.mode = mode;
   hf_pose pose = nullptr, copy = nullptr;
-  s.make_factor("hf_pose_create", pose, [&] { return hf_pose_create(surface, &desc, &pose); });
+  s.make_factor("hf_pose_create", pose, [&] { return create_pose_with(mode, surface, nullptr, &pose); });
   hf_surface_destroy(surface);
   const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
   hf_handles_desc handles = HF_INIT(hf_handles_desc), layer = HF_INIT(hf_handles_desc);
@@ -110,7 +109,7 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   deform.positions = ROWS_OUT(posed.data());
   deform.normals = ROWS_OUT(normals.data());
   deform.restart = 1;
-  deform.refine = mode == HF_DEFORM_SMOOTH;
+  deform.refine = mode == POSE_SMOOTH;
   s.call("hf_pose_deform", [&] { return hf_pose_deform(pose, &deform, nullptr); });
   s.take(posed.data(), posed.size());
   s.make("hf_pose_clone", copy, [&] { return hf_pose_clone(pose, &copy); });
@@ -129,8 +128,8 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   hf_pose_destroy(pose);
   hf_pose_destroy(copy);
 }
-void smooth_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, HF_DEFORM_SMOOTH); }
-void paper_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, HF_DEFORM_PAPER); }
+void smooth_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, POSE_SMOOTH); }
+void paper_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, POSE_PAPER); }
 
 void transfer(Story& s, const Tube& tube, Allocator& memory) {
   // the target lacks the harmonic factor that transfers use

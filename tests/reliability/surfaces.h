@@ -9,6 +9,7 @@
 
 #include "hf/hf.h"
 #include "support/arrays.h"
+#include "support/peers.h"
 
 namespace reliability {
 
@@ -69,17 +70,20 @@ inline hf_surface make_surface(const hf_surface_desc& d) {
   return surface;
 }
 
-inline hf_solver make_solver(hf_surface surface, const hf_solver_desc& d = desc<hf_solver_desc>()) {
+// engine: ENGINE_*
+inline hf_solver make_solver(hf_surface surface, const hf_solver_desc& d = desc<hf_solver_desc>(),
+                             std::int32_t engine = ENGINE_GREEN) {
   hf_solver solver = nullptr;
-  must(hf_create(surface, &d, &solver), "hf_create");
+  must(create_with(engine, surface, &d, &solver), "hf_create");
   return solver;
 }
 
 // A solver on a surface that is destroyed at once: the solver keeps what it needs.
-inline hf_solver make_solver(const hf_surface_desc& on, hf_solver_desc d = desc<hf_solver_desc>()) {
+inline hf_solver make_solver(const hf_surface_desc& on, hf_solver_desc d = desc<hf_solver_desc>(),
+                             std::int32_t engine = ENGINE_GREEN) {
   const hf_surface surface = make_surface(on);
   d.field_kind = on.field_kind;
-  const hf_solver solver = make_solver(surface, d);
+  const hf_solver solver = make_solver(surface, d, engine);
   hf_surface_destroy(surface);
   return solver;
 }
@@ -160,8 +164,7 @@ class EditedSolver {
   std::vector<double> fresh_field(std::int32_t engine) const {
     hf_solver_desc d = desc<hf_solver_desc>();
     d.channel_count = m_;
-    d.engine = engine;
-    const hf_solver solver = make_solver(surface_, d);
+    const hf_solver solver = make_solver(surface_, d, engine);
     std::vector<std::uint32_t> vertices;
     std::vector<double> values, stiffness, out(std::size_t{mesh_.vertex_count()} * m_);
     for (const Held& h : held) {

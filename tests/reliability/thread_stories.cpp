@@ -1,3 +1,4 @@
+#include "support/peers.h"
 #include "thread_stories.h"
 
 #include "support/arrays.h"
@@ -102,9 +103,7 @@ Objects make_objects(const Scene& s) {
   const std::vector<std::uint32_t> vertices = {3, 100, 400, 801, 1200};
   const hf_sites_desc sites = sites_desc(vertices, s.values.data());
   must(hf_add_sites(o.solver, &sites, nullptr), "hf_add_sites");
-  hf_solver_desc refactor = desc<hf_solver_desc>();
-  refactor.engine = HF_ENGINE_REFACTOR;
-  o.refactor = make_solver(o.surface, refactor);
+  o.refactor = make_solver(o.surface, desc<hf_solver_desc>(), ENGINE_REFACTOR);
   must(hf_add_sites(o.refactor, &sites, nullptr), "hf_add_sites, refactor");
   must(hf_geodesics_create(o.surface, nullptr, &o.geodesics), "hf_geodesics_create");
   must(hf_flow_create(o.surface, &o.flow), "hf_flow_create");
@@ -326,11 +325,10 @@ void read_directions(const Scene& s, const Objects& o, unsigned, Seen& seen) {
 // Makes new objects of the shared ones.
 void make_more(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   hf_pose_desc paper = desc<hf_pose_desc>();
-  paper.mode = t % 2 == 0 ? HF_DEFORM_PAPER : HF_DEFORM_SMOOTH;
   paper.iteration_count = 6;
   hf_pose pose = nullptr;
   std::uint32_t handles[2];
-  seen.call(hf_pose_create(o.surface, &paper, &pose));
+  seen.call(create_pose_with(t % 2 == 0 ? POSE_PAPER : POSE_SMOOTH, o.surface, &paper, &pose));
   seen.call(add_ends(s, pose, handles));
   seen.call(turn(pose, handles[0], 0.2 + 0.1 * t));
   take_pose(s, pose, seen);
@@ -363,7 +361,8 @@ void make_more(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
 
 // ---- edits, of clones ----
 
-void edit_solver(const Scene& s, hf_solver solver, unsigned t, Seen& seen) {
+// rebases: whether its engine can move sites into the factor.
+void edit_solver(const Scene& s, hf_solver solver, bool rebases, unsigned t, Seen& seen) {
   std::vector<std::uint32_t> vertices = {40 + 17 * t, 300 + t, 640 + 3 * t};
   std::uint32_t sites[3];
   const hf_sites_desc more = sites_desc(vertices, s.values.data() + t);
@@ -383,7 +382,7 @@ void edit_solver(const Scene& s, hf_solver solver, unsigned t, Seen& seen) {
   hf_solver_info made = desc<hf_solver_info>();
   seen.call(hf_solver_get_info(solver, &made));
   seen.take(&made, 1);
-  if (t % 4 == 3 && made.engine == HF_ENGINE_GREEN) {
+  if (t % 4 == 3 && rebases) {
     seen.call(hf_solver_prepare_rebase(solver));
     take_field(s, solver, seen);
   }
@@ -437,7 +436,7 @@ void edit_region(const Scene& s, hf_region region, unsigned t, Seen& seen) {
 void clone_and_edit(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   Objects mine;
   seen.call(hf_solver_clone(o.solver, &mine.solver));
-  edit_solver(s, mine.solver, t, seen);
+  edit_solver(s, mine.solver, true, t, seen);
   seen.call(hf_pose_create(o.bent, nullptr, &mine.pose));  // the harmonic factor is shared with other threads
   std::uint32_t handles[2];
   seen.call(add_ends(s, mine.pose, handles));
@@ -447,7 +446,7 @@ void clone_and_edit(const Scene& s, const Objects& o, unsigned t, Seen& seen) {
   seen.call(edit_to(mine.region, patch_at(s, 9, 3 + t)));
   take_region(s, mine.region, seen);
   seen.call(hf_solver_clone(o.refactor, &mine.refactor));
-  edit_solver(s, mine.refactor, t, seen);
+  edit_solver(s, mine.refactor, false, t, seen);
   destroy(mine);
 }
 
@@ -466,8 +465,8 @@ void clone_and_edit_shapes(const Scene& s, const Objects& o, unsigned t, Seen& s
 
 std::uint64_t edit_all(const Scene& s, const Objects& o, unsigned t) {
   Seen seen;
-  edit_solver(s, o.solver, t, seen);
-  edit_solver(s, o.refactor, t, seen);
+  edit_solver(s, o.solver, true, t, seen);
+  edit_solver(s, o.refactor, false, t, seen);
   edit_pose(s, o.pose, t, seen);
   edit_direction(s, o.direction, t, seen);
   edit_region(s, o.region, t, seen);

@@ -9,7 +9,7 @@ namespace reliability {
 struct Objects {
   hf_surface surface = nullptr, bent = nullptr;    // of a harmonic and of a bi-harmonic factor
   hf_transfer transfer = nullptr;                  // with pairs, not applied yet
-  hf_solver solver = nullptr, refactor = nullptr;  // of HF_ENGINE_GREEN and HF_ENGINE_REFACTOR
+  hf_solver solver = nullptr, refactor = nullptr;  // of hf_create and hf_peer_refactor_create
   hf_geodesics geodesics = nullptr;
   hf_flow flow = nullptr;
   hf_quads quads = nullptr;

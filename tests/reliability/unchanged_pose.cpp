@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/peers.h"
 #include "unchanged.h"
 #include "support/arrays.h"
 
@@ -25,13 +26,13 @@ struct PoseBranch {
 class Poses final : public Subject {
  public:
   Poses(World& given, Random& random) : Subject(given) {
-    desc_.mode = random.pick({0, 0, 1});
+    mode_ = random.pick({POSE_SMOOTH, POSE_SMOOTH, POSE_PAPER});
     desc_.band_count = random.pick({0u, 4u});
     desc_.iteration_count = random.pick({0u, 3u, 10u});
-    desc_.rim_site_count = random.pick({0u, 0u, 3u});
+    rim_site_count_ = random.pick({0u, 0u, 3u});
     desc_.group_count = random.pick({0u, 20u});
     branches_.resize(1);
-    if (hf_pose_create(world.surface, &desc_, &branches_[0].handle) != HF_OK) branches_.clear();
+    if (create(&branches_[0].handle) != HF_OK) branches_.clear();
   }
   ~Poses() override {
     for (PoseBranch& b : branches_) hf_pose_destroy(b.handle);
@@ -148,7 +149,14 @@ class Poses final : public Subject {
     return t;
   }
 
+  hf_result create(hf_pose* out) const {
+    return mode_ == POSE_PAPER ? hf_peer_pose_create(world.surface, &desc_, rim_site_count_, out)
+                               : hf_pose_create(world.surface, &desc_, out);
+  }
+
   hf_pose_desc desc_ = HF_INIT(hf_pose_desc);
+  std::int32_t mode_ = POSE_SMOOTH;
+  std::uint32_t rim_site_count_ = 0;  // of the paper's
   std::vector<PoseBranch> branches_;
 };
 
@@ -203,7 +211,7 @@ std::string Poses::compare_fresh(const PoseBranch& b) const {
   for (const auto& [refine, from_last] : {std::pair{0, 0}, std::pair{3, 0}, std::pair{2, 1}}) {
     hf_pose fresh = nullptr, copy = nullptr;
     std::vector<double> here, there;
-    hf_result result = hf_pose_create(world.surface, &desc_, &fresh);
+    hf_result result = create(&fresh);
     if (result == HF_OK) result = fill(fresh, b, refine > 0);
     if (result == HF_OK) result = frame_of(fresh, refine, from_last, there);
     if (result == HF_OK) result = hf_pose_clone(b.handle, &copy);
@@ -386,11 +394,11 @@ struct PoseCalls {
   static hf_result make(Subject& subject, Random& random) {
     Poses& s = of(subject);
     hf_pose_desc desc = HF_INIT(hf_pose_desc);
-    desc.mode = random.pick({0, 1, 2});
+    const std::int32_t mode = random.pick({POSE_SMOOTH, POSE_PAPER});
     desc.band_count = random.pick({0u, 1u, 64u});
     desc.group_count = random.below(3000);
     hf_pose made = s.branches_[0].handle;
-    const hf_result result = hf_pose_create(s.world.surface, random.spoiled(desc), &made);
+    const hf_result result = create_pose_with(mode, s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused pose is no NULL");
     return hf_pose_destroy(made), result;
   }

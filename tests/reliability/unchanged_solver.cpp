@@ -19,7 +19,7 @@ std::string Solvers::compare_fresh(const SolverBranch& b) const {
   if (count == 0 && b.screening.strength.empty()) return {};
   if (hf_solver_get_sites(b.handle, &info) != HF_OK) return "its sites are not told";
   hf_solver fresh = nullptr;
-  if (hf_create(surface(), &desc_, &fresh) != HF_OK) return "a fresh solver is refused";
+  if (create_with(engine_, surface(), &desc_, &fresh) != HF_OK) return "a fresh solver is refused";
   const bool before = count % 2 == 0;  // of the sites, or after them
   hf_result result = b.screening.strength.empty() || !before ? HF_OK : b.screening.set(fresh);
   std::size_t i = 0;
@@ -46,9 +46,9 @@ std::string Solvers::compare_fresh(const SolverBranch& b) const {
   for (const double v : b.screening.targets) scale = std::fmax(scale, std::fabs(v));
   double most = 0;
   for (std::size_t v = 0; v < field.size(); ++v) most = std::fmax(most, std::fabs(field[v] - other[v]));
-  const double tolerance = desc_.engine == HF_ENGINE_GREEN    ? 1e-9
-                           : desc_.engine == HF_ENGINE_UPDOWN ? 1e-6  // a penalty of 1e8 costs half of the digits
-                                                              : 1e-7;
+  const double tolerance = engine_ == ENGINE_GREEN    ? 1e-9
+                           : engine_ == ENGINE_UPDOWN ? 1e-6  // a penalty of 1e8 costs half of the digits
+                                                      : 1e-7;
   return most <= tolerance * scale ? "" : "a fresh solver differs by " + text(most / scale);
 }
 

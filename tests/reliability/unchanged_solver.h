@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "support/peers.h"
 #include "unchanged.h"
 #include "support/arrays.h"
 
@@ -58,18 +59,14 @@ class Solvers final : public Subject {
  public:
   Solvers(World& given, Random& random) : Subject(given) {
     desc_.field_kind = random.pick({0, 0, 0, 1, 2});
-    desc_.engine = random.pick({0, 0, 0, 0, 0, 1, 2});
+    engine_ = random.pick({0, 0, 0, 0, 0, 1, 2});
     desc_.channel_count = random.pick({1u, 1u, 3u, 2u});
     desc_.site_limit = random.pick({0u, 0u, 12u});
     channels_ = desc_.channel_count;
     if (random.one_in(6)) make_graph(random);
     hf_solver made = nullptr;
-    hf_result result = hf_create(surface(), &desc_, &made);
-    if (result == HF_ERROR_UNSUPPORTED && desc_.engine == HF_ENGINE_UPDOWN)  // a build without GPL code
-    {
-      desc_.engine = HF_ENGINE_GREEN;
-      result = hf_create(surface(), &desc_, &made);
-    }
+    if (engine_ == ENGINE_UPDOWN && !has_gpl()) engine_ = ENGINE_GREEN;
+    const hf_result result = create_with(engine_, surface(), &desc_, &made);
     if (result == HF_OK) branches_.emplace_back(made, SolverModel());
   }
   ~Solvers() override { hf_surface_destroy(graph_); }
@@ -208,6 +205,7 @@ class Solvers final : public Subject {
 
   hf_surface graph_ = nullptr;
   hf_solver_desc desc_ = HF_INIT(hf_solver_desc);
+  std::int32_t engine_ = ENGINE_GREEN;
   std::size_t channels_ = 1;
   std::vector<SolverBranch> branches_;
   std::set<hf_solver> waiting_;  // solvers with a rebase that waits

@@ -134,7 +134,7 @@ struct SolverCalls {
   static hf_result screen(Subject& subject, Random& random) {
     Solvers& s = of(subject);
     SolverBranch& b = s.any(random);
-    if ((s.graph_ || s.desc_.engine != HF_ENGINE_GREEN || s.desc_.field_kind != HF_FIELD_HARMONIC) && !random.one_in(4))
+    if ((s.graph_ || s.engine_ != ENGINE_GREEN || s.desc_.field_kind != HF_FIELD_HARMONIC) && !random.one_in(4))
       return skipped;  // it would be refused
     Screening given;
     const std::uint32_t vertices = s.world.shape->vertices(), reach = 1 + random.below(vertices);
@@ -175,13 +175,14 @@ struct SolverCalls {
     Solvers& s = of(subject);
     hf_solver_desc desc = s.desc_;
     desc.field_kind = random.pick({0, 1, 2, 3, -1});
-    desc.engine = random.pick({0, 0, 1, 2, 3});
+    const std::int32_t engine = random.pick({0, 0, 1, 2});
     desc.channel_count = random.pick({1u, 0u, 65u});
-    desc.penalty = random.pick({0.0, 1e8, -1.0, 2e10, random.number()});
-    desc.reserved = random.one_in(20);
+    const double penalty = random.pick({0.0, 1e8, -1.0, 2e10, random.number()});
     desc.progress = s.world.progress();
     hf_solver made = s.branches_[0].handle;
-    const hf_result result = hf_create(s.surface(), random.spoiled(desc), &made);
+    const hf_solver_desc* given = random.spoiled(desc);
+    const hf_result result = engine == ENGINE_UPDOWN ? hf_peer_updown_create(s.surface(), given, penalty, &made)
+                                                     : create_with(engine, s.surface(), given, &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused solver is no NULL");
     return hf_solver_destroy(made), result;
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "support/arrays.h"
+#include "support/peers.h"
 #include "unchanged.h"
 
 namespace unchanged {
@@ -22,9 +23,10 @@ struct Frame {
 class Transfers final : public Subject {
  public:
   Transfers(World& given, Random& random) : Subject(given) {
-    desc_.mode = random.pick({0, 0, 1, 2});
+    kind_ = random.pick({TRANSFER_FIELDS, TRANSFER_FIELDS, TRANSFER_PAPER, TRANSFER_STRETCH});
+    desc_.mode = mode_of(kind_);
     desc_.cluster_count = random.pick({5u, 10u});  // 80 on 80 vertices would rest on one vertex each
-    if (hf_transfer_create(world.surface, world.surface, &desc_, &handle_) != HF_OK) handle_ = nullptr;
+    if (create_transfer_with(kind_, world.surface, world.surface, &desc_, &handle_) != HF_OK) handle_ = nullptr;
   }
   ~Transfers() override { hf_transfer_destroy(handle_); }
   bool ready() const { return handle_ != nullptr; }
@@ -90,7 +92,7 @@ class Transfers final : public Subject {
   // The frame of a fresh transfer that gets the pairs there are, one by one or in one batch.
   hf_result frame_of_fresh(bool batch, std::vector<double>& out) const {
     hf_transfer fresh = nullptr;
-    hf_result result = hf_transfer_create(world.surface, world.surface, &desc_, &fresh);
+    hf_result result = create_transfer_with(kind_, world.surface, world.surface, &desc_, &fresh);
     std::vector<Pair> pairs = pairs_;
     std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.number < b.number; });
     for (const Pair& pair : pairs) {
@@ -149,6 +151,7 @@ class Transfers final : public Subject {
   }
 
   hf_transfer_desc desc_ = HF_INIT(hf_transfer_desc);
+  std::int32_t kind_ = TRANSFER_FIELDS;
   hf_transfer handle_ = nullptr;
   hf_transfer_dials dials_ = HF_INIT(hf_transfer_dials);
   std::vector<Pair> pairs_;
@@ -229,12 +232,13 @@ struct TransferCalls {
   static hf_result make(Subject& subject, Random& random) {
     Transfers& s = of(subject);
     hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
-    desc.mode = random.pick({0, 1, 2, 3});
+    const std::int32_t kind = random.pick({TRANSFER_FIELDS, TRANSFER_PAPER});
+    desc.mode = random.pick({0, 1, 2});
     desc.cluster_count = random.pick({0u, 512u, 513u});
     desc.kernel_width = random.number();
     desc.scale = random.number();
     hf_transfer made = s.handle_;
-    const hf_result result = hf_transfer_create(s.world.surface, s.world.surface, random.spoiled(desc), &made);
+    const hf_result result = create_transfer_with(kind, s.world.surface, s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused transfer is no NULL");
     return hf_transfer_destroy(made), result;
   }

@@ -92,12 +92,11 @@ int main(int argc, char** argv) {
     const hf_surface surface = make_surface(surface_desc(mesh));
     for (std::int32_t engine = 0; engine < 3; ++engine) {
       hf_solver_desc d = desc<hf_solver_desc>();
-      d.engine = engine;
       hf_solver solver = nullptr;
-      const hf_result made = hf_create(surface, &d, &solver);
+      const hf_result made = create_with(engine, surface, &d, &solver);
       if (made == HF_ERROR_UNSUPPORTED) continue;  // updown, without HF_WITH_GPL
       must(made, "hf_create");
-      const int count = engine == HF_ENGINE_GREEN ? (full ? 1000 : 200) : 20;
+      const int count = engine == ENGINE_GREEN ? (full ? 1000 : 200) : 20;
       Walk walk{solver, mesh, components, 140, random, {}, {}, {}};
       for (int i = 0; i < count; ++i, ++walks) {
         walk.choose();
@@ -122,8 +121,8 @@ int main(int argc, char** argv) {
   }
   report_at_least("WALKS", walks, 1000);
   report_at_most("WALKS_WRONG_ANSWERS", wrong, 0);
-  report_at_most("WALKS_ERROR_GREEN", worst[HF_ENGINE_GREEN], 1e-10);
-  report_at_most("WALKS_ERROR_REFACTOR", worst[HF_ENGINE_REFACTOR], 1e-10);
-  report_at_most("WALKS_ERROR_UPDOWN", worst[HF_ENGINE_UPDOWN], 1e-6);
+  report_at_most("WALKS_ERROR_GREEN", worst[ENGINE_GREEN], 1e-10);
+  report_at_most("WALKS_ERROR_REFACTOR", worst[ENGINE_REFACTOR], 1e-10);
+  report_at_most("WALKS_ERROR_UPDOWN", worst[ENGINE_UPDOWN], 1e-6);
   return report_status();
 }

@@ -190,18 +190,17 @@ void Run::other_engines() {
       hf_surface_desc d = surface_desc();
       hf_solver_desc wanted = desc<hf_solver_desc>();
       wanted.channel_count = 2;
-      wanted.engine = engine;
       d.field_kind = wanted.field_kind = field;
       d.operator_kind = (engine + field) % 4;
-      d.ordering = engine == HF_ENGINE_REFACTOR ? HF_ORDERING_MINIMUM_DEGREE : HF_ORDERING_NESTED_DISSECTION;
-      if (engine == HF_ENGINE_UPDOWN) {
+      d.ordering = engine == ENGINE_REFACTOR ? HF_ORDERING_MINIMUM_DEGREE : HF_ORDERING_NESTED_DISSECTION;
+      if (engine == ENGINE_UPDOWN) {
         if (!options_.paper_engine) continue;
         d.ordering = HF_ORDERING_METIS;
       }
       hf_surface surface = nullptr;
       hf_solver solver = nullptr, copy = nullptr;
       hf_result made = hf_surface_create(&d, &surface);
-      if (made == HF_OK) made = hf_create(surface, &wanted, &solver);
+      if (made == HF_OK) made = create_with(engine, surface, &wanted, &solver);
       hf_surface_destroy(surface);
       if (made == HF_ERROR_UNSUPPORTED) continue;
       call(made, "hf_create, engines");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hf/hf.h"
+#include "support/peers.h"
 
 namespace reliability {
 
@@ -26,7 +27,7 @@ struct Options {
   std::uint32_t threads = 1;
   const hf_job_runner* runner = nullptr;
   const hf_allocator* allocator = nullptr;
-  bool paper_engine = true;  // also HF_ENGINE_UPDOWN and METIS, in builds that have them
+  bool paper_engine = true;  // also ENGINE_UPDOWN and METIS, in builds that have them
 };
 
 struct Outcome {

@@ -7,10 +7,8 @@ namespace reliability {
 void Run::pose_and_transfer() {
   const hf_surface surface = make(surface_desc());
   for (int mode = 0; mode < 2; ++mode) {
-    hf_pose_desc wanted = desc<hf_pose_desc>();
-    wanted.mode = mode;
     hf_pose pose = nullptr, copy = nullptr;
-    call(hf_pose_create(surface, &wanted, &pose), "hf_pose_create");
+    call(create_pose_with(mode, surface, nullptr, &pose), "hf_pose_create");
     const std::uint32_t counts[2] = {2 * s.around, 2 * s.around};
     hf_handles_desc regions = desc<hf_handles_desc>();
     regions.handle_count = 2;
@@ -25,7 +23,7 @@ void Run::pose_and_transfer() {
     hf_deform_desc deform = desc<hf_deform_desc>();
     deform.positions = ROWS_OUT(floats.data());
     deform.normals = ROWS_OUT(normals.data());
-    deform.refine = mode == HF_DEFORM_SMOOTH;
+    deform.refine = mode == POSE_SMOOTH;
     call(hf_pose_deform(pose, &deform, nullptr), "hf_pose_deform");
     take_floats();
     take(normals.data(), normals.size());
@@ -59,7 +57,7 @@ void Run::pose_and_transfer() {
     call(hf_pose_remove_handles(copy, 1, &layered), "hf_pose_remove_handles");
     const std::uint32_t count = hf_pose_get_handle_count(copy);
     take(&count, 1);
-    const bool smooth = mode == HF_DEFORM_SMOOTH;
+    const bool smooth = mode == POSE_SMOOTH;
     call(hf_pose_set_free_rotations(copy, 1, &handles[1], 1), "hf_pose_set_free_rotations",
          smooth ? HF_OK : HF_ERROR_UNSUPPORTED);
     call(hf_pose_deform(copy, &deform, nullptr), "hf_pose_deform, a free rotation");
@@ -67,10 +65,8 @@ void Run::pose_and_transfer() {
     hf_pose_destroy(copy);
   }
   for (int mode = 0; mode < 2; ++mode) {
-    hf_transfer_desc wanted = desc<hf_transfer_desc>();
-    wanted.mode = mode;
     hf_transfer transfer = nullptr;
-    call(hf_transfer_create(surface, surface, &wanted, &transfer), "hf_transfer_create");
+    call(create_transfer_with(mode, surface, surface, nullptr, &transfer), "hf_transfer_create");
     const std::uint32_t counts[2] = {2 * s.around, 2 * s.around};
     hf_pairs_desc pairs = desc<hf_pairs_desc>();
     pairs.pair_count = 2;

@@ -10,15 +10,6 @@
 
 namespace hf_test {
 
-// The engines of this build.
-inline std::vector<hf_inner::EngineKind> engines() {
-#ifdef HF_WITH_GPL
-  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor, hf_inner::EngineKind::updown};
-#else
-  return {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor};
-#endif
-}
-
 // K as a dense matrix; a product of dense matrices where the core does not form it.
 inline Eigen::MatrixXd dense_operator(const hf_inner::Core& core) {
   const hf_inner::SymmetricMatrix& m = core.root ? core.root->laplacian : core.laplacian;

@@ -71,22 +71,10 @@ namespace Hf
         List = Constants.HF_LINK_LIST,
     }
 
-    /// <summary>Selects the engine: how a solver combines its sites with the factor. All engines give the same field.</summary>
-    public enum Engine
-    {
-        /// <summary>sites are rows of a small dense system beside the factor: the default</summary>
-        Green = Constants.HF_ENGINE_GREEN,
-        /// <summary>as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds with
-        /// HF_WITH_GPL. The field meets its sites to about 1e-8 of the value range, a bi-harmonic one to 2e-7</summary>
-        Updown = Constants.HF_ENGINE_UPDOWN,
-        /// <summary>eliminates the sites and factorises again at every change: the baseline</summary>
-        Refactor = Constants.HF_ENGINE_REFACTOR,
-    }
-
     /// <summary>These values say how the solver carried out the last edit of site places (SolverStatistics.last_route).</summary>
     public enum Route
     {
-        /// <summary>no place was edited yet, or the engine is not green</summary>
+        /// <summary>no place was edited yet</summary>
         None = Constants.HF_ROUTE_NONE,
         /// <summary>rows of the dense system were added and removed</summary>
         Dense = Constants.HF_ROUTE_DENSE,
@@ -135,15 +123,6 @@ namespace Hf
         Poisson = Constants.HF_EXTREMITIES_POISSON,
         /// <summary>mean geodesic distance to the rest of the component (Hilaga et al. 2001)</summary>
         Geodesic = Constants.HF_EXTREMITIES_GEODESIC,
-    }
-
-    /// <summary>Selects how vertices follow the handles.</summary>
-    public enum DeformMode
-    {
-        /// <summary>quadratic bands, reduced elastic energy: the default</summary>
-        Smooth = Constants.HF_DEFORM_SMOOTH,
-        /// <summary>linear bands of equal value, shape matching of overlapping clusters</summary>
-        Paper = Constants.HF_DEFORM_PAPER,
     }
 
     /// <summary>Says why a place is proposed as a handle.</summary>
@@ -292,8 +271,6 @@ namespace Hf
     {
         /// <summary>a cluster: vertices with similar values of all fields; the default</summary>
         Fields = Constants.HF_TRANSFER_FIELDS,
-        /// <summary>a cluster: vertices between two levels of one field, as in the paper</summary>
-        Paper = Constants.HF_TRANSFER_PAPER,
         /// <summary>Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each
         /// target vertex i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The
         /// result x' minimises sum over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2 with
@@ -722,23 +699,18 @@ namespace Hf
     {
         /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
-        /// <summary>Engine</summary>
-        public Engine Engine;
         public uint ChannelCount;
         public uint SiteLimit;
         public uint SiteCount;
-        public double Penalty;
         /// <summary>as given to the surface: rows of a field</summary>
         public uint VertexCount;
 
         internal SolverInfo(hf_solver_info* raw)
         {
             FieldKind = (FieldKind)raw->field_kind;
-            Engine = (Engine)raw->engine;
             ChannelCount = raw->channel_count;
             SiteLimit = raw->site_limit;
             SiteCount = raw->site_count;
-            Penalty = raw->penalty;
             VertexCount = raw->vertex_count;
         }
     }
@@ -801,7 +773,7 @@ namespace Hf
         /// <summary>1: the field must keep to the range of its sites: harmonic, intrinsic Delaunay or clamped operator, all
         ///     sites at vertices</summary>
         public bool OvershootChecked;
-        /// <summary>in: largest error to accept, &gt; 0; 0 = 1e-8, Engine.Updown 1e-5; out: the one used</summary>
+        /// <summary>in: largest error to accept, &gt; 0; 0 = 1e-8; out: the one used</summary>
         public double Tolerance;
         /// <summary>largest less smallest value (or target), the widest over components and channels</summary>
         public double ValueRange;
@@ -1041,12 +1013,8 @@ namespace Hf
     /// <summary>Pose.Info writes the options of a pose here, with defaults filled in, and the number of its handles.</summary>
     public sealed unsafe class PoseInfo
     {
-        /// <summary>DeformMode</summary>
-        public DeformMode Mode;
         public uint BandCount;
         public uint IterationCount;
-        /// <summary>sites per handle on its boundary; 0: all of it</summary>
-        public uint RimSiteCount;
         public uint GroupCount;
         public uint HandleCount;
         /// <summary>as given to the surface: rows of Pose.Deform</summary>
@@ -1054,10 +1022,8 @@ namespace Hf
 
         internal PoseInfo(hf_pose_info* raw)
         {
-            Mode = (DeformMode)raw->mode;
             BandCount = raw->band_count;
             IterationCount = raw->iteration_count;
-            RimSiteCount = raw->rim_site_count;
             GroupCount = raw->group_count;
             HandleCount = raw->handle_count;
             VertexCount = raw->vertex_count;
@@ -1074,7 +1040,7 @@ namespace Hf
         public uint Component;
         /// <summary>of the rest region, in the unit of the mesh</summary>
         public double[] Centroid = new double[3];
-        /// <summary>with rim_site_count: how far fields are off on the regions; 0 with full rings</summary>
+        /// <summary>how far fields are off on the regions: 0 in poses of Pose</summary>
         public double Leak;
         /// <summary>where the handle stood in the last Pose.Deform, as in Transform; on higher layers with what the layers
         /// below did to it</summary>
@@ -2730,10 +2696,8 @@ namespace Hf
     /// Creates a solver without sites.
     ///
     /// fieldKind: FieldKind; if the surface has no factor of that kind yet, it is made now
-    /// engine: Engine
     /// channelCount: fields solved at once, 1 to 64; 0 = 1
     /// siteLimit: at most this many sites; 0 = 100,000
-    /// penalty: Engine.Updown: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Solver : Recorded
     {
@@ -2742,23 +2706,19 @@ namespace Hf
         /// <summary>Creates a solver without sites.
         ///
         /// fieldKind: FieldKind; if the surface has no factor of that kind yet, it is made now
-        /// engine: Engine
         /// channelCount: fields solved at once, 1 to 64; 0 = 1
         /// siteLimit: at most this many sites; 0 = 100,000
-        /// penalty: Engine.Updown: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
         /// progress: an object to poll and cancel through
         ///
-        /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE,
-        /// HF_ERROR_UNSUPPORTED.</summary>
-        public Solver(Surface surface, FieldKind fieldKind = default(FieldKind), Engine engine = default(Engine),
-                uint channelCount = 0, uint siteLimit = 0, double penalty = 0, Progress progress = null)
+        /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE.</summary>
+        public Solver(Surface surface, FieldKind fieldKind = default(FieldKind), uint channelCount = 0,
+                uint siteLimit = 0, Progress progress = null)
         {
             using (var c = new Call(null))
             {
                 c.Parent("surface", surface);
                 var descStruct = new hf_solver_desc { struct_size = (uint)sizeof(hf_solver_desc),
-                    field_kind = (int)fieldKind, engine = (int)engine, channel_count = channelCount,
-                    site_limit = siteLimit, penalty = penalty };
+                    field_kind = (int)fieldKind, channel_count = channelCount, site_limit = siteLimit };
                 hf_solver_desc* desc = &descStruct;
                 c.Known("channel_count", channelCount == 0 ? 1 : channelCount);
                 desc->progress = c.Handle(progress);
@@ -3267,8 +3227,8 @@ namespace Hf
         ///
         /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
         /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
-        /// factor eliminates sites. info.exact is then 1.
+        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
+        /// 1.
         ///
         /// correctionCount: 0 to 8.
         /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
@@ -3300,8 +3260,8 @@ namespace Hf
         ///
         /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
         /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
-        /// factor eliminates sites. info.exact is then 1.
+        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
+        /// 1.
         ///
         /// correctionCount: 0 to 8.
         /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
@@ -3334,8 +3294,8 @@ namespace Hf
         ///
         /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
         /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
-        /// factor eliminates sites. info.exact is then 1.
+        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
+        /// 1.
         ///
         /// correctionCount: 0 to 8.
         /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
@@ -3367,8 +3327,8 @@ namespace Hf
         ///
         /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
         /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. Engines other than Engine.Green give the exact field, and so do solvers whose
-        /// factor eliminates sites. info.exact is then 1.
+        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
+        /// 1.
         ///
         /// correctionCount: 0 to 8.
         /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
@@ -3444,7 +3404,7 @@ namespace Hf
         /// returns HF_ERROR_INACCURATE (index = worst vertex) if the check fails, and writes certificate then too.
         /// Do not use fields of that solver; make the surface again.
         ///
-        /// tolerance: largest error to accept, &gt; 0; 0 = 1e-8, Engine.Updown 1e-5
+        /// tolerance: largest error to accept, &gt; 0; 0 = 1e-8
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT.</summary>
         public Certificate Certify(double tolerance = 0)
@@ -3465,7 +3425,7 @@ namespace Hf
         /// when SolverStatistics.rebase_advised is 1. An edit of very many sites does this by itself when that is
         /// quicker. Memory: one more factor, for as long as it eliminates sites.
         ///
-        /// Throws HF_ERROR_BUSY, HF_ERROR_EMPTY, HF_ERROR_UNSUPPORTED.</summary>
+        /// Throws HF_ERROR_BUSY, HF_ERROR_EMPTY.</summary>
         public void PrepareRebase()
         {
             using (var c = new Call(this))
@@ -4035,33 +3995,27 @@ namespace Hf
     ///
     /// Creates a pose without handles.
     ///
-    /// mode: DeformMode
-    /// bandCount: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-    /// iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-    /// rimSiteCount: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-    /// groupCount: rotation groups of the smooth mode, 1 to 2000; 0 = 250</summary>
+    /// bandCount: bands per field, 2 to 64; 0 = 10
+    /// iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10
+    /// groupCount: groups of vertices that share a rotation, 1 to 2000; 0 = 250</summary>
     public sealed unsafe class Pose : Recorded
     {
         Pose() { }
 
         /// <summary>Creates a pose without handles.
         ///
-        /// mode: DeformMode
-        /// bandCount: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-        /// iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-        /// rimSiteCount: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-        /// groupCount: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+        /// bandCount: bands per field, 2 to 64; 0 = 10
+        /// iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10
+        /// groupCount: groups of vertices that share a rotation, 1 to 2000; 0 = 250
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT.</summary>
-        public Pose(Surface surface, DeformMode mode = default(DeformMode), uint bandCount = 0, uint iterationCount = 0,
-                uint rimSiteCount = 0, uint groupCount = 0)
+        public Pose(Surface surface, uint bandCount = 0, uint iterationCount = 0, uint groupCount = 0)
         {
             using (var c = new Call(null))
             {
                 c.Parent("surface", surface);
-                var descStruct = new hf_pose_desc { struct_size = (uint)sizeof(hf_pose_desc), mode = (int)mode,
-                    band_count = bandCount, iteration_count = iterationCount, rim_site_count = rimSiteCount,
-                    group_count = groupCount };
+                var descStruct = new hf_pose_desc { struct_size = (uint)sizeof(hf_pose_desc), band_count = bandCount,
+                    iteration_count = iterationCount, group_count = groupCount };
                 hf_pose_desc* desc = &descStruct;
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_pose_create(c.Handle(surface), desc, raw)));
@@ -4102,9 +4056,8 @@ namespace Hf
         /// motion that its region has in the last pose (Pose.Handle writes it), and the surface stays where it is
         /// (to 1e-6 of the box). It goes over to the best pose of the new handles while handles move by 0.05 of the
         /// box, or back to rest. Until then the region of the new handle keeps a part of its bend. restart ends
-        /// this at once. DeformMode.Paper places the handle only. On a higher layer the surface does not move (to
-        /// 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for the
-        /// higher layers.
+        /// this at once. On a higher layer the surface does not move (to 1e-9 of the box) until you move the
+        /// handle. Handles of lower layers hold the surface in place for the higher layers.
         ///
         /// regionVertices: lists of whole numbers: all regions one after the other; null: points are given
         /// points: [handleCount x 3] at rest. The region is the vertex nearest to the point and what is edge-
@@ -4117,7 +4070,7 @@ namespace Hf
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-        /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        /// HF_ERROR_TOO_LARGE.</summary>
         public uint[] AddHandles(uint[][] regionVertices = null, double[] points = null, double[] radii = null,
                 uint layer = 0, bool inPlace = false, bool freeRotation = false, Progress progress = null)
         {
@@ -4145,7 +4098,7 @@ namespace Hf
         /// point: [3].
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-        /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        /// HF_ERROR_TOO_LARGE.</summary>
         public uint AddHandleAt(double[] point, double radius)
         {
             using (var c = new Call(this))
@@ -4231,7 +4184,7 @@ namespace Hf
         /// handles: [handleCount].
         /// freeRotation: 1: the solve finds the rotations; 0: you give them.
         ///
-        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
+        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND.</summary>
         public void SetFreeRotations(uint[] handles, bool freeRotation = false)
         {
             using (var c = new Call(this))
@@ -5831,7 +5784,7 @@ namespace Hf
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-        /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public uint[] AddPairs(uint[][] sourceVertices = null, uint[][] targetVertices = null, uint[] flags = null,
                 Progress progress = null)
         {

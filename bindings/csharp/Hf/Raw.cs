@@ -54,9 +54,6 @@ namespace Hf.Native
         public const int HF_LINK_NONE = 0;
         public const int HF_LINK_PIECES = 1;
         public const int HF_LINK_LIST = 2;
-        public const int HF_ENGINE_GREEN = 0;
-        public const int HF_ENGINE_UPDOWN = 1;
-        public const int HF_ENGINE_REFACTOR = 2;
         public const int HF_ROUTE_NONE = 0;
         public const int HF_ROUTE_DENSE = 1;
         public const int HF_ROUTE_FRESH = 2;
@@ -73,8 +70,6 @@ namespace Hf.Native
         public const int HF_GEODESICS_HEAT = 3;
         public const int HF_EXTREMITIES_POISSON = 0;
         public const int HF_EXTREMITIES_GEODESIC = 1;
-        public const int HF_DEFORM_SMOOTH = 0;
-        public const int HF_DEFORM_PAPER = 1;
         public const int HF_LAYER_COUNT = 8;
         public const int HF_HANDLE_LIMIT = 256;
         public const int HF_HANDLE_REASON_FOOT = 0;
@@ -131,8 +126,7 @@ namespace Hf.Native
         public const int HF_JOINT_KIND_END = 2;
         public const int HF_JOINT_KIND_TWIST = 3;
         public const int HF_TRANSFER_FIELDS = 0;
-        public const int HF_TRANSFER_PAPER = 1;
-        public const int HF_TRANSFER_STRETCH = 2;
+        public const int HF_TRANSFER_STRETCH = 1;
         public const int HF_GROUND_KEEP = 0;
         public const int HF_GROUND_OFF = 1;
         public const int HF_PAIR_ANCHOR = 1;
@@ -437,11 +431,8 @@ namespace Hf.Native
     {
         public uint struct_size;
         public int field_kind;
-        public int engine;
         public uint channel_count;
         public uint site_limit;
-        public uint reserved;
-        public double penalty;
         public IntPtr progress;
     }
 
@@ -450,13 +441,10 @@ namespace Hf.Native
     {
         public uint struct_size;
         public int field_kind;
-        public int engine;
         public uint channel_count;
         public uint site_limit;
         public uint site_count;
-        public double penalty;
         public uint vertex_count;
-        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -695,10 +683,8 @@ namespace Hf.Native
     public unsafe struct hf_pose_desc
     {
         public uint struct_size;
-        public int mode;
         public uint band_count;
         public uint iteration_count;
-        public uint rim_site_count;
         public uint group_count;
     }
 
@@ -706,10 +692,8 @@ namespace Hf.Native
     public unsafe struct hf_pose_info
     {
         public uint struct_size;
-        public int mode;
         public uint band_count;
         public uint iteration_count;
-        public uint rim_site_count;
         public uint group_count;
         public uint handle_count;
         public uint vertex_count;

@@ -11,10 +11,8 @@ hf_pose pose_of(Surface& s) {
 // pose_create(options = {}): replaces the pose; without it the first call makes one of defaults
 Value pose_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_pose_desc>();
-  read_options(at(a, 0), {{"mode", &desc.mode},
-                          {"band_count", &desc.band_count},
+  read_options(at(a, 0), {{"band_count", &desc.band_count},
                           {"iteration_count", &desc.iteration_count},
-                          {"rim_site_count", &desc.rim_site_count},
                           {"group_count", &desc.group_count}});
   make_again(s.pose, [&](hf_pose* out) { return hf_pose_create(s.get(), &desc, out); });
   return done();
@@ -23,10 +21,8 @@ Value pose_create(Surface& s, const Arguments& a) {
 Value pose_info(Surface& s, const Arguments&) {
   auto info = make<hf_pose_info>();
   check(hf_pose_get_info(pose_of(s), &info));
-  return named({{"mode", info.mode},
-                {"band_count", info.band_count},
+  return named({{"band_count", info.band_count},
                 {"iteration_count", info.iteration_count},
-                {"rim_site_count", info.rim_site_count},
                 {"group_count", info.group_count},
                 {"handle_count", info.handle_count},
                 {"vertex_count", info.vertex_count}});

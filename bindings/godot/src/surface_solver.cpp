@@ -12,10 +12,7 @@ namespace {
 // solver_create(options = {}): replaces the solver; without it the first call makes one of defaults
 Value solver_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_solver_desc>();
-  read_options(at(a, 0), {{"field_kind", &desc.field_kind},
-                          {"engine", &desc.engine},
-                          {"site_limit", &desc.site_limit},
-                          {"penalty", &desc.penalty}});
+  read_options(at(a, 0), {{"field_kind", &desc.field_kind}, {"site_limit", &desc.site_limit}});
   make_again(s.solver, [&](hf_solver* out) { return hf_create(s.get(), &desc, out); });
   return done();
 }
@@ -146,11 +143,9 @@ Value solver_info(Surface& s, const Arguments&) {
   auto info = make<hf_solver_info>();
   check(hf_solver_get_info(solver_of(s), &info));
   return named({{"field_kind", info.field_kind},
-                {"engine", info.engine},
                 {"channel_count", info.channel_count},
                 {"site_limit", info.site_limit},
                 {"site_count", info.site_count},
-                {"penalty", info.penalty},
                 {"vertex_count", info.vertex_count}});
 }
 

@@ -79,11 +79,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const solverDesc = (c, prefix, options) => {
-    const { fieldKind = 0, engine = 0, channelCount = 0, siteLimit = 0, penalty = 0, progress = null,
-            ...more } = options;
+    const { fieldKind = 0, channelCount = 0, siteLimit = 0, progress = null, ...more } = options;
     none(more);
-    const desc = c.struct('hf_solver_desc', { field_kind: fieldKind, engine, channel_count: channelCount,
-            site_limit: siteLimit, penalty });
+    const desc = c.struct('hf_solver_desc', { field_kind: fieldKind, channel_count: channelCount,
+            site_limit: siteLimit });
     c.known('channel_count', channelCount || 1);
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
@@ -149,10 +148,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const poseDesc = (c, prefix, options) => {
-    const { mode = 0, bandCount = 0, iterationCount = 0, rimSiteCount = 0, groupCount = 0, ...more } = options;
+    const { bandCount = 0, iterationCount = 0, groupCount = 0, ...more } = options;
     none(more);
-    const desc = c.struct('hf_pose_desc', { mode, band_count: bandCount, iteration_count: iterationCount,
-            rim_site_count: rimSiteCount, group_count: groupCount });
+    const desc = c.struct('hf_pose_desc', { band_count: bandCount, iteration_count: iterationCount,
+            group_count: groupCount });
     return desc;
   };
 

@@ -225,12 +225,9 @@ export interface Hit {
 export interface SolverInfo {
   /** HF_FIELD_* */
   fieldKind: number;
-  /** HF_ENGINE_* */
-  engine: number;
   channelCount: number;
   siteLimit: number;
   siteCount: number;
-  penalty: number;
   /** as given to the surface: rows of a field */
   vertexCount: number;
 }
@@ -304,7 +301,7 @@ export interface Certificate {
    *     at vertices
    */
   overshootChecked: number;
-  /** in: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5; out: the one used */
+  /** in: largest error to accept, > 0; 0 = 1e-8; out: the one used */
   tolerance: number;
   /** largest less smallest value (or target), the widest over components and channels */
   valueRange: number;
@@ -483,12 +480,8 @@ export interface DirectionStatistics {
 
 /** Pose.info writes the options of a pose here, with defaults filled in, and the number of its handles. */
 export interface PoseInfo {
-  /** HF_DEFORM_* */
-  mode: number;
   bandCount: number;
   iterationCount: number;
-  /** sites per handle on its boundary; 0: all of it */
-  rimSiteCount: number;
   groupCount: number;
   handleCount: number;
   /** as given to the surface: rows of Pose.deform */
@@ -516,7 +509,7 @@ export interface HandleInfo {
   component: number;
   /** of the rest region, in the unit of the mesh */
   centroid: number[];
-  /** with rim_site_count: how far fields are off on the regions; 0 with full rings */
+  /** how far fields are off on the regions: 0 in poses of Pose */
   leak: number;
   /**
    * where the handle stood in the last Pose.deform, as in Transform; on higher layers with what the layers below
@@ -1337,10 +1330,8 @@ export interface SurfaceClass {
  * Creates a solver without sites.
  *
  * fieldKind: HF_FIELD_*; if the surface has no factor of that kind yet, it is made now
- * engine: HF_ENGINE_*
  * channelCount: fields solved at once, 1 to 64; 0 = 1
  * siteLimit: at most this many sites; 0 = 100,000
- * penalty: HF_ENGINE_UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
  * progress: an object to poll and cancel through
  */
 export interface Solver extends Recorded {
@@ -1493,9 +1484,8 @@ export interface Solver extends Recorded {
    * three calls of Solver.solve.
    *
    * The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind
-   * on the surface share the copy. It is freed with the last of these solvers, or by Solver.releasePreview.
-   * Engines other than HF_ENGINE_GREEN give the exact field, and so do solvers whose factor eliminates sites.
-   * info.exact is then 1.
+   * on the surface share the copy. It is freed with the last of these solvers, or by Solver.releasePreview. A
+   * solver whose factor eliminates sites gives the exact field. info.exact is then 1.
    *
    * correctionCount: 0 to 8.
    * out: [vertexCount x channelCount] of float or double, as Solver.solve. Single precision rounds most
@@ -1538,7 +1528,7 @@ export interface Solver extends Recorded {
    * HF_ERROR_INACCURATE (index = worst vertex) if the check fails, and writes certificate then too. Do not use
    * fields of that solver; make the surface again.
    *
-   * tolerance: largest error to accept, > 0; 0 = 1e-8, HF_ENGINE_UPDOWN 1e-5
+   * tolerance: largest error to accept, > 0; 0 = 1e-8
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_INACCURATE, HF_ERROR_INVALID_ARGUMENT.
    */
@@ -1550,7 +1540,7 @@ export interface Solver extends Recorded {
    * SolverStatistics.rebase_advised is 1. An edit of very many sites does this by itself when that is quicker.
    * Memory: one more factor, for as long as it eliminates sites.
    *
-   * Throws HF_ERROR_BUSY, HF_ERROR_EMPTY, HF_ERROR_UNSUPPORTED.
+   * Throws HF_ERROR_BUSY, HF_ERROR_EMPTY.
    */
   prepareRebase(): void;
   /** Writes the statistics. */
@@ -1562,7 +1552,7 @@ export interface Solver extends Recorded {
 }
 export interface SolverClass {
   new (surface: Surface,
-          options?: { fieldKind?: number; engine?: number; channelCount?: number; siteLimit?: number; penalty?: number; progress?: Progress | null }): Solver;
+          options?: { fieldKind?: number; channelCount?: number; siteLimit?: number; progress?: Progress | null }): Solver;
 }
 
 /**
@@ -1719,11 +1709,9 @@ export interface DirectionClass {
  *
  * Creates a pose without handles.
  *
- * mode: HF_DEFORM_*
- * bandCount: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
- * iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
- * rimSiteCount: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
- * groupCount: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+ * bandCount: bands per field, 2 to 64; 0 = 10
+ * iterationCount: iterations of a pose solve, 1 to 1000; 0 = 10
+ * groupCount: groups of vertices that share a rotation, 1 to 2000; 0 = 250
  */
 export interface Pose extends Recorded {
   readonly vertexCount: number;
@@ -1736,9 +1724,9 @@ export interface Pose extends Recorded {
    * posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
    * that its region has in the last pose (Pose.handle writes it), and the surface stays where it is (to 1e-6 of
    * the box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to
-   * rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once.
-   * HF_DEFORM_PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until
-   * you move the handle. Handles of lower layers hold the surface in place for the higher layers.
+   * rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once. On a higher
+   * layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold
+   * the surface in place for the higher layers.
    *
    * regionVertices: lists of whole numbers: all regions one after the other; null: points are given
    * points: [handleCount x 3] at rest. The region is the vertex nearest to the point and what is edge-connected to
@@ -1751,7 +1739,7 @@ export interface Pose extends Recorded {
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-   * HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   * HF_ERROR_TOO_LARGE.
    */
   addHandles(regionVertices?: ReadonlyArray<Numbers> | null,
           options?: { points?: Rows | null; radii?: Rows | null; layer?: number; inPlace?: boolean | number; freeRotation?: boolean | number; progress?: Progress | null }): Uint32Array;
@@ -1762,7 +1750,7 @@ export interface Pose extends Recorded {
    * point: [3].
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
-   * HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   * HF_ERROR_TOO_LARGE.
    */
   addHandleAt(point: Rows, radius: number): number;
   /**
@@ -1813,7 +1801,7 @@ export interface Pose extends Recorded {
    * handles: [handleCount].
    * freeRotation: 1: the solve finds the rotations; 0: you give them.
    *
-   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND.
    */
   setFreeRotations(handles: Rows, freeRotation?: boolean | number): void;
   /**
@@ -1887,8 +1875,7 @@ export interface Pose extends Recorded {
   readonly deformInfo: DeformInfo;
 }
 export interface PoseClass {
-  new (surface: Surface,
-          options?: { mode?: number; bandCount?: number; iterationCount?: number; rimSiteCount?: number; groupCount?: number }): Pose;
+  new (surface: Surface, options?: { bandCount?: number; iterationCount?: number; groupCount?: number }): Pose;
 }
 
 /**
@@ -2258,7 +2245,7 @@ export interface Transfer extends Handle {
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
   addPairs(sourceVertices?: ReadonlyArray<Numbers> | null, targetVertices?: ReadonlyArray<Numbers> | null,
           flags?: Rows | null, options?: { progress?: Progress | null }): Uint32Array;

@@ -122,24 +122,11 @@ class LinkMode(IntEnum):
     """the links you give, and no others; only light_vertices name light pieces then"""
 
 
-class Engine(IntEnum):
-    """Selects the engine: how a solver combines its sites with the factor. All engines give the same field."""
-
-    GREEN = _raw.HF_ENGINE_GREEN
-    """sites are rows of a small dense system beside the factor: the default"""
-    UPDOWN = _raw.HF_ENGINE_UPDOWN
-    """as in Xu et al. 2009: penalties on the diagonal, sparse update and downdate; only in builds with HF_WITH_GPL. The
-    field meets its sites to about 1e-8 of the value range, a bi-harmonic one to 2e-7
-    """
-    REFACTOR = _raw.HF_ENGINE_REFACTOR
-    """eliminates the sites and factorises again at every change: the baseline"""
-
-
 class Route(IntEnum):
     """These values say how the solver carried out the last edit of site places (SolverStatistics.last_route)."""
 
     NONE = _raw.HF_ROUTE_NONE
-    """no place was edited yet, or the engine is not green"""
+    """no place was edited yet"""
     DENSE = _raw.HF_ROUTE_DENSE
     """rows of the dense system were added and removed"""
     FRESH = _raw.HF_ROUTE_FRESH
@@ -187,15 +174,6 @@ class ExtremityKind(IntEnum):
     """a field with a source at every vertex: one solve"""
     GEODESIC = _raw.HF_EXTREMITIES_GEODESIC
     """mean geodesic distance to the rest of the component (Hilaga et al. 2001)"""
-
-
-class DeformMode(IntEnum):
-    """Selects how vertices follow the handles."""
-
-    SMOOTH = _raw.HF_DEFORM_SMOOTH
-    """quadratic bands, reduced elastic energy: the default"""
-    PAPER = _raw.HF_DEFORM_PAPER
-    """linear bands of equal value, shape matching of overlapping clusters"""
 
 
 class HandleReason(IntEnum):
@@ -343,8 +321,6 @@ class JointKind(IntEnum):
 class TransferMode(IntEnum):
     FIELDS = _raw.HF_TRANSFER_FIELDS
     """a cluster: vertices with similar values of all fields; the default"""
-    PAPER = _raw.HF_TRANSFER_PAPER
-    """a cluster: vertices between two levels of one field, as in the paper"""
     STRETCH = _raw.HF_TRANSFER_STRETCH
     """Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target vertex
     i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x' minimises sum
@@ -690,10 +666,10 @@ def _pick_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = No
     return desc
 
 
-def _solver_desc(c: Call, prefix: str = '', *, field_kind: int = FieldKind.HARMONIC, engine: int = Engine.GREEN,
-        channel_count: int = 0, site_limit: int = 0, penalty: float = 0.0, progress: Optional[Progress] = None) -> Any:
-    desc = c.struct(_raw.hf_solver_desc, {'field_kind': field_kind, 'engine': engine, 'channel_count': channel_count,
-            'site_limit': site_limit, 'penalty': penalty})
+def _solver_desc(c: Call, prefix: str = '', *, field_kind: int = FieldKind.HARMONIC, channel_count: int = 0,
+        site_limit: int = 0, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_solver_desc, {'field_kind': field_kind, 'channel_count': channel_count,
+            'site_limit': site_limit})
     c.known('channel_count', channel_count or 1)
     desc.progress = handle_of(progress, Progress, 'progress')
     return desc
@@ -754,10 +730,10 @@ def _direction_desc(c: Call, prefix: str = '', *, degree: int = 0, site_limit: i
     return desc
 
 
-def _pose_desc(c: Call, prefix: str = '', *, mode: int = DeformMode.SMOOTH, band_count: int = 0,
-        iteration_count: int = 0, rim_site_count: int = 0, group_count: int = 0) -> Any:
-    desc = c.struct(_raw.hf_pose_desc, {'mode': mode, 'band_count': band_count, 'iteration_count': iteration_count,
-            'rim_site_count': rim_site_count, 'group_count': group_count})
+def _pose_desc(c: Call, prefix: str = '', *, band_count: int = 0, iteration_count: int = 0,
+        group_count: int = 0) -> Any:
+    desc = c.struct(_raw.hf_pose_desc, {'band_count': band_count, 'iteration_count': iteration_count,
+            'group_count': group_count})
     return desc
 
 
@@ -1479,10 +1455,8 @@ class Solver(Recorded):
     Creates a solver without sites.
 
     field_kind: FieldKind; if the surface has no factor of that kind yet, it is made now
-    engine: Engine
     channel_count: fields solved at once, 1 to 64; 0 = 1
     site_limit: at most this many sites; 0 = 100,000
-    penalty: Engine.UPDOWN: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
     progress: an object to poll and cancel through
     """
 
@@ -1499,12 +1473,11 @@ class Solver(Recorded):
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
 
-    def __init__(self, surface: Surface, *, field_kind: int = FieldKind.HARMONIC, engine: int = Engine.GREEN,
-            channel_count: int = 0, site_limit: int = 0, penalty: float = 0.0,
-            progress: Optional[Progress] = None) -> None:
+    def __init__(self, surface: Surface, *, field_kind: int = FieldKind.HARMONIC, channel_count: int = 0,
+            site_limit: int = 0, progress: Optional[Progress] = None) -> None:
         c = Call(surface=surface)
-        desc = _solver_desc(c, field_kind=field_kind, engine=engine, channel_count=channel_count, site_limit=site_limit,
-                penalty=penalty, progress=progress)
+        desc = _solver_desc(c, field_kind=field_kind, channel_count=channel_count, site_limit=site_limit,
+                progress=progress)
         self._own('hf_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
 
     def clone(self) -> "Solver":
@@ -1740,9 +1713,8 @@ class Solver(Recorded):
         three calls of Solver.solve.
 
         The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind
-        on the surface share the copy. It is freed with the last of these solvers, or by Solver.release_preview.
-        Engines other than Engine.GREEN give the exact field, and so do solvers whose factor eliminates sites.
-        info.exact is then 1.
+        on the surface share the copy. It is freed with the last of these solvers, or by Solver.release_preview. A
+        solver whose factor eliminates sites gives the exact field. info.exact is then 1.
 
         correction_count: 0 to 8.
         out: (vertex_count, channel_count) of float or double, as Solver.solve. Single precision rounds most
@@ -1799,7 +1771,7 @@ class Solver(Recorded):
         InaccurateError (index = worst vertex) if the check fails, and writes certificate then too. Do not use fields
         of that solver; make the surface again.
 
-        tolerance: largest error to accept, > 0; 0 = 1e-8, Engine.UPDOWN 1e-5
+        tolerance: largest error to accept, > 0; 0 = 1e-8
 
         Raises EmptyError, InaccurateError, InvalidArgumentError.
         """
@@ -1815,7 +1787,7 @@ class Solver(Recorded):
         SolverStatistics.rebase_advised is 1. An edit of very many sites does this by itself when that is quicker.
         Memory: one more factor, for as long as it eliminates sites.
 
-        Raises BusyError, EmptyError, UnsupportedError.
+        Raises BusyError, EmptyError.
         """
         c = Call(self)
         call('hf_solver_prepare_rebase', self._handle)
@@ -2083,11 +2055,9 @@ class Pose(Recorded):
 
     Creates a pose without handles.
 
-    mode: DeformMode
-    band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-    iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-    rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-    group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+    band_count: bands per field, 2 to 64; 0 = 10
+    iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10
+    group_count: groups of vertices that share a rotation, 1 to 2000; 0 = 250
     """
 
     _destroy = 'hf_pose_destroy'
@@ -2098,11 +2068,10 @@ class Pose(Recorded):
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
 
-    def __init__(self, surface: Surface, *, mode: int = DeformMode.SMOOTH, band_count: int = 0,
-            iteration_count: int = 0, rim_site_count: int = 0, group_count: int = 0) -> None:
+    def __init__(self, surface: Surface, *, band_count: int = 0, iteration_count: int = 0,
+            group_count: int = 0) -> None:
         c = Call(surface=surface)
-        desc = _pose_desc(c, mode=mode, band_count=band_count, iteration_count=iteration_count,
-                rim_site_count=rim_site_count, group_count=group_count)
+        desc = _pose_desc(c, band_count=band_count, iteration_count=iteration_count, group_count=group_count)
         self._own('hf_pose_create', c, handle_of(surface, Surface, 'surface'), ref(desc))
 
     def clone(self) -> "Pose":
@@ -2128,9 +2097,9 @@ class Pose(Recorded):
         posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
         that its region has in the last pose (Pose.handle writes it), and the surface stays where it is (to 1e-6 of
         the box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to
-        rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once.
-        DeformMode.PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box)
-        until you move the handle. Handles of lower layers hold the surface in place for the higher layers.
+        rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once. On a higher
+        layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold
+        the surface in place for the higher layers.
 
         region_vertices: lists of whole numbers: all regions one after the other; None: points are given
         points: (handle_count, 3) at rest. The region is the vertex nearest to the point and what is edge-connected to
@@ -2142,7 +2111,7 @@ class Pose(Recorded):
         free_rotation: 1: you give the places of the handles only; see Pose.set_free_rotations
         progress: an object to poll and cancel through
 
-        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, UnsupportedError.
+        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
         """
         c = Call(self)
         desc = _handles_desc(c, region_vertices=region_vertices, points=points, radii=radii, layer=layer,
@@ -2157,7 +2126,7 @@ class Pose(Recorded):
 
         point: (3,).
 
-        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, UnsupportedError.
+        Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
         """
         c = Call(self)
         point_ = c.array('point', point, 'f8', (3,))
@@ -2228,7 +2197,7 @@ class Pose(Recorded):
         handles: (handle_count,).
         free_rotation: 1: the solve finds the rotations; 0: you give them.
 
-        Raises InvalidArgumentError, NotFoundError, UnsupportedError.
+        Raises InvalidArgumentError, NotFoundError.
         """
         c = Call(self)
         handles_ = c.array('handles', handles, 'u4', ('handle_count',))
@@ -2981,8 +2950,7 @@ class Transfer(Object):
         flags: (pair_count,) PairFlag, or None for none
         progress: an object to poll and cancel through
 
-        Raises CancelledError, ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
-        UnsupportedError.
+        Raises CancelledError, ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
         """
         c = Call(self)
         desc = _pairs_desc(c, source_vertices=source_vertices, target_vertices=target_vertices, flags=flags,
@@ -3394,13 +3362,13 @@ class Weights(Recorded):
 
 __all__ = [
     'Base', 'BodySide', 'Certificate', 'Chain', 'ChainMatch', 'Critical', 'CriticalInfo', 'CriticalPoint',
-    'CurveKind', 'DeformInfo', 'DeformMode', 'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod',
-    'Engine', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo',
-    'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo', 'JointKind',
-    'Levels', 'Link', 'LinkMode', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag',
-    'PairInfo', 'Path', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh',
-    'Region', 'RegionInfo', 'RegionList', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion',
-    'Route', 'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo',
+    'CurveKind', 'DeformInfo', 'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod', 'Extremity',
+    'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal',
+    'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo', 'JointKind', 'Levels', 'Link',
+    'LinkMode', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo',
+    'Path', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh', 'Region',
+    'RegionInfo', 'RegionList', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion', 'Route',
+    'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo',
     'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo', 'SurfacePoint',
     'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode',
     'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo', 'WeightsOrigin', 'WeightsOut',

@@ -66,9 +66,6 @@ HF_FACTOR_ALIGNMENT = 64
 HF_LINK_NONE = 0
 HF_LINK_PIECES = 1
 HF_LINK_LIST = 2
-HF_ENGINE_GREEN = 0
-HF_ENGINE_UPDOWN = 1
-HF_ENGINE_REFACTOR = 2
 HF_ROUTE_NONE = 0
 HF_ROUTE_DENSE = 1
 HF_ROUTE_FRESH = 2
@@ -85,8 +82,6 @@ HF_GEODESICS_EXACT = 2
 HF_GEODESICS_HEAT = 3
 HF_EXTREMITIES_POISSON = 0
 HF_EXTREMITIES_GEODESIC = 1
-HF_DEFORM_SMOOTH = 0
-HF_DEFORM_PAPER = 1
 HF_LAYER_COUNT = 8
 HF_HANDLE_LIMIT = 256
 HF_HANDLE_REASON_FOOT = 0
@@ -143,8 +138,7 @@ HF_JOINT_KIND_HELPER = 1
 HF_JOINT_KIND_END = 2
 HF_JOINT_KIND_TWIST = 3
 HF_TRANSFER_FIELDS = 0
-HF_TRANSFER_PAPER = 1
-HF_TRANSFER_STRETCH = 2
+HF_TRANSFER_STRETCH = 1
 HF_GROUND_KEEP = 0
 HF_GROUND_OFF = 1
 HF_PAIR_ANCHOR = 1
@@ -654,20 +648,14 @@ class hf_hit(Struct):
 class hf_solver_desc(Struct):
     struct_size: int
     field_kind: int
-    engine: int
     channel_count: int
     site_limit: int
-    reserved: int
-    penalty: float
     progress: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("field_kind", c_int32),
-        ("engine", c_int32),
         ("channel_count", c_uint32),
         ("site_limit", c_uint32),
-        ("reserved", c_uint32),
-        ("penalty", c_double),
         ("progress", c_void_p),
     ]
 
@@ -676,23 +664,17 @@ class hf_solver_info(Struct):
     """hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites."""
     struct_size: int
     field_kind: int
-    engine: int
     channel_count: int
     site_limit: int
     site_count: int
-    penalty: float
     vertex_count: int
-    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("field_kind", c_int32),
-        ("engine", c_int32),
         ("channel_count", c_uint32),
         ("site_limit", c_uint32),
         ("site_count", c_uint32),
-        ("penalty", c_double),
         ("vertex_count", c_uint32),
-        ("reserved", c_uint32),
     ]
 
 
@@ -1084,17 +1066,13 @@ class hf_direction_statistics(Struct):
 
 class hf_pose_desc(Struct):
     struct_size: int
-    mode: int
     band_count: int
     iteration_count: int
-    rim_site_count: int
     group_count: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("mode", c_int32),
         ("band_count", c_uint32),
         ("iteration_count", c_uint32),
-        ("rim_site_count", c_uint32),
         ("group_count", c_uint32),
     ]
 
@@ -1102,19 +1080,15 @@ class hf_pose_desc(Struct):
 class hf_pose_info(Struct):
     """hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles."""
     struct_size: int
-    mode: int
     band_count: int
     iteration_count: int
-    rim_site_count: int
     group_count: int
     handle_count: int
     vertex_count: int
     _fields_ = [
         ("struct_size", c_uint32),
-        ("mode", c_int32),
         ("band_count", c_uint32),
         ("iteration_count", c_uint32),
-        ("rim_site_count", c_uint32),
         ("group_count", c_uint32),
         ("handle_count", c_uint32),
         ("vertex_count", c_uint32),

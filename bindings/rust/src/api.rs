@@ -288,14 +288,10 @@ impl<'a> PickOptions<'a> {
 pub struct SolverOptions<'a> {
     /// `HF_FIELD_*`; if the surface has no factor of that kind yet, it is made now
     pub field_kind: i32,
-    /// `HF_ENGINE_*`
-    pub engine: i32,
     /// fields solved at once, 1 to 64; 0 = 1
     pub channel_count: u32,
     /// at most this many sites; 0 = 100,000
     pub site_limit: u32,
-    /// [`raw::HF_ENGINE_UPDOWN`]: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
-    pub penalty: f64,
     /// `None`, or an object to poll and cancel through
     pub progress: Option<&'a Progress>,
 }
@@ -304,10 +300,8 @@ impl<'a> SolverOptions<'a> {
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
             "field_kind" => self.field_kind = Number::fit(name, value)?,
-            "engine" => self.engine = Number::fit(name, value)?,
             "channel_count" => self.channel_count = Number::fit(name, value)?,
             "site_limit" => self.site_limit = Number::fit(name, value)?,
-            "penalty" => self.penalty = Number::fit(name, value)?,
             _ => return Err(unknown(name)),
         }
         Ok(())
@@ -315,9 +309,8 @@ impl<'a> SolverOptions<'a> {
 
     #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_solver_desc> {
-        let mut desc = raw::hf_solver_desc { field_kind: self.field_kind, engine: self.engine,
-            channel_count: self.channel_count, site_limit: self.site_limit, penalty: self.penalty,
-            ..Default::default() };
+        let mut desc = raw::hf_solver_desc { field_kind: self.field_kind, channel_count: self.channel_count,
+            site_limit: self.site_limit, ..Default::default() };
         c.known("channel_count", if self.channel_count == 0 { 1 } else { self.channel_count });
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         Ok(desc)
@@ -502,25 +495,19 @@ impl<'a> DirectionOptions<'a> {
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PoseOptions {
-    /// `HF_DEFORM_*`
-    pub mode: i32,
-    /// bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
+    /// bands per field, 2 to 64; 0 = 10
     pub band_count: u32,
-    /// iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
+    /// iterations of a pose solve, 1 to 1000; 0 = 10
     pub iteration_count: u32,
-    /// sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-    pub rim_site_count: u32,
-    /// rotation groups of the smooth mode, 1 to 2000; 0 = 250
+    /// groups of vertices that share a rotation, 1 to 2000; 0 = 250
     pub group_count: u32,
 }
 impl PoseOptions {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "mode" => self.mode = Number::fit(name, value)?,
             "band_count" => self.band_count = Number::fit(name, value)?,
             "iteration_count" => self.iteration_count = Number::fit(name, value)?,
-            "rim_site_count" => self.rim_site_count = Number::fit(name, value)?,
             "group_count" => self.group_count = Number::fit(name, value)?,
             _ => return Err(unknown(name)),
         }
@@ -529,9 +516,8 @@ impl PoseOptions {
 
     #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_pose_desc> {
-        let mut desc = raw::hf_pose_desc { mode: self.mode, band_count: self.band_count,
-            iteration_count: self.iteration_count, rim_site_count: self.rim_site_count, group_count: self.group_count,
-            ..Default::default() };
+        let mut desc = raw::hf_pose_desc { band_count: self.band_count, iteration_count: self.iteration_count,
+            group_count: self.group_count, ..Default::default() };
         Ok(desc)
     }
 }
@@ -2023,14 +2009,12 @@ impl Solver {
     /// Creates a solver without sites.
     ///
     /// field_kind: `HF_FIELD_*`; if the surface has no factor of that kind yet, it is made now
-    /// engine: `HF_ENGINE_*`
     /// channel_count: fields solved at once, 1 to 64; 0 = 1
     /// site_limit: at most this many sites; 0 = 100,000
-    /// penalty: [`raw::HF_ENGINE_UPDOWN`]: weight of a hard site relative to the mean diagonal; 0 = 1e8, at most 1e10
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
-    /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(surface: &Surface, options: &SolverOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
@@ -2353,9 +2337,8 @@ impl Solver {
     /// Solver.solve.
     ///
     /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on
-    /// the surface share the copy. It is freed with the last of these solvers, or by `Solver::release_preview`. Engines
-    /// other than [`raw::HF_ENGINE_GREEN`] give the exact field, and so do solvers whose factor eliminates sites.
-    /// info.exact is then 1.
+    /// the surface share the copy. It is freed with the last of these solvers, or by `Solver::release_preview`. A solver
+    /// whose factor eliminates sites gives the exact field. info.exact is then 1.
     ///
     /// correction_count: 0 to 8.
     /// out: `[vertex_count x channel_count]` of float or double, as `Solver::solve`. Single precision rounds most
@@ -2435,7 +2418,7 @@ impl Solver {
     /// [`raw::HF_ERROR_INACCURATE`] (index = worst vertex) if the check fails, and writes certificate then too. Do not
     /// use fields of that solver; make the surface again.
     ///
-    /// tolerance: largest error to accept, > 0; 0 = 1e-8, [`raw::HF_ENGINE_UPDOWN`] 1e-5
+    /// tolerance: largest error to accept, > 0; 0 = 1e-8
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INACCURATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2453,7 +2436,7 @@ impl Solver {
     /// [`raw::hf_solver_statistics`].rebase_advised is 1. An edit of very many sites does this by itself when that is
     /// quicker. Memory: one more factor, for as long as it eliminates sites.
     ///
-    /// Fails with [`raw::HF_ERROR_BUSY`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_UNSUPPORTED`].
+    /// Fails with [`raw::HF_ERROR_BUSY`], [`raw::HF_ERROR_EMPTY`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn prepare_rebase(&self) -> Result<()> {
         let mut c = Call::new(&self.counts);
@@ -2845,11 +2828,9 @@ object!(
 impl Pose {
     /// Creates a pose without handles.
     ///
-    /// mode: `HF_DEFORM_*`
-    /// band_count: bands per field, 2 to 64; 0 = 10 (smooth) or 12 (paper)
-    /// iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10 (smooth) or 200 (paper)
-    /// rim_site_count: sites on the boundary of a handle; 0 = the full ring. The paper takes "dozens"
-    /// group_count: rotation groups of the smooth mode, 1 to 2000; 0 = 250
+    /// band_count: bands per field, 2 to 64; 0 = 10
+    /// iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10
+    /// group_count: groups of vertices that share a rotation, 1 to 2000; 0 = 250
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -2887,9 +2868,9 @@ impl Pose {
     /// surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion that its
     /// region has in the last pose (`Pose::handle` writes it), and the surface stays where it is (to 1e-6 of the box). It
     /// goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then
-    /// the region of the new handle keeps a part of its bend. restart ends this at once. [`raw::HF_DEFORM_PAPER`] places
-    /// the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle.
-    /// Handles of lower layers hold the surface in place for the higher layers.
+    /// the region of the new handle keeps a part of its bend. restart ends this at once. On a higher layer the surface
+    /// does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place
+    /// for the higher layers.
     ///
     /// region_vertices: lists of whole numbers: all regions one after the other; `None`: points are given
     /// points: `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to
@@ -2902,7 +2883,7 @@ impl Pose {
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
-    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_handles(&mut self, region_vertices: Option<&[&[u32]]>, handles: &HandlesOptions) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
@@ -2919,7 +2900,7 @@ impl Pose {
     /// point: `[3]`.
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
-    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_handle_at(&mut self, point: &[f64], radius: f64) -> Result<u32> {
         let mut c = Call::new(&self.counts);
@@ -3012,7 +2993,7 @@ impl Pose {
     /// handles: `[handle_count]`.
     /// free_rotation: 1: the solve finds the rotations; 0: you give them.
     ///
-    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_UNSUPPORTED`].
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_free_rotations(&mut self, handles: &[u32], free_rotation: bool) -> Result<()> {
         let mut c = Call::new(&self.counts);
@@ -4020,8 +4001,7 @@ impl Transfer {
     /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
-    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
-    /// [`raw::HF_ERROR_UNSUPPORTED`].
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_pairs(&mut self, source_vertices: &[&[u32]], target_vertices: &[&[u32]], flags: Option<&[u32]>,
             pairs: &Pairs) -> Result<Vec<u32>> {

@@ -51,9 +51,6 @@ pub const HF_FACTOR_ALIGNMENT: i32 = 64;
 pub const HF_LINK_NONE: i32 = 0;
 pub const HF_LINK_PIECES: i32 = 1;
 pub const HF_LINK_LIST: i32 = 2;
-pub const HF_ENGINE_GREEN: i32 = 0;
-pub const HF_ENGINE_UPDOWN: i32 = 1;
-pub const HF_ENGINE_REFACTOR: i32 = 2;
 pub const HF_ROUTE_NONE: i32 = 0;
 pub const HF_ROUTE_DENSE: i32 = 1;
 pub const HF_ROUTE_FRESH: i32 = 2;
@@ -70,8 +67,6 @@ pub const HF_GEODESICS_EXACT: i32 = 2;
 pub const HF_GEODESICS_HEAT: i32 = 3;
 pub const HF_EXTREMITIES_POISSON: i32 = 0;
 pub const HF_EXTREMITIES_GEODESIC: i32 = 1;
-pub const HF_DEFORM_SMOOTH: i32 = 0;
-pub const HF_DEFORM_PAPER: i32 = 1;
 pub const HF_LAYER_COUNT: i32 = 8;
 pub const HF_HANDLE_LIMIT: i32 = 256;
 pub const HF_HANDLE_REASON_FOOT: i32 = 0;
@@ -128,8 +123,7 @@ pub const HF_JOINT_KIND_HELPER: i32 = 1;
 pub const HF_JOINT_KIND_END: i32 = 2;
 pub const HF_JOINT_KIND_TWIST: i32 = 3;
 pub const HF_TRANSFER_FIELDS: i32 = 0;
-pub const HF_TRANSFER_PAPER: i32 = 1;
-pub const HF_TRANSFER_STRETCH: i32 = 2;
+pub const HF_TRANSFER_STRETCH: i32 = 1;
 pub const HF_GROUND_KEEP: i32 = 0;
 pub const HF_GROUND_OFF: i32 = 1;
 pub const HF_PAIR_ANCHOR: i32 = 1;
@@ -745,11 +739,8 @@ impl Default for hf_hit {
 pub struct hf_solver_desc {
     pub struct_size: u32,
     pub field_kind: i32,
-    pub engine: i32,
     pub channel_count: u32,
     pub site_limit: u32,
-    pub reserved: u32,
-    pub penalty: f64,
     pub progress: hf_progress,
 }
 impl Default for hf_solver_desc {
@@ -767,13 +758,10 @@ impl Default for hf_solver_desc {
 pub struct hf_solver_info {
     pub struct_size: u32,
     pub field_kind: i32,
-    pub engine: i32,
     pub channel_count: u32,
     pub site_limit: u32,
     pub site_count: u32,
-    pub penalty: f64,
     pub vertex_count: u32,
-    pub reserved: u32,
 }
 impl Default for hf_solver_info {
     fn default() -> Self {
@@ -789,13 +777,10 @@ impl hf_solver_info {
         Some(match name {
             "struct_size" => f64::from(self.struct_size),
             "field_kind" => f64::from(self.field_kind),
-            "engine" => f64::from(self.engine),
             "channel_count" => f64::from(self.channel_count),
             "site_limit" => f64::from(self.site_limit),
             "site_count" => f64::from(self.site_count),
-            "penalty" => self.penalty,
             "vertex_count" => f64::from(self.vertex_count),
-            "reserved" => f64::from(self.reserved),
             _ => return None,
         })
     }
@@ -1293,10 +1278,8 @@ impl hf_direction_statistics {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pose_desc {
     pub struct_size: u32,
-    pub mode: i32,
     pub band_count: u32,
     pub iteration_count: u32,
-    pub rim_site_count: u32,
     pub group_count: u32,
 }
 impl Default for hf_pose_desc {
@@ -1313,10 +1296,8 @@ impl Default for hf_pose_desc {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_pose_info {
     pub struct_size: u32,
-    pub mode: i32,
     pub band_count: u32,
     pub iteration_count: u32,
-    pub rim_site_count: u32,
     pub group_count: u32,
     pub handle_count: u32,
     pub vertex_count: u32,
@@ -1334,10 +1315,8 @@ impl hf_pose_info {
     pub fn figure(&self, name: &str) -> Option<f64> {
         Some(match name {
             "struct_size" => f64::from(self.struct_size),
-            "mode" => f64::from(self.mode),
             "band_count" => f64::from(self.band_count),
             "iteration_count" => f64::from(self.iteration_count),
-            "rim_site_count" => f64::from(self.rim_site_count),
             "group_count" => f64::from(self.group_count),
             "handle_count" => f64::from(self.handle_count),
             "vertex_count" => f64::from(self.vertex_count),

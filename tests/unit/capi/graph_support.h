@@ -11,6 +11,7 @@
 #include "hf/hf.h"
 #include "support/arrays.h"
 #include "support/dense.h"
+#include "support/peers.h"
 
 namespace graph_test {
 
@@ -53,11 +54,10 @@ struct Surface {
   hf_surface handle = nullptr;
 };
 struct Solver {
-  Solver(hf_surface surface, std::int32_t field_kind, std::int32_t engine = HF_ENGINE_GREEN) {
+  Solver(hf_surface surface, std::int32_t field_kind, std::int32_t engine = ENGINE_GREEN) {
     hf_solver_desc desc = HF_INIT(hf_solver_desc);
     desc.field_kind = field_kind;
-    desc.engine = engine;
-    EXPECT_EQ(hf_create(surface, &desc, &handle), HF_OK) << last_message();
+    EXPECT_EQ(create_with(engine, surface, &desc, &handle), HF_OK) << last_message();
   }
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;

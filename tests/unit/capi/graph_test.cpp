@@ -15,9 +15,9 @@ constexpr std::int32_t kinds[] = {HF_FIELD_HARMONIC, HF_FIELD_BIHARMONIC, HF_FIE
 
 std::vector<std::int32_t> engines() {
 #ifdef HF_WITH_GPL
-  return {HF_ENGINE_GREEN, HF_ENGINE_REFACTOR, HF_ENGINE_UPDOWN};
+  return {ENGINE_GREEN, ENGINE_REFACTOR, ENGINE_UPDOWN};
 #else
-  return {HF_ENGINE_GREEN, HF_ENGINE_REFACTOR};
+  return {ENGINE_GREEN, ENGINE_REFACTOR};
 #endif
 }
 
@@ -51,10 +51,10 @@ TEST(Graph, fields_and_fluxes_are_those_of_the_dense_system) {
       for (const std::int32_t engine : engines()) {
         const Solver solver(surface.handle, kind, engine);
         add(solver.handle, sites);
-        const double tolerance = engine == HF_ENGINE_UPDOWN ? 1e-5 : kind == HF_FIELD_HARMONIC ? 1e-11 : 1e-8;
+        const double tolerance = engine == ENGINE_UPDOWN ? 1e-5 : kind == HF_FIELD_HARMONIC ? 1e-11 : 1e-8;
         EXPECT_LE(difference(field(solver.handle, graph.vertex_count), right.field), tolerance)
             << "seed " << seed << ", kind " << kind << ", engine " << engine;
-        if (engine == HF_ENGINE_UPDOWN) continue;
+        if (engine == ENGINE_UPDOWN) continue;
         EXPECT_LE(difference(fluxes(solver.handle), right.flux), tolerance * (1 + right.flux.cwiseAbs().maxCoeff()))
             << "seed " << seed << ", kind " << kind << ", engine " << engine;
       }

@@ -11,6 +11,7 @@
 #include "deform/groups.h"
 #include "support/dense.h"
 #include "support/eigen.h"
+#include "support/pose_modes.h"
 
 namespace {
 
@@ -200,7 +201,7 @@ TEST_P(Weights, CoverEveryVertexOfReachedComponentsAndSumToOne) {
   hf_test::append(mesh, plain(samples::sphere(5)), 10);  // none: at rest
   const auto core = hf_test::make_core(mesh);
   PoseOptions options;
-  options.mode = static_cast<DeformMode>(GetParam());
+  options.scheme = hf_test::scheme_of(static_cast<hf_test::DeformMode>(GetParam()));
   const auto pose = Pose::make(core, options);
   const auto top = select(*core, [](Vec3 p) { return p.x < 3 && p.y > 1.7; });
   add(*pose, {select(*core, [](Vec3 p) { return p.x < 3 && p.y < 0.1; }), top,
@@ -242,7 +243,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, Weights, ::testing::Values(0, 1));
 TEST(Bands, OfTwoHandlesAreTheBasisOfOneField) {
   const auto core = hf_test::make_core(tube(24, 60, 4));
   PoseOptions options;
-  options.mode = DeformMode::paper;
+  options.scheme = hf_test::scheme_of(hf_test::DeformMode::paper);
   const auto pose = Pose::make(core, options);
   const auto numbers =
       add(*pose, {select(*core, [](Vec3 p) { return p.y < 0.5; }), select(*core, [](Vec3 p) { return p.y > 3.5; })});

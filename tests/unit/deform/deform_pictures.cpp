@@ -8,6 +8,7 @@
 #include "common/mesh_file.h"
 #include "common/picture.h"
 #include "support/arap_oracle.h"
+#include "support/pose_modes.h"
 
 using namespace deform_test;
 
@@ -127,7 +128,7 @@ int main(int argc, char** argv) {
       };
       const std::vector<Vec3> posed = positions(d.report);
       show(mode, posed);
-      if (options.mode == hf_inner::DeformMode::paper) return;
+      if (options.scheme) return;
       hf_inner::DeformRequest request;
       request.iteration_count = 1;
       request.refine = true;
@@ -153,7 +154,7 @@ int main(int argc, char** argv) {
       show("ARAP, converged", given());
     };
     hf_inner::PoseOptions paper;
-    paper.mode = hf_inner::DeformMode::paper;
+    paper.scheme = hf_test::scheme_of(hf_test::DeformMode::paper);
     run("paper 10/frame", paper, 10, 0);
     run("paper conv.", paper, 100, 1);
     run("smooth", {}, 5, 0);

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "cases.h"
+#include "support/pose_modes.h"
 
 namespace {
 
@@ -74,7 +75,7 @@ TEST(Drag, OutAndBackLeadsBackToRest) {
   for (const int mode : {0, 1}) {
     for (const Case& c : {cactus_bend(70, 4000), cylinder_bend(120, 8, 80), bar_twist(180, 10)}) {
       PoseOptions options;
-      options.mode = static_cast<DeformMode>(mode);
+      options.scheme = hf_test::scheme_of(static_cast<hf_test::DeformMode>(mode));
       const std::uint32_t iterations = mode == 0 ? default_iterations_smooth : default_iterations_paper;
       Dragged d = drag(c, options, 30, iterations);
       const std::vector<Vec3> held = positions(d.report);
@@ -100,7 +101,7 @@ TEST(Drag, AThousandFramesAllocateNothing) {
   for (const int mode : {0, 1}) {
     const Case c = cactus_bend(70, 1500);
     PoseOptions options;
-    options.mode = static_cast<DeformMode>(mode);
+    options.scheme = hf_test::scheme_of(static_cast<hf_test::DeformMode>(mode));
     Dragged d = set_up(c, options);
     d.pose->deform({true, 5, false});
     const std::uint64_t before = d.core->memory->allocation_count();
@@ -119,7 +120,7 @@ TEST(Drag, BitsDoNotDependOnTheNumberOfThreads) {
     for (const std::uint32_t threads : {1u, 2u, 4u}) {
       const Case c = cactus_bend(70, 9000);
       PoseOptions options;
-      options.mode = static_cast<DeformMode>(mode);
+      options.scheme = hf_test::scheme_of(static_cast<hf_test::DeformMode>(mode));
       Dragged d = drag(c, options, 10, 5, threads);
       d.report = d.pose->deform({true, 5, false});
       const std::vector<Vec3> x = positions(d.report);

@@ -9,6 +9,7 @@
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
 #include "deform/skin.h"
+#include "support/pose_modes.h"
 
 namespace {
 
@@ -43,9 +44,9 @@ struct Plant {
   std::shared_ptr<const Core> core = scene_core();
   std::shared_ptr<PoseStack> pose;
   double box = core->mesh.scale;
-  explicit Plant(DeformMode mode = DeformMode::smooth) {
+  explicit Plant(hf_test::DeformMode mode = hf_test::DeformMode::smooth) {
     PoseOptions options;
-    options.mode = mode;
+    options.scheme = hf_test::scheme_of(mode);
     pose = PoseStack::make(core, options);
   }
   std::uint32_t add(const Region& region, const HandleKind& kind = {}, std::uint32_t layer = 0) {
@@ -82,7 +83,7 @@ class Energy {
     for (const Region& region : regions)
       handles.push_back({static_cast<std::uint32_t>(handles.size()), make_region(core_, region, 0, *core_.memory)});
     const Reach reach(core_.mesh, handles, *core_.memory);
-    const auto sites = SiteSolver::make(EngineKind::green, plant.core, 0);
+    const auto sites = SiteSolver::make(plant.core);
     set_handle_sites(core_, *sites, Handles(core_.memory.get()), handles, *core_.memory);
     const HandleFields fields = solve_handle_fields(core_, *sites, handles, reach, *core_.memory);
     const ClusterWeights weights = make_cluster_weights(core_, rest_, reach, fields, {}, *core_.memory);
@@ -450,7 +451,7 @@ TEST(FreeTurn, AloneOrInThePapersModeAndBadCallsAreDefined) {
   for (Vec3& v : moved) v.x += 1;
   EXPECT_LT(largest_distance(moved, alone.frame()), 1e-9 * alone.box);
 
-  Plant paper(DeformMode::paper);
+  Plant paper(hf_test::DeformMode::paper);
   EXPECT_THROW(paper.add(arm_region(), free_kind), Error);
   EXPECT_EQ(paper.pose->handle_count(), 0u);
   const std::uint32_t given = paper.add(arm_region());

@@ -9,6 +9,7 @@
 #include "deform/pose_stack.h"
 #include "engine/green.h"
 #include "support/meshes.h"
+#include "support/pose_modes.h"
 
 namespace {
 
@@ -126,12 +127,12 @@ std::vector<double> restarted(PoseStack& pose, bool refine) {
   return out;
 }
 
-class Histories : public testing::TestWithParam<hf_inner::DeformMode> {};
+class Histories : public testing::TestWithParam<hf_test::DeformMode> {};
 
 TEST_P(Histories, ARestartedFrameHasTheBitsOfAFreshPose) {
   const auto core = hf_test::make_core(hf_test::torus(30, 20, 0.2));
   hf_inner::PoseOptions options;
-  options.mode = GetParam();
+  options.scheme = hf_test::scheme_of(GetParam());
   const auto pose = PoseStack::make(core, options);
   const auto regions = regions_on(*core, 12, 6);
   std::mt19937 random(9);
@@ -160,6 +161,6 @@ TEST_P(Histories, ARestartedFrameHasTheBitsOfAFreshPose) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Histories, testing::Values(hf_inner::DeformMode::smooth, hf_inner::DeformMode::paper));
+INSTANTIATE_TEST_SUITE_P(Both, Histories, testing::Values(hf_test::DeformMode::smooth, hf_test::DeformMode::paper));
 
 }  // namespace

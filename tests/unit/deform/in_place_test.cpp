@@ -7,6 +7,7 @@
 #include "cases.h"
 #include "deform/crossfade.h"
 #include "deform/pose_stack.h"
+#include "support/pose_modes.h"
 
 namespace {
 
@@ -39,10 +40,10 @@ struct Plant {
   std::shared_ptr<PoseStack> pose;
   std::vector<std::uint32_t> numbers{0, 0};
   double box;
-  explicit Plant(DeformMode mode = DeformMode::smooth, std::uint32_t threads = 1)
+  explicit Plant(hf_test::DeformMode mode = hf_test::DeformMode::smooth, std::uint32_t threads = 1)
       : core(threads == 1 ? cactus_core() : hf_test::make_core(scene.mesh, threads)), box(core->mesh.scale) {
     PoseOptions options;
-    options.mode = mode;
+    options.scheme = hf_test::scheme_of(mode);
     pose = PoseStack::make(core, options);
     for (int k = 0; k < 2; ++k) numbers[k] = add(select(*core, scene.regions[k]), false);
     bend(1);
@@ -173,7 +174,7 @@ TEST(InPlace, AtRestAndBeforeTheFirstFrameItIsAnOrdinaryHandle) {
 }
 
 TEST(InPlace, ThreadsDoNotChangeTheBitsAndThePapersModePlacesTheHandleOnly) {
-  Plant one, three(DeformMode::smooth, 3), paper(DeformMode::paper);
+  Plant one, three(hf_test::DeformMode::smooth, 3), paper(hf_test::DeformMode::paper);
   one.frame();
   three.frame();
   paper.frame();

@@ -12,6 +12,7 @@
 #include "deform/pose_stack.h"
 #include "deform/skin.h"
 #include "support/arap_oracle.h"
+#include "support/pose_modes.h"
 
 namespace {
 
@@ -52,7 +53,7 @@ struct Plant {
   Regions arms;
   explicit Plant(int mode = 0, std::uint32_t threads = 1) : core(hf_test::make_core(scene.mesh, threads)) {
     PoseOptions options;
-    options.mode = static_cast<DeformMode>(mode);
+    options.scheme = hf_test::scheme_of(static_cast<hf_test::DeformMode>(mode));
     pose = PoseStack::make(core, options);
     coarse = add_to(*pose, {select(*core, scene.regions[0]), select(*core, scene.regions[1])}, 0);
     arms = {select(*core, [](Vec3 p) { return p.x > 0.45 && p.y > 1.1; }),

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cases.h"
-#include "deform/paper_scheme.h"
+#include "support/pose_modes.h"
 
 namespace {
 
@@ -20,7 +20,7 @@ struct PaperRig {
     const Case c = cactus_bend(70, 1800);
     core = hf_test::make_core(c.mesh);
     PoseOptions options;
-    options.mode = DeformMode::paper;
+    options.scheme = hf_test::scheme_of(hf_test::DeformMode::paper);
     pose = Pose::make(core, options);
     handles = add(*pose, {select(*core, c.regions[0]), select(*core, c.regions[1])});
   }
@@ -43,7 +43,7 @@ TEST(PaperScheme, FindsARigidMotionOfTheSurfaceAndRestsThere) {
   state.fit(system);
   std::vector<Vec3> moved;
   for (const Vec3& p : rig.core->mesh.positions) moved.push_back(apply(rig.motion, p));
-  fit_motions(system, rig.core->mesh, moved.data(), state);
+  system.fit(rig.core->mesh, moved.data(), state);
   ASSERT_GT(state.motion.size(), 8u);
   for (const RigidMotion& found : state.motion) {
     EXPECT_LT(found.rotation.angularDistance(rig.motion.rotation), 1e-9);
@@ -59,7 +59,7 @@ TEST(PaperScheme, FindsARigidMotionOfTheSurfaceAndRestsThere) {
       transforms[h].a[i][3] = t[i];
     }
   }
-  const SolveReport report = solve_paper_pose(system, rig.core->mesh, weights, 3, 0, state, transforms.data());
+  const SolveReport report = system.solve(rig.core->mesh, weights, 3, 0, state, transforms.data());
   EXPECT_LT(report.last_change, 1e-9);
   EXPECT_LT(rig.off({transforms.data(), transforms.size()}), 1e-9);
 }
@@ -85,7 +85,7 @@ TEST(PaperScheme, AMotionWithoutTurnsIsNotTakenForRest) {
   const Case c = bar_twist(0, 8);
   const auto core = hf_test::make_core(c.mesh);
   PoseOptions options;
-  options.mode = DeformMode::paper;
+  options.scheme = hf_test::scheme_of(hf_test::DeformMode::paper);
   const auto pose = Pose::make(core, options);
   add(*pose, {select(*core, c.regions[0]), select(*core, c.regions[1])});
   const ClusterWeights& weights = *pose->weights();
@@ -94,9 +94,9 @@ TEST(PaperScheme, AMotionWithoutTurnsIsNotTakenForRest) {
   state.fit(system);
   const Affine rest{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, pulled{{{1, 0, 0, 0}, {0, 1, 0, 5}, {0, 0, 1, 0}}};
   std::vector<Affine> transforms(static_cast<std::size_t>(weights.cluster_count), rest);
-  transforms[1] = pulled;  // the upper handle
+  transforms[1] = pulled;            // the upper handle
   constexpr double tolerance = 0.5;  // a turn of 20 degrees, half a box
-  const SolveReport report = solve_paper_pose(system, core->mesh, weights, 2, tolerance, state, transforms.data());
+  const SolveReport report = system.solve(core->mesh, weights, 2, tolerance, state, transforms.data());
   EXPECT_EQ(report.iterations, 2u);
   EXPECT_LT(report.last_change, tolerance);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cases.h"
+#include "support/pose_modes.h"
 
 namespace {
 
@@ -18,7 +19,7 @@ Both measure_both(const Case& c) {
   const Dragged smooth = drag(c, {});
   both.smooth = measure(*smooth.core, positions(smooth.report));
   PoseOptions options;
-  options.mode = DeformMode::paper;
+  options.scheme = hf_test::scheme_of(hf_test::DeformMode::paper);
   Dragged paper = drag(c, options, 30, 100);
   paper.report = paper.pose->deform({false, 1000, false});
   both.paper = measure(*paper.core, positions(paper.report));

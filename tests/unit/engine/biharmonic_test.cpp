@@ -8,6 +8,7 @@
 
 #include "base/index.h"
 #include "support/dirty_meshes.h"
+#include "support/engines.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
 
@@ -40,8 +41,8 @@ Eigen::MatrixXd dense(const hf_inner::SymmetricMatrix& k) {
 
 std::vector<double> field_of(const std::shared_ptr<const hf_inner::Core>& core,
                              const std::vector<std::int32_t>& vertices, const std::vector<double>& values,
-                             hf_inner::EngineKind kind = hf_inner::EngineKind::green) {
-  const auto solver = hf_inner::SiteSolver::make(kind, core, 1e8);
+                             hf_test::EngineKind kind = hf_test::EngineKind::green) {
+  const auto solver = hf_test::make_engine(kind, core);
   std::vector<std::int32_t> slots;
   std::vector<hf_inner::Site> sites;
   for (const std::int32_t v : vertices) {
@@ -168,18 +169,18 @@ PlainMesh two_islands() {
 // Sites come, go and move; soft ones and ones inside triangles among them.
 TEST(Biharmonic, every_engine_gives_the_dense_oracles_field_under_edits) {
   struct Case {
-    hf_inner::EngineKind engine;
+    hf_test::EngineKind engine;
     double tolerance;  // of the value range
   };
-  std::vector<Case> cases = {{hf_inner::EngineKind::green, 1e-10}, {hf_inner::EngineKind::refactor, 1e-8}};
+  std::vector<Case> cases = {{hf_test::EngineKind::green, 1e-10}, {hf_test::EngineKind::refactor, 1e-8}};
 #ifdef HF_WITH_GPL
-  cases.push_back({hf_inner::EngineKind::updown, 1e-6});  // sites are penalties of 1e8 mean diagonals
+  cases.push_back({hf_test::EngineKind::updown, 1e-6});  // sites are penalties of 1e8 mean diagonals
 #endif
   for (const hf_inner::FieldKind field : both) {
     for (const hf_inner::OperatorKind kind : laplacians) {
       const auto core = make(two_islands(), field, kind);
       for (const Case& c : cases) {
-        const auto solver = hf_inner::SiteSolver::make(c.engine, core, 1e8);
+        const auto solver = hf_test::make_engine(c.engine, core);
         std::mt19937 random(17);
         std::vector<hf_inner::Site> sites;  // by slot
         std::vector<double> values;
@@ -256,7 +257,7 @@ TEST(Biharmonic, many_sites_at_once_give_the_same_field_as_a_fresh_elimination) 
     values.push_back(std::sin(0.1 * v));
   }
   const std::vector<double> green = field_of(core, vertices, values),
-                            fresh = field_of(core, vertices, values, hf_inner::EngineKind::refactor);
+                            fresh = field_of(core, vertices, values, hf_test::EngineKind::refactor);
   for (std::size_t v = 0; v < green.size(); ++v) EXPECT_NEAR(green[v], fresh[v], 1e-10);
 }
 

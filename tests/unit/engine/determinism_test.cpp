@@ -7,6 +7,7 @@
 #include "base/index.h"
 #include "factor/bytes_hash.h"
 #include "factor/factor_bytes.h"
+#include "support/engines.h"
 #include "support/hard_meshes.h"
 #include "unit/engine/edit_script.h"
 
@@ -87,7 +88,7 @@ class Recorder {
   }
 
   void fields(int channels) {
-    EditScript script(core_, {hf_inner::EngineKind::green}, channels, 77, 0);
+    EditScript script(core_, {hf_test::EngineKind::green}, channels, 77, 0);
     hf_inner::ScalarField& field = *script.fields[0];
     std::vector<double> u(static_cast<std::size_t>(core_->size() * channels));
     const auto solve = [&](const char* name) {

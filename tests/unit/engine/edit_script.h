@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "field/scalar_field.h"
 #include "mesh/places.h"
+#include "support/engines.h"
 #include "support/oracle.h"
 
 namespace hf_test {
@@ -24,11 +25,13 @@ struct ModelSite {
 
 class EditScript {
  public:
-  EditScript(std::shared_ptr<const hf_inner::Core> c, std::vector<hf_inner::EngineKind> kinds, int channels,
+  EditScript(std::shared_ptr<const hf_inner::Core> c, std::vector<hf_test::EngineKind> kinds, int channels,
              std::uint32_t seed, double offset)
       : core(std::move(c)), m(static_cast<std::size_t>(channels)), shift(offset), random_(seed) {
-    for (const hf_inner::EngineKind kind : kinds)
-      fields.emplace_back(std::make_unique<hf_inner::ScalarField>(core, kind, 1e8, channels, 100000));
+    for (const hf_test::EngineKind kind : kinds)
+      fields.emplace_back(
+          std::make_unique<hf_inner::ScalarField>(core, channels, 100000, hf_test::make_engine(kind, core)));
+    engines_ = std::move(kinds);
     for (std::uint32_t v = 0; v < core->mesh.report.vertex_count; ++v) {
       if (core->mesh.inner_of_given[v] != hf_inner::Mesh::none) vertices_.push_back(v);
     }
@@ -224,7 +227,8 @@ class EditScript {
     std::vector<char> reached(static_cast<std::size_t>(core->mesh.component_count()), 0);
     for (const hf_inner::Site& site : used) reached[static_cast<std::size_t>(site.component)] = 1;
     const double size = std::max(2.0, exact.cwiseAbs().maxCoeff());
-    for (const auto& field : fields) {
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      const auto& field = fields[f];
       std::vector<double> u(static_cast<std::size_t>(core->size()) * m, -7);
       field->solve(u.data());
       double worst = 0;
@@ -235,7 +239,7 @@ class EditScript {
           worst = std::max(worst, std::fabs(u[v * m + c] - expected));
         }
       }
-      if (field->engine().kind() == hf_inner::EngineKind::green) {
+      if (engines_[f] == hf_test::EngineKind::green) {
         // what single precision and corrections make of the same sites
         std::vector<double> preview(u.size());
         for (const int corrections : {0, 2}) {
@@ -248,9 +252,9 @@ class EditScript {
           }
         }
       }
-      const bool penalty = field->engine().kind() == hf_inner::EngineKind::updown;
+      const bool penalty = engines_[f] == hf_test::EngineKind::updown;
       EXPECT_LE(worst, (penalty ? updown_tolerance : tolerance) * size)
-          << "engine " << static_cast<int>(field->engine().kind()) << ", " << used.size() << " sites";
+          << "engine " << static_cast<int>(engines_[f]) << ", " << used.size() << " sites";
     }
   }
 
@@ -347,6 +351,7 @@ class EditScript {
   }
 
   std::mt19937 random_;
+  std::vector<hf_test::EngineKind> engines_;         // of the fields
   std::vector<std::uint32_t> vertices_, triangles_;  // usable ones, as given
 };
 

@@ -2,6 +2,7 @@
 // one to many; batches that must be refused) on surfaces of several components, of genus above one, and dirty ones, all
 // engines in lockstep, against the dense oracle or a fresh elimination.
 #include "factor/factor_bytes.h"
+#include "support/engines.h"
 #include "support/hard_meshes.h"
 #include "unit/engine/edit_script.h"
 
@@ -46,7 +47,7 @@ void expect_fresh_elimination(const EditScript& script, double tolerance) {
   std::vector<hf_inner::Site> used;
   Eigen::MatrixXd values;
   script.present(used, values);
-  const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::refactor, script.core, 1e8);
+  const auto solver = hf_test::make_engine(hf_test::EngineKind::refactor, script.core);
   std::vector<std::int32_t> slots(used.size());
   std::vector<double> s;
   for (std::size_t i = 0; i < used.size(); ++i) {
@@ -99,7 +100,7 @@ TEST_P(EditScripts, give_the_dense_oracles_field_with_every_engine) {
 TEST_P(EditScripts, stay_exact_when_sites_were_moved_into_the_factor) {
   for (const bool loaded : {false, true}) {
     const auto core = loaded ? loaded_core(GetParam().make()) : hf_test::make_core(GetParam().make());
-    EditScript script(core, {hf_inner::EngineKind::green}, 1, 31 + loaded, 1e4);
+    EditScript script(core, {hf_test::EngineKind::green}, 1, 31 + loaded, 1e4);
     int checked_inside = 0, checked_freed = 0;
     for (int round = 0; round < (full() ? 40 : 5); ++round) {
       SCOPED_TRACE(testing::Message() << "loaded " << loaded << " round " << round);
@@ -135,7 +136,7 @@ TEST(LongEditScripts, agree_with_a_fresh_elimination_and_never_refactor_below_th
   append(mesh, hf_test::slab_with_holes(4, 5), 20);
   append(mesh, hf_test::dirty(20), 100);
   const auto core = hf_test::make_core(mesh);
-  EditScript script(core, {hf_inner::EngineKind::green}, 1, 5, 1e4);
+  EditScript script(core, {hf_test::EngineKind::green}, 1, 5, 1e4);
   run(script, full() ? 100000 : 10000, 60, full() ? 60 : 12, [&] {
     expect_fresh_elimination(script, 1e-10);
     EXPECT_EQ(script.fields[0]->engine().counters().factorisations, 1u);

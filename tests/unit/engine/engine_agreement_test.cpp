@@ -4,6 +4,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "support/engines.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
 
@@ -13,7 +14,7 @@ using hf_test::engines;
 using hf_test::PlainMesh;
 
 // hard sites of updown are penalties of 1e8 mean diagonals
-double tolerance(hf_inner::EngineKind kind) { return kind == hf_inner::EngineKind::updown ? 2e-6 : 1e-11; }
+double tolerance(hf_test::EngineKind kind) { return kind == hf_test::EngineKind::updown ? 2e-6 : 1e-11; }
 
 struct Script {
   explicit Script(std::shared_ptr<const hf_inner::Core> c, int channels, std::uint32_t seed, double offset = 0)
@@ -147,8 +148,8 @@ PlainMesh three_islands() {
 
 TEST(Engines, give_the_dense_oracles_field_over_random_edits) {
   const auto core = hf_test::make_core(three_islands());
-  for (const hf_inner::EngineKind kind : engines()) {
-    const auto solver = hf_inner::SiteSolver::make(kind, core, 1e8);
+  for (const hf_test::EngineKind kind : engines()) {
+    const auto solver = hf_test::make_engine(kind, core);
     Script script(core, 2, 11);
     for (int round = 0; round < 40; ++round) {
       script.add(1 + round % 4, *solver);
@@ -161,8 +162,8 @@ TEST(Engines, give_the_dense_oracles_field_over_random_edits) {
 
 TEST(Engines, walk_through_zero_sites_and_back) {
   const auto core = hf_test::make_core(three_islands());
-  for (const hf_inner::EngineKind kind : engines()) {
-    const auto solver = hf_inner::SiteSolver::make(kind, core, 1e8);
+  for (const hf_test::EngineKind kind : engines()) {
+    const auto solver = hf_test::make_engine(kind, core);
     Script script(core, 1, 5);
     for (int round = 0; round < 30; ++round) {
       script.add(1 + round % 3, *solver);
@@ -175,17 +176,17 @@ TEST(Engines, walk_through_zero_sites_and_back) {
 
 TEST(Engines, lose_no_digits_to_a_common_offset) {
   const auto core = hf_test::make_core(three_islands());
-  for (const hf_inner::EngineKind kind : engines()) {
-    const auto solver = hf_inner::SiteSolver::make(kind, core, 1e8);
+  for (const hf_test::EngineKind kind : engines()) {
+    const auto solver = hf_test::make_engine(kind, core);
     Script script(core, 1, 7, 1e4);
     script.add(12, *solver);
-    script.expect_oracle(*solver, kind == hf_inner::EngineKind::updown ? 2e-6 : 1e-10);
+    script.expect_oracle(*solver, kind == hf_test::EngineKind::updown ? 2e-6 : 1e-10);
   }
 }
 
 TEST(Green, many_channels_are_the_single_channels) {
   const auto core = hf_test::make_core(hf_test::torus(30, 20));
-  const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
+  const auto solver = hf_inner::SiteSolver::make(core);
   Script script(core, 13, 3);
   script.add(20, *solver);
   script.expect_oracle(*solver, 1e-11);
@@ -193,7 +194,7 @@ TEST(Green, many_channels_are_the_single_channels) {
 
 TEST(Green, refuses_a_dependent_site_and_stays_as_it_was) {
   const auto core = hf_test::make_core(hf_test::torus(10, 10));
-  const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
+  const auto solver = hf_inner::SiteSolver::make(core);
   std::vector<std::int32_t> slots;
   std::vector<hf_inner::Site> sites;
   for (int k = 0; k < 3; ++k) {
@@ -231,7 +232,7 @@ TEST(Green, gives_the_same_bits_for_any_number_of_threads) {
   std::vector<double> first;
   for (const std::uint32_t threads : {1u, 2u, 4u}) {
     const auto core = hf_test::make_core(hf_test::torus(120, 90), threads);
-    const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
+    const auto solver = hf_inner::SiteSolver::make(core);
     Script script(core, 3, 21);
     script.add(150, *solver);
     script.remove(40, *solver);
@@ -249,7 +250,7 @@ TEST(Green, moves_many_sites_into_the_factor_and_stays_exact_under_edits) {
   const auto core = hf_test::make_core(mesh);
   std::uint32_t rebased = 0, freed = 0;
   for (std::uint32_t seed = 1; seed <= 6; ++seed) {
-    const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
+    const auto solver = hf_inner::SiteSolver::make(core);
     Script script(core, 2, seed);
     // hard vertex sites only at first, all at once
     std::vector<std::int32_t> slots;
@@ -286,7 +287,7 @@ TEST(Green, moves_many_sites_into_the_factor_and_stays_exact_under_edits) {
 
 TEST(Green, ten_thousand_edits_drift_by_nothing) {
   const auto core = hf_test::make_core(hf_test::torus(40, 25));
-  const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
+  const auto solver = hf_inner::SiteSolver::make(core);
   Script script(core, 1, 99, 1e4);
   script.add(50, *solver);
   for (int i = 0; i < 5000; ++i) {

@@ -18,7 +18,7 @@ double worst_overshoot(const hf_test::PlainMesh& mesh, hf_inner::OperatorKind ki
   std::mt19937 random(seed);
   double worst = 0;
   for (int round = 0; round < rounds; ++round) {
-    const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
+    const auto solver = hf_inner::SiteSolver::make(core);
     const std::size_t count = 2 + random() % 12;
     std::vector<std::int32_t> slots, taken;
     std::vector<hf_inner::Site> sites;

@@ -6,6 +6,7 @@
 
 #include "factor/factor_bytes.h"
 #include "field/certificate.h"
+#include "support/engines.h"
 #include "support/hard_meshes.h"
 #include "support/mixed_reference.h"
 #include "unit/engine/edit_script.h"
@@ -100,7 +101,7 @@ TEST_P(MixedSolver, gives_the_dense_oracles_field_and_fluxes) {
   const auto core = hf_test::make_core(two_bodies(), 2, unformed(GetParam()));
   ASSERT_TRUE(core->root);
   EXPECT_EQ(core->laplacian.size(), 0);
-  EditScript script(core, {hf_inner::EngineKind::green}, 9, 3, 0);
+  EditScript script(core, {hf_test::EngineKind::green}, 9, 3, 0);
   script.apply(0, 0, 0, 30);
   std::vector<hf_inner::Site> used;
   Eigen::MatrixXd values, lambda;
@@ -117,7 +118,7 @@ TEST_P(MixedSolver, gives_the_dense_oracles_field_and_fluxes) {
 
 TEST_P(MixedSolver, stays_exact_under_edits_and_a_clone_keeps_its_bits) {
   const auto core = hf_test::make_core(two_bodies(), 1, unformed(GetParam()));
-  EditScript script(core, {hf_inner::EngineKind::green}, 2, 7, 1e3);
+  EditScript script(core, {hf_test::EngineKind::green}, 2, 7, 1e3);
   for (int round = 0; round < 40; ++round) {
     script.step(round % 3 ? 25 : 4, 12);
     if (round % 4 == 0) script.refused_step();
@@ -138,7 +139,7 @@ TEST_P(MixedSolver, stays_exact_under_edits_and_a_clone_keeps_its_bits) {
 
 TEST_P(MixedSolver, stays_exact_when_sites_were_moved_into_the_factor) {
   const auto core = hf_test::make_core(two_bodies(), 1, unformed(GetParam()));
-  EditScript script(core, {hf_inner::EngineKind::green}, 2, 11, 0);
+  EditScript script(core, {hf_test::EngineKind::green}, 2, 11, 0);
   int freed = 0;
   for (int round = 0; round < 4; ++round) {
     script.apply(0, 0, 0, core->size() / 4, true);
@@ -210,7 +211,7 @@ TEST_P(MixedSolver, stays_exact_on_hard_meshes) {
   PlainMesh mesh = hf_test::slab_with_holes(2, 2);
   append(mesh, hf_test::dirty(), 100);
   const auto core = hf_test::make_core(mesh, 1, unformed(GetParam()));
-  EditScript script(core, {hf_inner::EngineKind::green}, 1, 13, 1e2);
+  EditScript script(core, {hf_test::EngineKind::green}, 1, 13, 1e2);
   for (int round = 0; round < 12; ++round) {
     script.step(20, 10);
     SCOPED_TRACE(round);
@@ -264,7 +265,7 @@ TEST_P(MixedSolver, gives_the_same_bits_for_threads_and_a_loaded_factor) {
                             *core->jobs);
     }
     EXPECT_EQ(core->factor->statistics().loaded, i == 2);
-    EditScript script(core, {hf_inner::EngineKind::green}, 2, 5, 0);
+    EditScript script(core, {hf_test::EngineKind::green}, 2, 5, 0);
     script.apply(0, 0, 0, 20);
     fields[i].resize(at(core->size()) * 2);
     script.fields[0]->solve(fields[i].data());
@@ -275,7 +276,7 @@ TEST_P(MixedSolver, gives_the_same_bits_for_threads_and_a_loaded_factor) {
 
 TEST_P(MixedSolver, is_the_only_engine_where_the_operator_is_not_formed) {
   const auto core = hf_test::make_core(two_bodies(), 1, unformed(GetParam()));
-  EXPECT_THROW(hf_inner::SiteSolver::make(hf_inner::EngineKind::refactor, core, 1e8), hf_inner::Error);
+  EXPECT_THROW(hf_test::make_engine(hf_test::EngineKind::refactor, core), hf_inner::Error);
   hf_inner::CoreOptions options;
   options.field_kind = GetParam();
   EXPECT_FALSE(hf_test::make_core(two_bodies(), 1, options)->root);
@@ -312,7 +313,7 @@ TEST_P(HighValence, fields_are_those_of_long_double_and_certified) {
         sites.insert(sites.end(), {0, rim + 1, rim + 2, rim + n / 2 + 1});
         values.insert(values.end(), {0.3, 0.9, 0.95, 0.4});
       }
-      hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100);
+      hf_inner::ScalarField field(core, 1, 100);
       hf_inner::FieldEdit edit;
       edit.add.count = static_cast<std::uint32_t>(sites.size());
       edit.add.vertices = sites.data();
@@ -347,7 +348,7 @@ TEST(HighValenceDisc, holds_its_value) {
   hf_inner::CoreOptions options;
   options.field_kind = FieldKind::biharmonic;
   const auto core = hf_test::make_core(closed_fan(n), 1, options);
-  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 10000);
+  hf_inner::ScalarField field(core, 1, 10000);
   const std::uint32_t vertices[] = {1, 1 + n / 2, 1 + n / 3};
   const double values[] = {1, -1, 0}, radii[] = {0.1, 0, 0};
   hf_inner::FieldEdit edit;

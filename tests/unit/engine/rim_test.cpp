@@ -25,7 +25,7 @@ constexpr hf_inner::OperatorKind kinds[] = {hf_inner::OperatorKind::cotangent,
 TEST(Rim, of_a_disc_keeps_its_inside_at_the_value_of_the_site) {
   for (const hf_inner::OperatorKind kind : kinds) {
     const auto core = core_of(hf_test::torus(60, 30, 0.4, 3), kind);
-    hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 10000);
+    hf_inner::ScalarField field(core, 1, 10000);
     const std::uint32_t vertices[] = {100, 1000};
     const double values[] = {2, -1}, radii[] = {0.8, 0.7};
     hf_inner::FieldEdit edit;
@@ -57,7 +57,7 @@ TEST(Rim, of_a_region_lets_nothing_of_the_field_through) {
       if (column < 8) left.push_back(v);
       if (column > 22) right.push_back(v);
     }
-    const auto solver = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 1e8);
+    const auto solver = hf_inner::SiteSolver::make(core);
     std::vector<std::int32_t> slots;
     std::vector<hf_inner::Site> sites;
     std::vector<double> values;

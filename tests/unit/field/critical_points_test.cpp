@@ -10,6 +10,7 @@
 #include "analysis_support.h"
 #include "base/index.h"
 #include "field/scalar_field.h"
+#include "support/engines.h"
 
 namespace {
 
@@ -166,7 +167,7 @@ TEST(MaximumPrinciple, holds_for_1000_random_site_sets_with_weights_above_zero) 
   std::mt19937_64 random(5);
   std::vector<double> u(mesh.vertex_count());
   for (int set = 0; set < 1000; ++set) {
-    hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 1000);
+    hf_inner::ScalarField field(core, 1, 1000);
     const auto vertices = different_vertices(mesh.vertex_count(), 2 + random() % 9, random);
     std::vector<double> values;
     for (std::size_t i = 0; i < vertices.size(); ++i) values.push_back(static_cast<double>(random() % 1000) / 1000);
@@ -193,7 +194,7 @@ TEST(MaximumPrinciple, holds_along_the_edges_of_the_intrinsic_operator) {
   std::vector<double> u(mesh.vertex_count());
   int seeming = 0;
   for (int set = 0; set < 200; ++set) {
-    hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 1000);
+    hf_inner::ScalarField field(core, 1, 1000);
     const auto vertices = different_vertices(mesh.vertex_count(), 10, random);
     std::vector<double> values;
     for (std::size_t i = 0; i < vertices.size(); ++i) values.push_back(static_cast<double>(random() % 1000) / 1000);
@@ -223,10 +224,10 @@ TEST(MaximumPrinciple, holds_along_the_edges_of_the_intrinsic_operator) {
 
 // ---- the paper's open question (docs/studies/critical_points.md)
 
-std::vector<double> solve(const std::shared_ptr<const hf_inner::Core>& core, hf_inner::EngineKind engine,
+std::vector<double> solve(const std::shared_ptr<const hf_inner::Core>& core, hf_test::EngineKind engine,
                           double stiffness, const std::vector<std::uint32_t>& vertices,
                           const std::vector<double>& values) {
-  hf_inner::ScalarField field(core, engine, 1e8, 1, 100000);
+  hf_inner::ScalarField field(core, 1, 100000, hf_test::make_engine(engine, core));
   hf_inner::FieldEdit edit;
   const std::vector<double> soft(vertices.size(), stiffness);
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
@@ -283,16 +284,16 @@ TEST(CriticalPointsUnderPenalty, are_the_very_vertices_of_the_exact_field) {
                            : kind == 1 ? static_cast<double>(i % 2)
                                        : static_cast<double>(i % 4) / 3);
         }
-        const CriticalPoints exact = find(*core, solve(core, hf_inner::EngineKind::green, 0, vertices, values));
+        const CriticalPoints exact = find(*core, solve(core, hf_test::EngineKind::green, 0, vertices, values));
         for (const double alpha : {1e8, 1e6}) {
-          const CriticalPoints soft = find(*core, solve(core, hf_inner::EngineKind::green, alpha, vertices, values));
+          const CriticalPoints soft = find(*core, solve(core, hf_test::EngineKind::green, alpha, vertices, values));
           EXPECT_TRUE(same_points(exact, soft)) << "alpha " << alpha << ", " << count << " sites, kind " << kind;
         }
         changed_at_100 +=
-            !same_points(exact, find(*core, solve(core, hf_inner::EngineKind::green, 100, vertices, values)));
-        changed_at_1 += !same_points(exact, find(*core, solve(core, hf_inner::EngineKind::green, 1, vertices, values)));
+            !same_points(exact, find(*core, solve(core, hf_test::EngineKind::green, 100, vertices, values)));
+        changed_at_1 += !same_points(exact, find(*core, solve(core, hf_test::EngineKind::green, 1, vertices, values)));
 #ifdef HF_WITH_GPL
-        EXPECT_TRUE(same_points(exact, find(*core, solve(core, hf_inner::EngineKind::updown, 0, vertices, values))));
+        EXPECT_TRUE(same_points(exact, find(*core, solve(core, hf_test::EngineKind::updown, 0, vertices, values))));
 #endif
       }
     }
@@ -339,10 +340,10 @@ TEST(CriticalPointsUnderPenalty, differ_where_the_exact_field_is_flat) {
     }
     return found;
   };
-  const auto exact = solve(core, hf_inner::EngineKind::green, 0, vertices, values);
+  const auto exact = solve(core, hf_test::EngineKind::green, 0, vertices, values);
   EXPECT_LT(inside_range(exact), 1e-12);
   for (const double alpha : {1e8, 1e4}) {
-    const auto soft = solve(core, hf_inner::EngineKind::green, alpha, vertices, values);
+    const auto soft = solve(core, hf_test::EngineKind::green, alpha, vertices, values);
     EXPECT_GT(inside_range(soft), 1e-3 / alpha);
     EXPECT_LT(inside_range(soft), 10 / alpha);
     EXPECT_FALSE(same_points(find(*core, exact), find(*core, soft)));

@@ -9,15 +9,16 @@
 #include "base/index.h"
 #include "field/certificate.h"
 #include "field/scalar_field.h"
+#include "support/engines.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
 
 namespace {
 
 using hf_inner::at;
-using hf_inner::EngineKind;
 using hf_inner::Index;
 using hf_inner::ScalarField;
+using hf_test::EngineKind;
 using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using Column = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
@@ -30,7 +31,8 @@ hf_test::PlainMesh tetrahedron() {
 struct Trial {
   ScalarField field;
   std::vector<double> strength, target;
-  Trial(std::shared_ptr<const hf_inner::Core> core, EngineKind engine) : field(core, engine, 1e8, 1, 1000) {}
+  Trial(std::shared_ptr<const hf_inner::Core> core, EngineKind engine)
+      : field(core, 1, 1000, hf_test::make_engine(engine, core)) {}
 
   void screen(std::mt19937& random, double exponents) {
     std::uniform_real_distribution<double> one(0, 1);
@@ -154,7 +156,7 @@ TEST(CrowdedField, weak_screening_loses_no_digits) {
 TEST(CrowdedField, three_points_fix_their_triangle_under_any_screening) {
   const auto core = hf_test::make_core(one_triangle());
   for (const double h : {0.0, 3e3, 1e7, 1e12, 1e190}) {
-    ScalarField field(core, EngineKind::green, 1e8, 1, 100);
+    ScalarField field(core, 1, 100);
     const double strength[3] = {0, h, 0};
     if (h > 1e13) {
       EXPECT_THROW(field.set_screening({strength, 3}, nullptr), hf_inner::Error);
@@ -193,7 +195,7 @@ TEST(CrowdedField, previews_say_their_error) {
       hf_inner::CoreOptions options;
       options.field_kind = kind;
       const auto core = hf_test::make_core(mesh, 1, options);
-      ScalarField field(core, EngineKind::green, 1e8, 1, 1000);
+      ScalarField field(core, 1, 1000);
       const std::uint32_t n = mesh.vertex_count(), vertices[4] = {0, n / 3, n / 2, n - 1};
       const double values[4] = {0, 100, -300, 50};
       hf_inner::FieldEdit edit;

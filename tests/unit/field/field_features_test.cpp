@@ -7,6 +7,7 @@
 #include "assets/shapes.h"
 #include "field/scalar_field.h"
 #include "field/vector_field.h"
+#include "support/engines.h"
 #include "support/meshes.h"
 
 namespace {
@@ -15,9 +16,10 @@ using hf_test::PlainMesh;
 
 PlainMesh from_shape(samples::ShapeMesh shape) { return {std::move(shape.positions), std::move(shape.triangles)}; }
 
-hf_inner::ScalarField make_field(const PlainMesh& mesh, hf_inner::EngineKind engine = hf_inner::EngineKind::green,
+hf_inner::ScalarField make_field(const PlainMesh& mesh, hf_test::EngineKind engine = hf_test::EngineKind::green,
                                  int channels = 1) {
-  return hf_inner::ScalarField(hf_test::make_core(mesh), engine, 1e8, channels, 100000);
+  const auto core = hf_test::make_core(mesh);
+  return hf_inner::ScalarField(core, channels, 100000, hf_test::make_engine(engine, core));
 }
 
 void add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertices, const std::vector<double>& values,
@@ -129,8 +131,8 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
                {"cylinder", from_shape(samples::cylinder(16, 100))},
                {"torus 304K", from_shape(samples::jittered_torus(551, 552))}};
   for (const auto& entry : cases) {
-    hf_inner::ScalarField exact = make_field(entry.mesh, hf_inner::EngineKind::refactor);
-    hf_inner::ScalarField soft(exact.shared_core(), hf_inner::EngineKind::green, 1e8, 1, 1000);
+    hf_inner::ScalarField exact = make_field(entry.mesh, hf_test::EngineKind::refactor);
+    hf_inner::ScalarField soft(exact.shared_core(), 1, 1000);
     std::set<std::uint32_t> seen;
     std::vector<std::uint32_t> vertices;
     std::vector<double> values;
@@ -144,7 +146,7 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
     add(exact, vertices, values);
     add(soft, vertices, values, std::vector<double>(60, 1e8));
     const auto u = solve(exact), penalty = solve(soft);
-    hf_inner::ScalarField hard(exact.shared_core(), hf_inner::EngineKind::green, 1e8, 1, 1000);
+    hf_inner::ScalarField hard(exact.shared_core(), 1, 1000);
     add(hard, vertices, values);
     const auto green = solve(hard);
     double penalty_error = 0, green_error = 0;
@@ -157,7 +159,8 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
     EXPECT_LE(penalty_error, 1e-6) << entry.name;
     EXPECT_LE(green_error, 1e-11) << entry.name;
 #ifdef HF_WITH_GPL
-    hf_inner::ScalarField updown(exact.shared_core(), hf_inner::EngineKind::updown, 1e8, 1, 1000);
+    hf_inner::ScalarField updown(exact.shared_core(), 1, 1000,
+                                 hf_test::make_engine(hf_test::EngineKind::updown, exact.shared_core()));
     add(updown, vertices, values);
     const auto paper = solve(updown);
     double paper_error = 0, same = 0;
@@ -174,7 +177,7 @@ TEST(PenaltySites, stay_within_1e_6_of_exact_elimination_on_six_meshes_up_to_300
 
 TEST(VectorField, is_tangent_and_its_constraints_turn_without_touching_the_factor) {
   const PlainMesh mesh = hf_test::torus(60, 40);
-  hf_inner::ScalarField field = make_field(mesh, hf_inner::EngineKind::green, 3);
+  hf_inner::ScalarField field = make_field(mesh, hf_test::EngineKind::green, 3);
   const auto normals = hf_inner::vertex_normals(field.core().mesh, *field.core().memory);
   const std::vector<std::uint32_t> vertices = {3, 700, 1500};
   add(field, vertices, {1, 0, 0, 0, 1, 0, 0, 0, 1});
@@ -234,7 +237,7 @@ TEST(MaximumPrinciple, holds_with_clamped_weights_on_an_obtuse_mesh) {
   options.operator_kind = hf_inner::OperatorKind::clamped;
   const auto core = hf_test::make_core(mesh, 1, options);
   for (int trial = 0; trial < 100; ++trial) {
-    hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100);
+    hf_inner::ScalarField field(core, 1, 100);
     std::set<std::uint32_t> seen;
     std::vector<double> values;
     for (std::uint32_t i = 0; seen.size() < 5; ++i)

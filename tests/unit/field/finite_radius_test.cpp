@@ -9,6 +9,7 @@
 #include "base/index.h"
 #include "field/scalar_field.h"
 #include "mesh/geodesic_disc.h"
+#include "support/engines.h"
 #include "support/meshes.h"
 
 namespace {
@@ -19,9 +20,9 @@ using hf_test::PlainMesh;
 PlainMesh from_shape(samples::ShapeMesh shape) { return {std::move(shape.positions), std::move(shape.triangles)}; }
 
 struct Field {
-  explicit Field(const PlainMesh& mesh, hf_inner::EngineKind engine = hf_inner::EngineKind::green,
+  explicit Field(const PlainMesh& mesh, hf_test::EngineKind engine = hf_test::EngineKind::green,
                  hf_inner::CoreOptions options = {})
-      : field(hf_test::make_core(mesh, 1, options), engine, 1e8, 1, 5000) {}
+      : core(hf_test::make_core(mesh, 1, options)), field(core, 1, 5000, hf_test::make_engine(engine, core)) {}
   std::vector<std::uint32_t> add(const std::vector<std::uint32_t>& vertices, const std::vector<double>& values,
                                  const std::vector<double>& radii, const std::vector<double>& stiffness = {}) {
     hf_inner::FieldEdit edit;
@@ -39,6 +40,7 @@ struct Field {
     field.solve(u.data());
     return u;
   }
+  std::shared_ptr<const hf_inner::Core> core;
   hf_inner::ScalarField field;
 };
 
@@ -116,7 +118,7 @@ TEST(FiniteRadius, field_shares_stay_from_4096_to_262144_vertices_where_points_d
 }
 
 TEST(FiniteRadius, holds_its_value_on_the_whole_disc_and_its_flux_balances) {
-  for (const hf_inner::EngineKind engine : {hf_inner::EngineKind::green, hf_inner::EngineKind::refactor}) {
+  for (const hf_test::EngineKind engine : {hf_test::EngineKind::green, hf_test::EngineKind::refactor}) {
     Field field(hf_test::torus(60, 40), engine);
     const auto numbers = field.add({0, 1220}, {-2, 3}, {0.5, 0.3});
     const std::vector<double> u = field.solve();
@@ -207,7 +209,7 @@ TEST(FiniteRadius, refuses_overlaps_hidden_numbers_and_too_many_vertices) {
             }),
             HF_ERROR_NOT_FOUND);
   EXPECT_EQ(field.solve(), before);
-  hf_inner::ScalarField small(field.field.shared_core(), hf_inner::EngineKind::green, 1e8, 1, 10);
+  hf_inner::ScalarField small(field.field.shared_core(), 1, 10);
   const std::uint32_t v = 0;
   const double radius = 0.5;
   hf_inner::FieldEdit edit;
@@ -238,7 +240,7 @@ TEST(FiniteRadius, soft_discs_share_their_stiffness) {
 TEST(FiniteRadius, holds_whole_discs_of_a_biharmonic_field) {
   hf_inner::CoreOptions options;
   options.field_kind = hf_inner::FieldKind::biharmonic;
-  Field field(hf_test::torus(60, 40), hf_inner::EngineKind::green, options);
+  Field field(hf_test::torus(60, 40), hf_test::EngineKind::green, options);
   field.add({0, 1220}, {0, 1}, {0.5, 0.5});
   int held = 0;
   for (const double x : field.solve()) held += x == 1.0;

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "field/certificate.h"
 #include "field/levels.h"
+#include "support/engines.h"
 
 namespace {
 
@@ -342,12 +343,17 @@ TEST(Isolines, PointsLieOnTheirEdgesInTheUnitOfTheMesh) {
 
 TEST(Certificate, ToleranceIsTheOneAskedForOrTheEngines) {
   using hf_inner::certificate_tolerance;
-  using hf_inner::EngineKind;
-  EXPECT_EQ(certificate_tolerance(0.25, EngineKind::updown), 0.25);
-  EXPECT_EQ(certificate_tolerance(0, EngineKind::green), 1e-8);
-  EXPECT_EQ(certificate_tolerance(0, EngineKind::updown), 1e-5);
+  const auto core = hf_test::make_core(hf_test::torus(12, 8));
+  const auto green = hf_inner::SiteSolver::make(core);
+  EXPECT_EQ(certificate_tolerance(0.25, *green), 0.25);
+  EXPECT_EQ(certificate_tolerance(0, *green), 1e-8);
+#ifdef HF_WITH_GPL
+  const auto updown = hf_inner::make_updown_solver(core, 1e8);
+  EXPECT_EQ(certificate_tolerance(0.25, *updown), 0.25);
+  EXPECT_EQ(certificate_tolerance(0, *updown), 1e-5);
+#endif
   for (const double bad : {-1.0, HUGE_VAL, std::nan("")})
-    EXPECT_THROW(certificate_tolerance(bad, EngineKind::green), hf_inner::Error);
+    EXPECT_THROW(certificate_tolerance(bad, *green), hf_inner::Error);
 }
 
 }  // namespace

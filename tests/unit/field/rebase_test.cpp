@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "field/scalar_field.h"
+#include "support/engines.h"
 #include "support/meshes.h"
 
 namespace {
@@ -37,7 +38,8 @@ std::vector<double> solve(const hf_inner::ScalarField& field) {
 }
 // The field of the same sites by elimination.
 std::vector<double> oracle(const hf_inner::ScalarField& field) {
-  hf_inner::ScalarField fresh(field.shared_core(), hf_inner::EngineKind::refactor, 1e8, 1, 100000);
+  hf_inner::ScalarField fresh(field.shared_core(), 1, 100000,
+                              hf_test::make_engine(hf_test::EngineKind::refactor, field.shared_core()));
   std::vector<std::uint32_t> vertices;
   for (const auto& slot : field.sites().slots()) {
     if (slot.used()) vertices.push_back(slot.given_vertex);
@@ -58,7 +60,7 @@ std::vector<std::uint32_t> every(std::uint32_t begin, std::uint32_t end, std::ui
 
 TEST(Rebase, waits_for_the_next_edit_which_brings_it_up_to_date) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60));
-  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100000);
+  hf_inner::ScalarField field(core, 1, 100000);
   const auto first = add(field, every(0, 4800, 50));
   field.prepare_rebase();
   EXPECT_EQ(field.engine().counters().rebases, 0u);
@@ -77,7 +79,7 @@ TEST(Rebase, waits_for_the_next_edit_which_brings_it_up_to_date) {
 
 TEST(Rebase, takes_in_what_changed_between) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60));
-  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100000);
+  hf_inner::ScalarField field(core, 1, 100000);
   const auto first = add(field, every(0, 4800, 50));
   std::atomic<bool> done{false};
   std::thread other([&] {
@@ -110,15 +112,15 @@ TEST(Rebase, says_what_it_cannot_do) {
     }
     return static_cast<hf_result>(HF_OK);
   };
-  hf_inner::ScalarField green(core, hf_inner::EngineKind::green, 1e8, 1, 100),
-      refactor(core, hf_inner::EngineKind::refactor, 1e8, 1, 100);
+  hf_inner::ScalarField green(core, 1, 100),
+      refactor(core, 1, 100, hf_test::make_engine(hf_test::EngineKind::refactor, core));
   EXPECT_EQ(code_of(green), HF_ERROR_EMPTY);
   EXPECT_EQ(code_of(refactor), HF_ERROR_UNSUPPORTED);
 }
 
 TEST(Decisions, are_counted_with_what_the_cost_model_said) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60));
-  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100000);
+  hf_inner::ScalarField field(core, 1, 100000);
   EXPECT_EQ(field.engine().counters().last_route, hf_inner::EditRoute::none);
   const auto few = add(field, {5, 701, 2001});
   hf_inner::EngineCounters counters = field.engine().counters();
@@ -139,7 +141,7 @@ TEST(Decisions, are_counted_with_what_the_cost_model_said) {
 
 TEST(PartialSolve, has_the_bits_of_the_whole_field_and_solves_no_path) {
   const auto core = hf_test::make_core(hf_test::torus(80, 60), 2);
-  hf_inner::ScalarField field(core, hf_inner::EngineKind::green, 1e8, 1, 100000);
+  hf_inner::ScalarField field(core, 1, 100000);
   add(field, every(0, 4800, 37));
   const std::vector<double> whole = solve(field);
   const std::uint32_t paths = field.engine().counters().path_solves;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "support/engines.h"
 #include "support/meshes.h"
 
 namespace {
@@ -32,10 +33,10 @@ hf_result code_of(hf_inner::ScalarField& field, const hf_inner::FieldEdit& edit,
   return HF_OK;
 }
 
-class ScalarFieldTest : public testing::TestWithParam<int> {
+class ScalarFieldTest : public testing::TestWithParam<hf_test::EngineKind> {
  protected:
   std::shared_ptr<const hf_inner::Core> core = hf_test::make_core(hf_test::torus(24, 18));
-  hf_inner::ScalarField field{core, static_cast<hf_inner::EngineKind>(GetParam()), 1e8, 1, 1000};
+  hf_inner::ScalarField field{core, 1, 1000, hf_test::make_engine(GetParam(), core)};
 };
 
 TEST_P(ScalarFieldTest, a_failing_batch_changes_nothing) {
@@ -97,10 +98,6 @@ TEST_P(ScalarFieldTest, a_copy_goes_its_own_way) {
   EXPECT_NEAR(field_of(copy)[90], 7, 1e-5);
 }
 
-#ifdef HF_WITH_GPL
-INSTANTIATE_TEST_SUITE_P(Engine, ScalarFieldTest, testing::Values(0, 1, 2));
-#else
-INSTANTIATE_TEST_SUITE_P(Engine, ScalarFieldTest, testing::Values(0, 2));
-#endif
+INSTANTIATE_TEST_SUITE_P(Engine, ScalarFieldTest, testing::ValuesIn(hf_test::engines()));
 
 }  // namespace

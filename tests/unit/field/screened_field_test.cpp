@@ -9,6 +9,7 @@
 #include "field/scalar_field.h"
 #include "support/dense.h"
 #include "support/dirty_meshes.h"
+#include "support/engines.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
 
@@ -25,7 +26,7 @@ struct Scene {
   std::shared_ptr<const hf_inner::Core> core;
   ScalarField field;
   std::vector<double> strength, target;
-  Scene() : core(hf_test::make_core(mesh())), field(core, hf_inner::EngineKind::green, 1e8, channels, 100000) {
+  Scene() : core(hf_test::make_core(mesh())), field(core, channels, 100000) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> one(0, 1);
     for (Index v = 0; v < core->size(); ++v) {
@@ -156,9 +157,9 @@ TEST(ScreenedField, APreparedFactorOfAnotherScreeningIsNotTaken) {
 
 TEST(ScreenedField, OtherEnginesAndLostScreeningAreRefused) {
   const Scene scene;
-  ScalarField other(scene.core, hf_inner::EngineKind::refactor, 1e8, channels, 100);
+  ScalarField other(scene.core, channels, 100, hf_test::make_engine(hf_test::EngineKind::refactor, scene.core));
   EXPECT_THROW(other.set_screening({scene.strength.data(), scene.strength.size()}, nullptr), hf_inner::Error);
-  ScalarField field(scene.core, hf_inner::EngineKind::green, 1e8, channels, 100);
+  ScalarField field(scene.core, channels, 100);
   const std::vector<double> tiny(at(scene.core->size()), 1e-30);
   EXPECT_THROW(field.set_screening({tiny.data(), tiny.size()}, nullptr), hf_inner::Error);
   EXPECT_FALSE(field.is_screened());

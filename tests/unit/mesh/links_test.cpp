@@ -65,7 +65,7 @@ Eigen::MatrixXd dense(const hf_inner::SymmetricMatrix& k) {
 
 std::vector<double> field_through(const std::shared_ptr<const hf_inner::Core>& core, const std::vector<Index>& vertices,
                                   const std::vector<double>& values) {
-  const auto engine = hf_inner::SiteSolver::make(hf_inner::EngineKind::green, core, 0);
+  const auto engine = hf_inner::SiteSolver::make(core);
   std::vector<hf_inner::Site> sites;
   std::vector<Index> slots;
   for (const Index v : vertices) {

@@ -75,7 +75,7 @@ TEST(VertexOrder, AFieldDoesNotDependOnTheOrder) {
   const std::vector<std::uint32_t> to = shuffled(mesh.positions.size() / 3);
   const auto field = [](const hf_test::PlainMesh& given, std::vector<std::uint32_t> sites) {
     const auto core = hf_test::make_core(given);
-    auto solver = SiteSolver::make(EngineKind::green, core, 0);
+    auto solver = SiteSolver::make(core);
     std::vector<Site> list;
     std::vector<double> values;
     for (const std::uint32_t v : sites) {

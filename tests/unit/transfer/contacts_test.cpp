@@ -2,6 +2,7 @@
 // comparison with joint rotations copied by name, on real animals when the shared data is there.
 #include <gtest/gtest.h>
 
+#include "peers/paper_transfer.h"
 #include "unit/transfer/transfer_support.h"
 
 namespace {
@@ -151,7 +152,7 @@ void check_against_names(const std::string& target_name, const std::string& list
   const Body horse(hf_gltf::read_gltf(file("q_Horse.glb")), world), other(hf_gltf::read_gltf(file(target_name)), world);
   const Pairs pairs = find_pairs(list, horse, other);
   hf_inner::TransferOptions paper_options;
-  paper_options.mode = HF_TRANSFER_PAPER;
+  paper_options.scheme = hf_inner::paper_clusters();
   hf_inner::Transfer transfer(horse.core, other.core, {}), paper(horse.core, other.core, paper_options);
   add(transfer, pairs.inputs());
   add(paper, pairs.inputs());

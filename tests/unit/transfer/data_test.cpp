@@ -1,6 +1,7 @@
 // Real animals, when the shared data is there: the bars of the self-transfer, and that of feet across species.
 #include <gtest/gtest.h>
 
+#include "peers/paper_transfer.h"
 #include "unit/transfer/transfer_support.h"
 
 namespace {
@@ -18,14 +19,14 @@ struct Figures {
 };
 
 // Six frames of every clip, q_Horse on itself.
-Figures self_transfer(int32_t mode, bool anchored) {
+Figures self_transfer(bool paper, bool anchored) {
   const World world;
   const Body horse = load("q_Horse.glb", world);
   Pairs pairs = find_pairs("q_horse_to_q_wolf.json", horse, horse, true);
   for (uint32_t& flags : pairs.flags)
     flags = anchored ? flags | HF_PAIR_ANCHOR : flags & ~uint32_t{HF_PAIR_ANCHOR | HF_PAIR_FOOT};
   hf_inner::TransferOptions options;
-  options.mode = mode;
+  if (paper) options.scheme = hf_inner::paper_clusters();
   options.scale = 1;
   hf_inner::Transfer transfer(horse.core, horse.core, options);
   add(transfer, pairs.inputs());
@@ -46,9 +47,8 @@ Figures self_transfer(int32_t mode, bool anchored) {
 
 TEST(TransferData, TheHorseOnItselfStaysWithinTheBars) {
   if (!have("q_Horse.glb")) GTEST_SKIP() << "no q_Horse.glb under " << data_folder();
-  const Figures anchored = self_transfer(HF_TRANSFER_FIELDS, true),
-                free_standing = self_transfer(HF_TRANSFER_FIELDS, false);
-  const Figures paper = self_transfer(HF_TRANSFER_PAPER, true), paper_free = self_transfer(HF_TRANSFER_PAPER, false);
+  const Figures anchored = self_transfer(false, true), free_standing = self_transfer(false, false);
+  const Figures paper = self_transfer(true, true), paper_free = self_transfer(true, false);
   std::printf("self-transfer of q_Horse, rms / box     mean   worst   idle\n");
   const auto line = [](const char* name, const Figures& f) {
     std::printf("  %-34s %.4f  %.4f  %.4f\n", name, f.mean, f.worst, f.idle);
@@ -69,9 +69,9 @@ struct CrossFigures {
   double mean = 0, largest = 0, stretch = 0, scale = 0;
 };
 
-CrossFigures cross(const Body& horse, const Body& other, const Pairs& pairs, int32_t mode) {
+CrossFigures cross(const Body& horse, const Body& other, const Pairs& pairs, bool paper) {
   hf_inner::TransferOptions options;
-  options.mode = mode;
+  if (paper) options.scheme = hf_inner::paper_clusters();
   hf_inner::Transfer transfer(horse.core, other.core, options);
   add(transfer, pairs.inputs());
   const std::vector<Vec3> horse_rest = horse.rest(), rest = other.rest();
@@ -115,8 +115,7 @@ void check_cross(const std::string& file, const std::string& target_name, double
   const World world;
   const Body horse = load("q_Horse.glb", world), other = load(target_name, world);
   const Pairs pairs = find_pairs(file, horse, other);
-  const CrossFigures fields = cross(horse, other, pairs, HF_TRANSFER_FIELDS),
-                     paper = cross(horse, other, pairs, HF_TRANSFER_PAPER);
+  const CrossFigures fields = cross(horse, other, pairs, false), paper = cross(horse, other, pairs, true);
   for (const CrossFigures* f : {&fields, &paper})
     std::printf("q_Horse -> %s, %s: scale %.3f, foot paths mean %.4f max %.4f of the box, edge stretch p95 %.3f\n",
                 target_name.c_str(), f == &fields ? "fields" : "the paper's form", f->scale, f->mean, f->largest,

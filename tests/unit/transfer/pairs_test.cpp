@@ -4,6 +4,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "peers/paper_transfer.h"
 #include "unit/transfer/transfer_support.h"
 
 namespace {
@@ -228,9 +229,9 @@ TEST(TransferPairs, OddRegionsGiveFiniteResultsAndKeepTheRules) {
   single_vertices.source = {&single, 1};
   single_vertices.target = {doubled, 3};
   for (const hf_inner::PairInput& input : {all_on_source, single_vertices}) {
-    for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
+    for (const bool paper : {false, true}) {
       hf_inner::TransferOptions options;
-      options.mode = mode;
+      if (paper) options.scheme = hf_inner::paper_clusters();
       hf_inner::Transfer transfer(a.horse.core, a.bull.core, options);
       transfer.add_pairs({&input, 1}, nullptr);
       EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6);

@@ -1,6 +1,7 @@
 // The rules every transfer obeys, whatever the shapes: identity, rigid motion, axes, scale, threads, memory, skin.
 #include <gtest/gtest.h>
 
+#include "peers/paper_transfer.h"
 #include "unit/transfer/transfer_support.h"
 
 namespace {
@@ -8,19 +9,19 @@ namespace {
 using namespace transfer_test;
 using hf_inner::Vec3;
 
-hf_inner::TransferOptions options(int32_t mode, double alignment = -1) {
+hf_inner::TransferOptions options(bool paper, double alignment = -1) {
   hf_inner::TransferOptions out;
-  out.mode = mode;
+  if (paper) out.scheme = hf_inner::paper_clusters();
   out.alignment_angle = alignment;
   return out;
 }
 
 TEST(TransferRules, TheRestFrameOfTheSourceGivesTheRestOfTheTarget) {
   const Animals& a = animals();
-  for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
-    hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(mode));
+  for (const bool paper : {false, true}) {
+    hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(paper));
     add(transfer, a.pairs.inputs());
-    EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6 * a.box) << "mode " << mode;
+    EXPECT_LT(largest_distance(frame_of(transfer, a.horse.rest()), a.bull.rest()), 1e-6 * a.box) << "paper " << paper;
   }
 }
 
@@ -34,8 +35,8 @@ TEST(TransferRules, ARigidMotionOfTheSourceIsTheSameRigidMotionWithScaledTransla
   for (size_t v = 0; v < rest.size(); ++v) source_centroid = source_centroid + source_area[v] * rest[v];
   for (size_t v = 0; v < target_rest.size(); ++v) target_centroid = target_centroid + target_area[v] * target_rest[v];
   const Vec3 turns[] = {{0, 0, 0}, {0, 1.0, 0}, {0.2, 0, 0}, {1.1, -0.7, 2.0}, {0, 3.14, 0}};
-  for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
-    hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(mode));
+  for (const bool paper : {false, true}) {
+    hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(paper));
     add(transfer, a.pairs.inputs());
     for (const Vec3& turn : turns) {
       const hf_inner::Quaternion rotation = hf_inner::exponential(turn);
@@ -47,7 +48,7 @@ TEST(TransferRules, ARigidMotionOfTheSourceIsTheSameRigidMotionWithScaledTransla
         expected.push_back(hf_inner::rotate(rotation, p - target_centroid) + target_centroid +
                            transfer.scale() * moved);
       EXPECT_LT(largest_distance(frame_of(transfer, posed), expected), 1e-6 * a.box)
-          << "mode " << mode << " turn " << turn.x << " " << turn.y << " " << turn.z;
+          << "paper " << paper << " turn " << turn.x << " " << turn.y << " " << turn.z;
     }
   }
 }
@@ -62,7 +63,7 @@ TEST(TransferRules, TurningTheSourceAboutTheVerticalWithItsAxesGivesTheSameClip)
   Body other = a.horse;
   other.move(a.world, turned);
   ASSERT_EQ(other.core->size(), a.horse.core->size());
-  hf_inner::TransferOptions straight = options(HF_TRANSFER_FIELDS, 0), rotated = straight;
+  hf_inner::TransferOptions straight = options(false, 0), rotated = straight;
   const glm::dvec3 right = turned({1, 0, 0}), forward = turned({0, 0, 1});
   const double axes[9] = {right.x, right.y, right.z, 0, 1, 0, forward.x, forward.y, forward.z};
   std::copy_n(axes, 9, rotated.source_axes);
@@ -83,7 +84,7 @@ TEST(TransferRules, OnlyRotationsAreTransferredSoTheTargetsScaleDoesNotChangeThe
   const auto rotations = [&](double scale) {
     Body bull = a.bull;
     bull.move(a.world, [&](const glm::dvec3& p) { return scale * p; });
-    hf_inner::Transfer transfer(a.horse.core, bull.core, options(HF_TRANSFER_FIELDS, 0));
+    hf_inner::Transfer transfer(a.horse.core, bull.core, options(false, 0));
     add(transfer, a.pairs.inputs());
     std::vector<hf_inner::Quaternion> all;
     for (const double time : {0.1, 0.6}) {
@@ -105,7 +106,7 @@ TEST(TransferRules, OnlyRotationsAreTransferredSoTheTargetsScaleDoesNotChangeThe
 TEST(TransferRules, TheTargetIsNotStretchedByAStretchedSource) {
   // the source twice as large in every frame: rotations only, so the target's edges keep their lengths
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(HF_TRANSFER_FIELDS));
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(false));
   std::vector<hf_inner::PairInput> inputs = a.pairs.inputs();
   for (hf_inner::PairInput& input : inputs) input.flags &= ~uint32_t{HF_PAIR_ANCHOR | HF_PAIR_FOOT};
   add(transfer, inputs);
@@ -127,7 +128,7 @@ TEST(TransferRules, ResultsAreTheSameBitsForAnyNumberOfThreads) {
     Body horse = a.horse, bull = a.bull;
     horse.build(world);
     bull.build(world);
-    hf_inner::Transfer transfer(horse.core, bull.core, options(HF_TRANSFER_FIELDS, 0));
+    hf_inner::Transfer transfer(horse.core, bull.core, options(false, 0));
     add(transfer, a.pairs.inputs());
     const std::vector<Vec3> out = frame_of(transfer, horse.posed(a.walk, 0.37));
     if (expected.empty()) expected = out;
@@ -141,7 +142,7 @@ TEST(TransferRules, ResultsAreTheSameBitsForAnyNumberOfThreads) {
 
 TEST(TransferRules, SteadyFramesAllocateNothing) {
   const Animals& a = animals();
-  hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(HF_TRANSFER_FIELDS, 0));
+  hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(false, 0));
   add(transfer, a.pairs.inputs());
   const std::vector<Vec3> posed = a.horse.posed(a.walk, 0.2);
   std::vector<Vec3> out = frame_of(transfer, posed);
@@ -152,8 +153,8 @@ TEST(TransferRules, SteadyFramesAllocateNothing) {
 
 TEST(TransferRules, TheSkinReplaysTheFrameAndItsWeightsSumToExactlyOne) {
   const Animals& a = animals();
-  for (const int32_t mode : {HF_TRANSFER_FIELDS, HF_TRANSFER_PAPER}) {
-    hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(mode, 0));
+  for (const bool paper : {false, true}) {
+    hf_inner::Transfer transfer(a.horse.core, a.bull.core, options(paper, 0));
     add(transfer, a.pairs.inputs());
     const std::vector<Vec3> out = frame_of(transfer, a.horse.posed(a.walk, 0.7)), rest = a.bull.rest();
     const auto count = static_cast<size_t>(transfer.cluster_count());

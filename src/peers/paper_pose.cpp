@@ -1,13 +1,25 @@
-#include "deform/paper_scheme.h"
+#include "peers/paper_pose.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "base/elementary.h"
 
 namespace hf_inner {
 namespace {
+
+// Level bands per handle's field, linear and of equal value.
+constexpr std::int32_t default_bands = 12;
+// Iterations per frame: motion moves on by only one level band per iteration.
+constexpr std::uint32_t default_iterations = 200;
+// At most this many iterations while the handles stay in place: hundreds are needed to converge. A bound: half and
+// double change no bit of a tube's poses, whose motion settles before.
+constexpr std::uint32_t idle_limit = 2000;
+// Sampled vertices that give a cluster of vertices its motion: fewer take less time. With 240, elastic energies in the
+// benchmark fall by 7 to 11 %.
+constexpr std::int32_t samples_per_cluster = 40;
 
 // The vertices of each free cluster (piece of a level band, no handle), with their weights.
 struct Members {
@@ -86,18 +98,6 @@ RigidMotion noted_motion(const PaperState& state, std::size_t f) noexcept {
 
 }  // namespace
 
-Affine to_affine(const RigidMotion& motion) noexcept {
-  Affine affine;
-  const Mat3 r = motion.rotation.toRotationMatrix();
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) affine.a[i][j] = r(i, j);
-  }
-  affine.a[0][3] = motion.translation.x;
-  affine.a[1][3] = motion.translation.y;
-  affine.a[2][3] = motion.translation.z;
-  return affine;
-}
-
 PaperSystem::PaperSystem(const Core& core, const ClusterWeights& weights, Memory& memory)
     : handle_count(weights.handle_count),
       free_count(weights.free_count()),
@@ -142,42 +142,77 @@ void PaperState::fit(const PaperSystem& system) {
   anderson.fit(size);
 }
 
-void fit_motions(const PaperSystem& system, const Mesh& mesh, const Vec3* positions, PaperState& state) noexcept {
-  for (std::int32_t f = 0; f < system.free_count; ++f)
-    state.motion[f] = match_shape(system, mesh, f, state.motion[f].rotation,
-                                  [&](std::int32_t s) { return positions[system.sample[s]]; });
+std::shared_ptr<PoseScheme::State> PaperSystem::rest(Memory& memory) const {
+  auto state = make_shared_in<PaperState>(memory, memory);
+  state->fit(*this);
+  return state;
 }
 
-SolveReport solve_paper_pose(const PaperSystem& system, const Mesh& mesh, const ClusterWeights& weights,
-                             std::uint32_t iterations, double tolerance, PaperState& state,
-                             Affine* transforms) noexcept {
+void PaperSystem::fit(const Mesh& mesh, const Vec3* positions, PoseScheme::State& state) const noexcept {
+  for (std::int32_t f = 0; f < free_count; ++f)
+    state.motion[f] =
+        match_shape(*this, mesh, f, state.motion[f].rotation, [&](std::int32_t s) { return positions[sample[s]]; });
+}
+
+SolveReport PaperSystem::solve(const Mesh& mesh, const ClusterWeights& weights, std::uint32_t iterations,
+                               double tolerance, PoseScheme::State& given, Affine* transforms) const noexcept {
+  PaperState& state = static_cast<PaperState&>(given);
   SolveReport report;
-  for (std::int32_t f = 0; f < system.free_count; ++f) transforms[system.handle_count + f] = to_affine(state.motion[f]);
-  if (system.free_count == 0) return report;
+  for (std::int32_t f = 0; f < free_count; ++f) transforms[handle_count + f] = to_affine(state.motion[f]);
+  if (free_count == 0) return report;
   state.anderson.forget();
   while (report.iterations < iterations) {
     ++report.iterations;
     report.last_change = 0;
-    for (std::size_t s = 0; s < system.sample.size(); ++s)
-      state.position[s] = blend_vertex(mesh, weights, transforms, system.sample[s]);
+    for (std::size_t s = 0; s < sample.size(); ++s)
+      state.position[s] = blend_vertex(mesh, weights, transforms, sample[s]);
     double moved = 0;
-    for (std::int32_t f = 0; f < system.free_count; ++f) {
+    for (std::int32_t f = 0; f < free_count; ++f) {
       const RigidMotion& old = state.motion[f];
       const RigidMotion fit =
-          match_shape(system, mesh, f, old.rotation, [&](std::int32_t s) { return state.position[s]; });
+          match_shape(*this, mesh, f, old.rotation, [&](std::int32_t s) { return state.position[s]; });
       const double turned = 2.0 * std::sqrt(2.0) * sine(0.5 * angle_between(fit.rotation, old.rotation));
       report.last_change = std::max(report.last_change, turned);
       moved = std::max(moved, norm(fit.translation - old.translation));
       note_motion(old, fit, static_cast<std::size_t>(f), state);
     }
     state.anderson.step(state.iterate, state.residual, 7, longest_leap);
-    for (std::int32_t f = 0; f < system.free_count; ++f) {
+    for (std::int32_t f = 0; f < free_count; ++f) {
       state.motion[f] = noted_motion(state, static_cast<std::size_t>(f));
-      transforms[system.handle_count + f] = to_affine(state.motion[f]);
+      transforms[handle_count + f] = to_affine(state.motion[f]);
     }
     if (std::max(report.last_change, moved) < tolerance) break;
   }
   return report;
+}
+
+namespace {
+
+class PaperScheme final : public PoseScheme {
+ public:
+  PaperScheme() noexcept : PoseScheme(bands_of_paper(), hf_inner::default_iterations, hf_inner::idle_limit) {}
+  std::shared_ptr<const System> prepare(const Core& core, const ClusterWeights& weights,
+                                        Memory& memory) const override {
+    return make_shared_in<PaperSystem>(memory, core, weights, memory);
+  }
+
+ private:
+  static BandOptions bands_of_paper() noexcept {
+    BandOptions options;
+    options.band_count = default_bands;
+    options.degree = 1;
+    options.spacing = BandSpacing::equal_value;
+    return options;
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<const PoseScheme> paper_scheme() noexcept {
+  // A static object with a destructor would be a call at the end of the process; this one holds nothing and stays.
+  alignas(PaperScheme) static unsigned char room[sizeof(PaperScheme)];
+  static const PaperScheme* const scheme = new (room) PaperScheme;
+  return {std::shared_ptr<void>(), scheme};
 }
 
 }  // namespace hf_inner

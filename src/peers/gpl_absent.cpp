@@ -1,13 +1,13 @@
 // Stands in place of updown.cpp and metis_ordering.cpp in builds without HF_WITH_GPL: asking for them is refused.
 #include "base/error.h"
-#include "engine/updown.h"
 #include "factor/ordering.h"
+#include "peers/updown.h"
 
 namespace hf_inner {
 
 void require_updown() {
   fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-       "HF_ENGINE_UPDOWN needs a build with HF_WITH_GPL; use HF_ENGINE_GREEN, which gives the same field");
+       "the engine updown needs a build with HF_WITH_GPL; hf_create makes a solver of the same fields");
 }
 
 std::shared_ptr<SiteSolver> make_updown_solver(std::shared_ptr<const Core>, double) {

@@ -19,6 +19,7 @@ namespace hf_inner {
 
 class RefactorSolver final : public SiteSolver {
  public:
+  // Throws HF_ERROR_UNSUPPORTED for a core whose bi-harmonic K is not formed (Core::root).
   explicit RefactorSolver(std::shared_ptr<const Core> core);
   RefactorSolver(const RefactorSolver& other);
 
@@ -32,7 +33,6 @@ class RefactorSolver final : public SiteSolver {
   bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
                double* flux_change) const override;
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<RefactorSolver>(core_->memory, *this); }
-  EngineKind kind() const noexcept override { return EngineKind::refactor; }
   EngineCounters counters() const noexcept override;
   std::int32_t site_count(std::int32_t component) const noexcept override {
     return state_.count[static_cast<std::size_t>(component)];

@@ -12,7 +12,8 @@
 // A solve then takes one refinement step with the true matrix, which removes the drift. If an update fails, the engine
 // factorises again from the sites. Its memory comes from CHOLMOD, not from the solver's allocator.
 //
-// The engine exists only in builds with HF_WITH_GPL, because CHOLMOD's Modify module is GPL-2.0+.
+// The engine exists only in builds with HF_WITH_GPL, because CHOLMOD's Modify module is GPL-2.0+. In others
+// gpl_absent.cpp refuses it.
 #pragma once
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include "engine/refactor.h"
+#include "peers/refactor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,11 @@
 #include "base/index.h"
 #include "engine/corrections.h"
 #include "engine/dependence.h"
+#include "peers/intake.h"
 
 namespace hf_inner {
 RefactorSolver::RefactorSolver(std::shared_ptr<const Core> core) : core_(std::move(core)), state_(*core_->memory) {
+  require_formed(*core_);
   state_.count.assign(at(core_->mesh.component_count()), 0);
   state_.factor = core_->factor;
 }

@@ -1,0 +1,16 @@
+// Makes poses and transfers with options that their descs do not show. hf/peers.h has such options.
+#pragma once
+#include "deform/pose.h"
+#include "hf/pose.h"
+#include "hf/transfer.h"
+#include "transfer/transfer.h"
+
+namespace hf_inner::capi {
+
+// given: what the desc does not say.
+hf_result create_pose(const char* function, hf_surface surface, const hf_pose_desc* desc, PoseOptions given,
+                      hf_pose* out_pose);
+hf_result create_transfer(const char* function, hf_surface source, hf_surface target, const hf_transfer_desc* desc,
+                          TransferOptions given, hf_transfer* out_transfer);
+
+}  // namespace hf_inner::capi
