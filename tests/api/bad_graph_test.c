@@ -243,7 +243,7 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("skin weights", NO_INDEX, hf_weights_create(graph, &bones, 4, &weights));
   NEEDS("weights carried from a graph", NO_INDEX, hf_weights_transfer(graph, scene.body, &carry, &skin, NULL));
   NEEDS("weights carried to a graph", NO_INDEX, hf_weights_transfer(scene.body, graph, &carry, &skin, NULL));
-  NEEDS("mirrored weights", NO_INDEX, hf_weights_mirror(graph, &mirror, &skin, NULL, NULL, NULL));
+  NEEDS("mirrored weights", NO_INDEX, hf_weights_mirror(graph, &mirror, &skin, NULL, NULL, NULL, NULL));
   NEEDS("streamlines", NO_INDEX, hf_flow_create(graph, &flow));
   NEEDS("a transfer from a graph", 0, hf_transfer_create(graph, scene.body, NULL, &transfer));
   NEEDS("a transfer to a graph", 1, hf_transfer_create(scene.body, graph, NULL, &transfer));

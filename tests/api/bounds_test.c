@@ -52,10 +52,10 @@ static void a_mirror_takes_1048576_joints(void** state) {
   desc.source_influence_count = 1;
   desc.joint_count = MOST;
   heads[3 * ((size_t)MOST - 1)] = NAN;
-  assert_code(HF_ERROR_NON_FINITE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL));
+  assert_code(HF_ERROR_NON_FINITE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL, NULL));
   assert_named("joint 1048575");
   desc.joint_count = MOST + 1;
-  assert_code(HF_ERROR_TOO_LARGE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL));
+  assert_code(HF_ERROR_TOO_LARGE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL, NULL));
   assert_named("joint_count is 1048577; the limit is 1048576");
   free(heads);
   free(joints);

@@ -71,8 +71,8 @@ Posed pose_of(const Scene& scene, bool with, const std::vector<std::uint32_t>& t
   frame.positions_f64 = out.positions.data();
   hf_deform_info info = HF_INIT(hf_deform_info);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(hf_pose_deform(pose, &frame, &info), HF_OK);
-  hf_surface_report report = HF_INIT(hf_surface_report);
-  EXPECT_EQ(hf_surface_get_report(surface, &report), HF_OK);
+  hf_links_info report = HF_INIT(hf_links_info);
+  EXPECT_EQ(hf_surface_get_links_info(surface, &report), HF_OK);
   out.unreached = info.unreached_vertex_count;
   out.pieces = report.piece_count;
   out.light = report.light_piece_count;
