@@ -681,7 +681,7 @@ struct Isolines {
 struct SitesInfo {
   // `[capacity]` numbers
   std::vector<uint32_t> sites;
-  // `[capacity]` the vertex given, HF_NO_INDEX for a point in a triangle
+  // `[capacity]` the vertex of the place, HF_NO_INDEX for a point in a triangle
   std::vector<uint32_t> vertices;
   // `[capacity]`
   std::vector<uint32_t> components;

@@ -152,7 +152,7 @@ typedef struct hf_sites_info {
   uint32_t count;       /* out: number of sites */
   uint32_t reserved;    /* 0 */
   uint32_t* sites;      /* [capacity] numbers */
-  uint32_t* vertices;   /* [capacity] the vertex given, HF_NO_INDEX for a point in a triangle */
+  uint32_t* vertices;   /* [capacity] the vertex of the place, HF_NO_INDEX for a point in a triangle */
   uint32_t* components; /* [capacity] */
   double* values;       /* [capacity][channel_count] */
   double* stiffness;    /* [capacity] 0 = hard */

@@ -193,11 +193,11 @@ def weights_from_bones(obj, armature, count=4, window_manager=None):
         values /= np.maximum(values.sum(1, keepdims=True), 1)
         weights.set_locks([number[n] for n in locked], values)
     pin(obj, skin, places)
-    info, reasons = weights.info, weights.helpers(names)
+    info, work, reasons = weights.info, weights.statistics, weights.helpers(names)
     if not any(m.type == "ARMATURE" and m.object == armature for m in obj.modifiers):
         obj.modifiers.new(armature.name, "ARMATURE").object = armature
     helpers = [n for n, r in zip(names, reasons) if r & hf.HelperReason.PROPOSED]
-    note_on(obj, describe(info, helpers))
+    note_on(obj, describe(info, work, helpers))
     return info, helpers
 
 

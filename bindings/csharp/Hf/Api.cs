@@ -1783,7 +1783,7 @@ namespace Hf
     {
         /// <summary>[capacity] numbers</summary>
         public uint[] Sites;
-        /// <summary>[capacity] the vertex given, uint.MaxValue for a point in a triangle</summary>
+        /// <summary>[capacity] the vertex of the place, uint.MaxValue for a point in a triangle</summary>
         public uint[] Vertices;
         /// <summary>[capacity]</summary>
         public uint[] Components;

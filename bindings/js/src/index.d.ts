@@ -260,7 +260,7 @@ export interface SitesInfo {
   count: number;
   /** [capacity] numbers */
   sites: Uint32Array;
-  /** [capacity] the vertex given, constants.HF_NO_INDEX for a point in a triangle */
+  /** [capacity] the vertex of the place, constants.HF_NO_INDEX for a point in a triangle */
   vertices: Uint32Array;
   /** [capacity] */
   components: Uint32Array;

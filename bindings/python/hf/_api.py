@@ -522,7 +522,7 @@ class SitesInfo(NamedTuple):
     sites: np.ndarray
     """(capacity,) numbers"""
     vertices: np.ndarray
-    """(capacity,) the vertex given, NO_INDEX for a point in a triangle"""
+    """(capacity,) the vertex of the place, NO_INDEX for a point in a triangle"""
     components: np.ndarray
     """(capacity,)"""
     values: np.ndarray

@@ -1381,7 +1381,7 @@ pub struct Isolines {
 pub struct SitesInfo {
     /// `[capacity]` numbers
     pub sites: Vec<u32>,
-    /// `[capacity]` the vertex given, [`raw::HF_NO_INDEX`] for a point in a triangle
+    /// `[capacity]` the vertex of the place, [`raw::HF_NO_INDEX`] for a point in a triangle
     pub vertices: Vec<u32>,
     /// `[capacity]`
     pub components: Vec<u32>,
