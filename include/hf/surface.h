@@ -208,8 +208,8 @@ typedef struct hf_graph_desc {
 /* Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the graph.
  * Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and reports
  * work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions, directions, geodesics,
- * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening, and sites in
- * triangles or on discs.
+ * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening, and sites at
+ * places, at points or on discs.
  *
  * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
  * median of their component are limited; hf_mesh_statistics counts their vertices as changed. Bi-harmonic fields limit

@@ -1576,7 +1576,7 @@ impl Surface {
     /// graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
     /// reports work as on a mesh. A call that needs triangles returns [`raw::HF_ERROR_UNSUPPORTED`]: poses, regions,
     /// directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
-    /// links, screening, and sites in triangles or on discs.
+    /// links, screening, and sites at places, at points or on discs.
     ///
     /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
     /// median of their component are limited; [`raw::hf_mesh_statistics`] counts their vertices as changed. Bi-harmonic
