@@ -372,10 +372,6 @@ static hf_result weights_statistics(void* h) {
   hf_weights_statistics out = HF_INIT(hf_weights_statistics);
   return hf_weights_get_statistics(h, &out);
 }
-static hf_result region_statistics(void* h) {
-  hf_region_statistics out = HF_INIT(hf_region_statistics);
-  return hf_region_get_statistics(h, &out);
-}
 static hf_result pose_statistics(void* h) {
   hf_pose_statistics out = HF_INIT(hf_pose_statistics);
   return hf_pose_get_statistics(h, &out);
@@ -493,7 +489,6 @@ static const struct {
     {"hf_surface_get_links_info", SURFACE, links_info, NO_INDEX},
     {"hf_surface_get_mesh_statistics", SURFACE, mesh_statistics, NO_INDEX},
     {"hf_weights_get_statistics", WEIGHTS, weights_statistics, NO_INDEX},
-    {"hf_region_get_statistics", REGION, region_statistics, NO_INDEX},
     {"hf_pose_get_statistics", POSE, pose_statistics, NO_INDEX},
     {"hf_transfer_get_statistics", TRANSFER, transfer_statistics, NO_INDEX},
     {"hf_weights_get_helpers", WEIGHTS, weights_get_helpers, NO_INDEX},

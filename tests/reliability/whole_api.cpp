@@ -188,6 +188,9 @@ void Run::other_kinds() {
   hf_pose_info info = desc<hf_pose_info>();
   call(hf_pose_get_info(pose, &info), "hf_pose_get_info");
   take(&info, 1);
+  hf_pose_statistics figures = desc<hf_pose_statistics>();
+  call(hf_pose_get_statistics(pose, &figures), "hf_pose_get_statistics");
+  take(&figures.cluster_count, 1);
   hf_pose_destroy(pose);
 }
 
