@@ -286,7 +286,7 @@ class Writer(class_rust.Writer):
     def argument(self, a, plan):
         struct, name = a.struct, safe(a.name)
         if a.role == "place":
-            return f"const hf_surface_point& {name}"
+            return f"const hf_place& {name}"
         if a.role == "fill":
             return f"std::vector<{a.item['type']}>* {name} = nullptr"
         if a.role == "info":

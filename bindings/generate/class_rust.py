@@ -331,7 +331,7 @@ class Writer:
 
     def argument(self, a, plan):
         if a.role == "place":
-            return f"{safe(a.name)}: &raw::hf_surface_point"
+            return f"{safe(a.name)}: &raw::hf_place"
         if a.role == "fill":
             return f"{safe(a.name)}: Option<&mut [{TYPES[a.item['type']]}]>"
         if a.role == "request":

@@ -6,7 +6,7 @@ derive(api) adds them to the description; every layer reads the same. Roles:
                     that its numbers may have
   count             how long an array is: a layer takes it from the array
   capacity, stride  of the caller's arrays
-  handle, struct, callback, enum, flag, scalar, fixed (double[3])
+  handle, struct, callback, enum, flag, scalar, fixed (double[3]), value (a plain struct inside another)
 """
 
 import copy
@@ -14,6 +14,7 @@ import re
 
 from comments import VIEWS
 
+MOST_FIELDS, WHY_MORE = 16, "More than 16 fields:"  # more than a reader takes in at once
 SUFFIXES = ("_u16",)  # the same array in another type
 
 class Problems(Exception):
@@ -42,7 +43,7 @@ def role_of(api, item, struct=None):
     if handle:
         return "handle"
     if inner and (item["dims"] or not item["pointer"]):
-        return "array" if item["pointer"] else "callback" if any(f["role"] == "callback" for f in inner["fields"]) else "struct"
+        return "array" if item["pointer"] else "callback" if any(f["role"] == "callback" for f in inner["fields"]) else "value"
     if inner:
         return "struct"
     if item["type"] == "char" and item["pointer"]:
@@ -81,6 +82,8 @@ def enums_of(api):
 
 def look_at_struct(api, struct, enums, problems):
     where, fields = struct["name"], struct["fields"]
+    if len(fields) > MOST_FIELDS and WHY_MORE not in struct["doc"]:
+        problems.append(f"{where}: {len(fields)} fields. Split it, or say in its comment why not: {WHY_MORE} ...")
     counted = set().union(*(symbols(f["dims"]) | symbols(sum(f["without"].values(), [])) for f in fields if f["const"]), set())
     twins(fields)
     for field in fields:

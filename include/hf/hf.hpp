@@ -90,6 +90,8 @@ struct Faces {
 };
 
 // The mesh and the options of a surface. Set triangles or faces.
+//
+// More than 16 fields: each limit and each hook is a choice of its own.
 struct SurfaceOptions {
   // HF_WELD_*
   int32_t weld = 0;
@@ -126,7 +128,8 @@ struct SurfaceOptions {
 };
 
 // A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
-// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of SurfaceOptions.
+// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of SurfaceOptions. More than 16
+// fields: they mirror SurfaceOptions.
 struct GraphOptions {
   // none, or `[vertex_count]` of float or double: M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none:
   // all 1. A mass below 1e-4 of the mean of its component counts as that
@@ -180,27 +183,25 @@ struct SolverOptions {
   hf_solver_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the less
-// influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A
-// radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic
-// fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
+// Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site has.
+// Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh spacing
+// still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary vertices
+// of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
 struct Sites {
   // `[site_count]` vertices as given, or none
   std::vector<uint32_t> vertices{};
   // `[site_count x channel_count]`, up to 1e200 in size; none = 0
   std::vector<double> values{};
-  // `[site_count]` triangles (or faces of three corners) as given, or none
-  std::vector<uint32_t> triangles{};
-  // `[site_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1 within 1e-6
-  std::vector<double> barycentrics{};
+  // `[site_count]`, or none
+  std::vector<hf_place> places{};
+  // `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for the
+  // nearest point of the surface, up to two boxes away
+  std::vector<double> points{};
   // `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to 1e-12 to
   // 1e12
   std::vector<double> stiffness{};
   // `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
   std::vector<double> radii{};
-  // `[site_count x 3]` three vertices as given, of one face, or none: hf_hit has them. In a face of more corners this
-  // places a site in a triangle of them
-  std::vector<uint32_t> corners{};
   hf_sites_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
@@ -266,12 +267,18 @@ struct PoseOptions {
   hf_pose_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// The handles to add. Give their regions as vertex lists one after the other, or as points with radii.
+// The handles to add. Give their regions as vertex lists one after the other, or as places with radii: set
+// region_vertices, vertices, places or points. The region of a place is its nearest vertex and what is edge-connected
+// to it within the radius.
 struct HandlesOptions {
-  // `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to it within
-  // the radius. none: regions are given
+  // `[handle_count]` vertices as given, or none
+  std::vector<uint32_t> vertices{};
+  // `[handle_count]`, or none
+  std::vector<hf_place> places{};
+  // `[handle_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. A point can lie inside
+  // the body, as a joint does: its nearest vertex counts
   std::vector<double> points{};
-  // `[handle_count]` of the regions of points, in the unit of the mesh; none: regions are given. A radius below 1 % of
+  // `[handle_count]` of the regions of places, in the unit of the mesh; none: regions are given. A radius below 1 % of
   // the box makes regions of 2 vertices or more
   std::vector<double> radii{};
   // 0 to HF_LAYER_COUNT - 1, for the whole batch
@@ -325,7 +332,8 @@ struct HandleProposalsOptions {
   hf_handle_proposals_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals.
+// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals. More than 16
+// fields: creases, guides and irregular vertices are lists with their counts.
 struct QuadsOptions {
   // `[crease_count x 2]` the two vertices of each edge, as given
   std::vector<uint32_t> crease_edges{};
@@ -372,19 +380,19 @@ struct RegionOptions {
   hf_region_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
-// region, and any single vertex that these surround but for one edge. The rim is the vertices next to them, on or
-// beyond the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the curve. A
-// whole border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times.
+// Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The vertices
+// on its chosen side are the region, and any single vertex that these surround but for one edge. The rim is the
+// vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along
+// edges the rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a
+// vertex at most 8 times.
 struct Curve {
   // `[point_count]` vertices as given, or none
   std::vector<uint32_t> vertices{};
-  // `[point_count]` triangles (or faces of three corners) as given, or none
-  std::vector<uint32_t> triangles{};
-  // `[point_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1 within 1e-6
-  std::vector<double> barycentrics{};
-  // `[point_count x 3]` three vertices of one face, as hf_hit has them, or none
-  std::vector<uint32_t> corners{};
+  // `[point_count]`, or none
+  std::vector<hf_place> places{};
+  // `[point_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for the
+  // nearest point of the surface, up to two boxes away
+  std::vector<double> points{};
   // HF_SIDE_*
   int32_t side = 0;
   // with HF_SIDE_SEED
@@ -580,13 +588,13 @@ struct Joints {
   hf_joints_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Places with given weights. Set vertices, or triangles with barycentrics. Give every vertex of a painted region to
-// keep its weights.
+// Places with given weights. Set vertices, places or points. Give every vertex of a painted region to keep its weights.
 struct Pins {
-  // `[pin_count]` triangles as given, or none
-  std::vector<uint32_t> triangles{};
-  // `[pin_count x 3]` with triangles, else none: weights of the corners, >= 0, of sum 1 within 1e-6
-  std::vector<double> barycentrics{};
+  // `[pin_count]`, or none
+  std::vector<hf_place> places{};
+  // `[pin_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for the nearest
+  // point of the surface, up to two boxes away
+  std::vector<double> points{};
   // `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; none or 0: the place alone
   std::vector<double> radii{};
   // `[pin_count x influence_count]` joints
@@ -666,7 +674,7 @@ struct Isolines {
 struct SitesInfo {
   // `[capacity]` numbers
   std::vector<uint32_t> sites;
-  // `[capacity]` the vertex given, HF_NO_INDEX for a point in a triangle
+  // `[capacity]` the vertex of the place, HF_NO_INDEX for a point in a triangle
   std::vector<uint32_t> vertices;
   // `[capacity]`
   std::vector<uint32_t> components;
@@ -848,11 +856,11 @@ class Surface {
   // graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
   // reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions, directions,
   // geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening,
-  // and sites in triangles or on discs.
+  // and sites at places, at points or on discs.
   //
   // A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
-  // median of their component are limited; hf_surface_report counts their vertices as changed. Bi-harmonic fields limit
-  // weights to 1e3 times the median.
+  // median of their component are limited; hf_mesh_statistics counts their vertices as changed. Bi-harmonic fields
+  // limit weights to 1e3 times the median.
   //
   // edges: `[edge_count x 2]` of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are added
   // up. Self loops are ignored
@@ -898,6 +906,14 @@ class Surface {
     return report;
   }
 
+  // Writes the statistics of the mesh.
+  hf_mesh_statistics mesh_statistics() const {
+    Call c(counts_);
+    auto statistics = make<hf_mesh_statistics>();
+    check(hf_surface_get_mesh_statistics(get(), &statistics));
+    return statistics;
+  }
+
   // Writes the component of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Components are numbered
   // in the order of their lowest vertex numbers.
   std::vector<uint32_t> components() const {
@@ -912,6 +928,14 @@ class Surface {
     } while (!room.enough(c, {{"capacity", count}}));
     components.resize(c.product({"capacity"}));
     return components;
+  }
+
+  // Writes how the pieces of a surface are linked.
+  hf_links_info links_info() const {
+    Call c(counts_);
+    auto info = make<hf_links_info>();
+    check(hf_surface_get_links_info(get(), &info));
+    return info;
   }
 
   // Writes the links of a surface. You can edit them and give them back with HF_LINK_LIST. A list does not say which
@@ -1287,14 +1311,12 @@ class Solver {
   //
   // vertices: `[site_count]` vertices as given, or none
   // values: `[site_count x channel_count]`, up to 1e200 in size; none = 0
-  // triangles: `[site_count]` triangles (or faces of three corners) as given, or none
-  // barycentrics: `[site_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1
-  // within 1e-6
+  // places: `[site_count]`, or none
+  // points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for
+  // the nearest point of the surface, up to two boxes away
   // stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to
   // 1e-12 to 1e12
   // radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
-  // corners: `[site_count x 3]` three vertices as given, of one face, or none: hf_hit has them. In a face of more
-  // corners this places a site in a triangle of them
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -1337,14 +1359,12 @@ class Solver {
   // sites: `[site_count]`.
   // vertices: `[site_count]` vertices as given, or none
   // values: `[site_count x channel_count]`, up to 1e200 in size; none = 0
-  // triangles: `[site_count]` triangles (or faces of three corners) as given, or none
-  // barycentrics: `[site_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1
-  // within 1e-6
+  // places: `[site_count]`, or none
+  // points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for
+  // the nearest point of the surface, up to two boxes away
   // stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to
   // 1e-12 to 1e12
   // radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
-  // corners: `[site_count x 3]` three vertices as given, of one face, or none: hf_hit has them. In a face of more
-  // corners this places a site in a triangle of them
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -1777,7 +1797,7 @@ class Geodesics {
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
   // HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
-  Path find_path(const hf_surface_point& from, const hf_surface_point& to) const {
+  Path find_path(const hf_place& from, const hf_place& to) const {
     Call c(counts_);
     auto path = make<hf_path>();
     Room room({{"point_capacity", -1}});
@@ -1807,7 +1827,7 @@ class Geodesics {
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
   // HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
-  std::tuple<std::vector<double>, std::vector<double>> map(const hf_surface_point& centre, double radius = 0) const {
+  std::tuple<std::vector<double>, std::vector<double>> map(const hf_place& centre, double radius = 0) const {
     Call c(counts_);
     std::vector<double> map(c.product({"vertex_count", "2"}));
     std::vector<double> frame(c.product({"6"}));
@@ -2097,10 +2117,12 @@ class Pose {
   // does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for
   // the higher layers.
   //
-  // region_vertices: lists of whole numbers: all regions one after the other; none: points are given
-  // points: `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to
-  // it within the radius. none: regions are given
-  // radii: `[handle_count]` of the regions of points, in the unit of the mesh; none: regions are given. A radius below
+  // region_vertices: lists of whole numbers: all regions one after the other; none: places are given
+  // vertices: `[handle_count]` vertices as given, or none
+  // places: `[handle_count]`, or none
+  // points: `[handle_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. A point can lie
+  // inside the body, as a joint does: its nearest vertex counts
+  // radii: `[handle_count]` of the regions of places, in the unit of the mesh; none: regions are given. A radius below
   // 1 % of the box makes regions of 2 vertices or more
   // layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
   // in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -2333,6 +2355,14 @@ class Pose {
     float* normals_at = normals ? normals->data() : nullptr;
     desc.normals = c.out(normals_at, "vertex_count");
     check(hf_pose_deform(get(), &desc, info));
+  }
+
+  // Writes the statistics of a pose.
+  hf_pose_statistics statistics() const {
+    Call c(counts_);
+    auto statistics = make<hf_pose_statistics>();
+    check(hf_pose_get_statistics(get(), &statistics));
+    return statistics;
   }
 
   // Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were added.
@@ -2698,6 +2728,14 @@ class Region {
     auto info = make<hf_region_info>();
     check(hf_region_get_info(get(), &info));
     return info;
+  }
+
+  // Writes the statistics of a region.
+  hf_region_statistics statistics() const {
+    Call c(counts_);
+    auto statistics = make<hf_region_statistics>();
+    check(hf_region_get_statistics(get(), &statistics));
+    return statistics;
   }
 
   // Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
@@ -3258,6 +3296,14 @@ class Transfer {
     return info;
   }
 
+  // Writes the statistics of a transfer.
+  hf_transfer_statistics statistics() const {
+    Call c(counts_);
+    auto statistics = make<hf_transfer_statistics>();
+    check(hf_transfer_get_statistics(get(), &statistics));
+    return statistics;
+  }
+
   // Sets the dials of a transfer for the next frames.
   //
   // stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
@@ -3504,8 +3550,9 @@ class Weights {
   // Pins at the same places with other weights cost no path.
   //
   // vertices: `[pin_count]` vertices as given, or none
-  // triangles: `[pin_count]` triangles as given, or none
-  // barycentrics: `[pin_count x 3]` with triangles, else none: weights of the corners, >= 0, of sum 1 within 1e-6
+  // places: `[pin_count]`, or none
+  // points: `[pin_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for the
+  // nearest point of the surface, up to two boxes away
   // radii: `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; none or 0: the place alone
   // joints: `[pin_count x influence_count]` joints
   // weights: `[pin_count x influence_count]` >= 0, scaled to the sum 1
@@ -3589,6 +3636,14 @@ class Weights {
     return info;
   }
 
+  // Writes the statistics.
+  hf_weights_statistics statistics() const {
+    Call c(counts_);
+    auto statistics = make<hf_weights_statistics>();
+    check(hf_weights_get_statistics(get(), &statistics));
+    return statistics;
+  }
+
   // Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and sets
   // deforms to 0.
   //
@@ -3669,11 +3724,13 @@ class Weights {
   // influence_count: joints of each vertex in the result: 4 or 8; 0: 4
   // progress: an object to poll and cancel through
   // info: filled in when given
+  // statistics: filled in when given
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL, HF_ERROR_UNSUPPORTED.
   static std::tuple<WeightsOut, std::vector<uint32_t>, std::vector<uint32_t>> mirror(const Surface& surface,
-      const WeightsMirrorOptions& options = {}, hf_weights_mirror_info* info = nullptr) {
+      const WeightsMirrorOptions& options = {}, hf_weights_mirror_info* info = nullptr,
+      hf_weights_mirror_statistics* statistics = nullptr) {
     Call c;
     c.parent("surface", surface.known_counts());
     const hf_weights_mirror_desc desc = options.fill(c, "");
@@ -3692,7 +3749,8 @@ class Weights {
       weights_.joints = room.at(found.joints);
       weights_.weights = room.at(found.weights);
       weights_.origins = room.at(found.origins);
-      room.code = hf_weights_mirror(surface.get(), &desc, &weights_, partners_.data(), pairings.data(), info);
+      room.code = hf_weights_mirror(surface.get(), &desc, &weights_, partners_.data(), pairings.data(), info,
+          statistics);
     } while (!room.enough(c, {{"vertex_capacity", weights_.vertex_count}, {"vertex_count", weights_.vertex_count},
         {"influence_count", weights_.influence_count}}));
     found.influence_count = weights_.influence_count;
@@ -3829,12 +3887,11 @@ inline hf_solver_desc SolverOptions::fill([[maybe_unused]] Call& c, [[maybe_unus
 inline hf_sites_desc Sites::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_sites_desc>();
   desc.vertices = c.array(vertices, false, "vertices", {prefix + "site_count"});
-  desc.triangles = c.array(triangles, false, "triangles", {prefix + "site_count"});
-  desc.barycentrics = c.array(barycentrics, false, "barycentrics", {prefix + "site_count", "3"});
+  desc.places = c.array(places, false, "places", {prefix + "site_count"});
+  desc.points = c.array(points, false, "points", {prefix + "site_count", "3"});
   desc.values = c.array(values, false, "values", {prefix + "site_count", "channel_count"});
   desc.stiffness = c.array(stiffness, false, "stiffness", {prefix + "site_count"});
   desc.radii = c.array(radii, false, "radii", {prefix + "site_count"});
-  desc.corners = c.array(corners, false, "corners", {prefix + "site_count", "3"});
   desc.site_count = c.count(prefix + "site_count", 1);
   return desc;
 }
@@ -3899,6 +3956,8 @@ inline hf_handles_desc HandlesOptions::fill([[maybe_unused]] Call& c, [[maybe_un
   desc.free_rotation = free_rotation ? 1 : 0;
   c.lists(region_vertices, false, &desc.region_counts, &desc.region_vertices, "region_vertices",
       {prefix + "handle_count"});
+  desc.vertices = c.array(vertices, false, "vertices", {prefix + "handle_count"});
+  desc.places = c.array(places, false, "places", {prefix + "handle_count"});
   desc.points = c.array(points, false, "points", {prefix + "handle_count", "3"});
   desc.radii = c.array(radii, false, "radii", {prefix + "handle_count"});
   desc.progress = progress ? progress->get() : nullptr;
@@ -3967,9 +4026,8 @@ inline hf_curve_desc Curve::fill([[maybe_unused]] Call& c, [[maybe_unused]] cons
   desc.seed_vertex = seed_vertex;
   desc.kind = kind;
   desc.vertices = c.array(vertices, false, "vertices", {prefix + "point_count"});
-  desc.triangles = c.array(triangles, false, "triangles", {prefix + "point_count"});
-  desc.barycentrics = c.array(barycentrics, false, "barycentrics", {prefix + "point_count", "3"});
-  desc.corners = c.array(corners, false, "corners", {prefix + "point_count", "3"});
+  desc.places = c.array(places, false, "places", {prefix + "point_count"});
+  desc.points = c.array(points, false, "points", {prefix + "point_count", "3"});
   desc.point_count = c.count(prefix + "point_count", 0);
   return desc;
 }
@@ -4117,8 +4175,8 @@ inline hf_pins_desc Pins::fill([[maybe_unused]] Call& c, [[maybe_unused]] const 
     const std::vector<uint32_t>& vertices) const {
   auto desc = make<hf_pins_desc>();
   desc.vertices = c.array(vertices, false, "vertices", {prefix + "pin_count"});
-  desc.triangles = c.array(triangles, false, "triangles", {prefix + "pin_count"});
-  desc.barycentrics = c.array(barycentrics, false, "barycentrics", {prefix + "pin_count", "3"});
+  desc.places = c.array(places, false, "places", {prefix + "pin_count"});
+  desc.points = c.array(points, false, "points", {prefix + "pin_count", "3"});
   desc.radii = c.array(radii, false, "radii", {prefix + "pin_count"});
   desc.joints = c.array(joints, false, "joints", {prefix + "pin_count", prefix + "influence_count"});
   desc.weights = c.array(weights, false, "weights", {prefix + "pin_count", prefix + "influence_count"});

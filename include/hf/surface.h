@@ -121,7 +121,9 @@ typedef struct hf_faces_desc {
                         another. Without sizes [faces + 1]: the corners of face f end where those of f + 1 start */
 } hf_faces_desc;
 
-/* The mesh and the options of a surface. Set triangles or faces. */
+/* The mesh and the options of a surface. Set triangles or faces.
+ *
+ * More than 16 fields: each limit and each hook is a choice of its own. */
 typedef struct hf_surface_desc {
   uint32_t struct_size;
   int32_t weld;               /* HF_WELD_* */
@@ -170,7 +172,8 @@ typedef struct hf_surface_desc {
 HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
 
 /* A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
- * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of hf_surface_desc. */
+ * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of hf_surface_desc.
+ * More than 16 fields: they mirror hf_surface_desc. */
 typedef struct hf_graph_desc {
   uint32_t struct_size;
   uint32_t vertex_count;  /* >= 1, also without masses */
@@ -198,11 +201,11 @@ typedef struct hf_graph_desc {
 /* Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the graph.
  * Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and reports
  * work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions, directions, geodesics,
- * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening, and sites in
- * triangles or on discs.
+ * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening, and sites at
+ * places, at points or on discs.
  *
  * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
- * median of their component are limited; hf_surface_report counts their vertices as changed. Bi-harmonic fields limit
+ * median of their component are limited; hf_mesh_statistics counts their vertices as changed. Bi-harmonic fields limit
  * weights to 1e3 times the median. out_surface: receives NULL at the start of the call and the new surface on success.
  * Cost: that of the factor; a graph of a volume has a larger one than a mesh of as many vertices. Errors:
  * HF_ERROR_INVALID_ARGUMENT (index = edge or vertex: a negative weight, a mass), HF_ERROR_EMPTY (no vertex, no edge, or
@@ -216,7 +219,7 @@ HF_API hf_result hf_surface_create_graph(const hf_graph_desc* desc, hf_surface* 
  * safety: any thread. Since 0.1. */
 HF_API void hf_surface_destroy(hf_surface surface);
 
-/* The options a surface was made with, defaults filled in. */
+/* The options a surface was made with, defaults filled in. More than 16 fields: they mirror hf_surface_desc. */
 typedef struct hf_surface_info {
   uint32_t struct_size;
   uint32_t vertex_count;   /* as given */
@@ -241,8 +244,8 @@ typedef struct hf_surface_info {
 HF_API hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 
 /* Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are 0. Where
- * faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces. Degenerate triangles,
- * negative edges and the smallest angle are of the cut. */
+ * faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces. Degenerate triangles are
+ * of the cut. */
 typedef struct hf_surface_report {
   uint32_t struct_size;
   uint32_t vertex_count;              /* as given */
@@ -258,30 +261,32 @@ typedef struct hf_surface_report {
   uint32_t non_manifold_edge_count;   /* edges of three or more triangles */
   uint32_t flipped_edge_count;        /* edges that two triangles run through in the same direction */
   uint32_t boundary_edge_count;
-  uint32_t negative_edge_count;  /* edges of negative cotangent weight, before any clamping */
-  uint32_t reserved;             /* 0 */
-  double smallest_angle;         /* radians, over the usable triangles */
-  double bounding_box_diagonal;  /* in the unit of the positions, without isolated vertices */
-  uint32_t changed_vertex_count; /* welded vertices with a weight that is not the mesh's, in the operator of field_kind:
-                                    of triangles too thin for it, or cut to the digits that there are. A certificate
-                                    holds for the weights used; near such vertices the field may be another's */
-  uint32_t first_changed_vertex; /* the first of them, as given; HF_NO_INDEX without one */
-  uint32_t piece_count;          /* edge-connected pieces, linked or not */
-  uint32_t link_count;           /* hf_surface_get_links writes them */
-  uint32_t light_piece_count;
-  uint32_t lone_piece_count; /* pieces without a link, if there are several */
-  double longest_tree_link;  /* of the tree over the pieces, in the unit of the positions */
-  uint32_t face_count;       /* as given; 0 where triangles were given */
-  uint32_t polygon_count;    /* faces of more than three corners */
-  uint32_t non_planar_count; /* polygons with a corner farther than 1 % of their diameter from their mean plane */
-  uint32_t largest_face;     /* corners of the largest face */
   uint32_t inside_out_count; /* closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The
                                 inner wall of a hollow body is one too. Fields do not change; what uses normals does */
   uint32_t first_inside_out_vertex; /* the first vertex of one, as given; HF_NO_INDEX without one */
+  double bounding_box_diagonal;     /* in the unit of the positions, without isolated vertices */
 } hf_surface_report;
 
 /* Writes the report of the mesh. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_report);
+
+/* What a developer reads about a mesh: its faces, and the weights of its operator. */
+typedef struct hf_mesh_statistics {
+  uint32_t struct_size;
+  uint32_t polygon_count;        /* faces of more than three corners */
+  uint32_t non_planar_count;     /* polygons with a corner farther than 1 % of their diameter from their mean plane */
+  uint32_t largest_face;         /* corners of the largest face; 0 where triangles were given */
+  uint32_t negative_edge_count;  /* edges of the cut of negative cotangent weight, before any clamping */
+  uint32_t changed_vertex_count; /* welded vertices with a weight that is not the mesh's, in the operator of field_kind:
+                                    of triangles too thin for it, or cut to the digits that there are. A certificate
+                                    holds for the weights used; near such vertices the field may be another's */
+  uint32_t first_changed_vertex; /* the first of them, as given; HF_NO_INDEX without one */
+  uint32_t reserved;             /* 0 */
+  double smallest_angle;         /* radians, over the usable triangles of the cut */
+} hf_mesh_statistics;
+
+/* Writes the statistics of the mesh. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_mesh_statistics(hf_surface surface, hf_mesh_statistics* out_statistics);
 
 /* Writes the component of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Components are numbered in
  * the order of their lowest vertex numbers. out_components: NULL, or uint32_t[capacity]. out_count: NULL, or receives
@@ -290,6 +295,20 @@ HF_API hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity
                                            uint32_t* out_count);
 
 /* ---- links ---- */
+
+/* How the pieces of a mesh are linked. */
+typedef struct hf_links_info {
+  uint32_t struct_size;
+  uint32_t piece_count; /* edge-connected pieces, linked or not */
+  uint32_t link_count;  /* hf_surface_get_links writes them */
+  uint32_t light_piece_count;
+  uint32_t lone_piece_count; /* pieces without a link, if there are several */
+  uint32_t reserved;         /* 0 */
+  double longest_tree_link;  /* of the tree over the pieces, in the unit of the positions */
+} hf_links_info;
+
+/* Writes how the pieces of a surface are linked. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_links_info(hf_surface surface, hf_links_info* out_info);
 
 /* Writes the links of a surface. You can edit them and give them back with HF_LINK_LIST. A list does not say which
  * pieces are light: name them in light_vertices, as hf_surface_get_pieces marks them. Then the list alone gives the
@@ -365,6 +384,17 @@ HF_API hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statis
 HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, hf_progress progress, size_t capacity,
                                  void* out_bytes, size_t* out_size);
 
+/* ---- places ---- */
+
+/* One place on a surface: a vertex, or a point between three corners of a face. hf_hit has one, sites, pins, curves,
+ * handles and paths take it. Lists of places have three forms, of which you set one: `vertices` (4 bytes each),
+ * `places`, and `points` in space. */
+typedef struct hf_place {
+  uint32_t corners[3]; /* vertices of one face, as given; a corner of barycentric 0 is ignored and can be HF_NO_INDEX */
+  uint32_t reserved;   /* 0 */
+  double barycentrics[3]; /* weights of the corners, >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
+} hf_place;
+
 /* ---- picking ---- */
 
 /* Options of picking: posed positions, if the surface is not at rest, and which triangles count. */
@@ -378,15 +408,13 @@ typedef struct hf_pick_desc {
 /* hf_surface_cast_ray writes the first triangle that a ray hits here. */
 typedef struct hf_hit {
   uint32_t struct_size;
-  int32_t found;          /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
-  uint32_t triangle;      /* or face, as given */
-  uint32_t vertex;        /* its corner nearest to the hit, as given, of welded copies the first */
-  double barycentrics[3]; /* weights of `corners`, of sum 1: a site for hf_add_sites */
-  double position[3];     /* in the unit of the positions */
-  double distance;        /* from the origin, in lengths of `direction` */
-  uint32_t corners[3];    /* the triangle's vertices, as given, of welded copies the first. In a face of more corners
-                             three of them: the triangle of the face's cut that the ray hits */
-  uint32_t reserved;      /* 0 */
+  int32_t found;      /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
+  uint32_t triangle;  /* or face, as given */
+  uint32_t vertex;    /* its corner nearest to the hit, as given, of welded copies the first */
+  hf_place place;     /* corners of the triangle, of welded copies the first, and their weights. In a face of more
+                         corners three of them: the triangle of the face's cut that the ray hits */
+  double position[3]; /* in the unit of the positions */
+  double distance;    /* from the origin, in lengths of `direction` */
 } hf_hit;
 
 /* Finds what a mouse click hits: the first triangle on a ray. origin, direction: double[3] in the frame of the

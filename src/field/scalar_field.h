@@ -24,8 +24,7 @@ struct FieldEdit {
   const std::uint32_t* set_sites = nullptr;
   const double* set_values = nullptr;
   Places add;
-  const double* add_values = nullptr;
-  const double* add_stiffness = nullptr;
+  SiteSet::Holds add_holds;
 };
 
 class ScalarField {

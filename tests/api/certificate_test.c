@@ -1,6 +1,7 @@
 /* The certificate of a field: small where the field is right, on every engine and operator, and HF_ERROR_INACCURATE
  * where it is not: a factor whose numbers were changed behind the library's back. */
 #include "api_support.h"
+#include "support/place_in.h"
 
 enum { AROUND = 12, RINGS = 30, VERTICES = AROUND * RINGS };
 
@@ -58,7 +59,7 @@ static void points_soft_sites_discs_and_a_single_site_pass(void** state) {
   hf_certificate found = HF_INIT(hf_certificate);
   assert_ok(hf_solver_certify(solver, &found));
   assert_true(found.value_range == 0 && found.residual < 1e-12 && found.overshoot_checked == 1);
-  const uint32_t triangle = 400, vertices[2] = {100, 200};
+  const uint32_t vertices[2] = {100, 200};
   const double weights[3] = {0.2, 0.3, 0.5}, values[2] = {12346, 12350}, stiffness[2] = {1e3, 1e-3},
                radii[2] = {1.5, 0};
   hf_sites_desc sites = sites_at(2, vertices, values);
@@ -73,8 +74,8 @@ static void points_soft_sites_discs_and_a_single_site_pass(void** state) {
   assert_ok(hf_solver_certify(solver, &found));
   sites = HF_INIT(hf_sites_desc);
   sites.site_count = 1;
-  sites.triangles = &triangle;
-  sites.barycentrics = weights;
+  const hf_place inside = place_in(tube.triangles, tube.triangle_count, 400, weights);
+  sites.places = &inside;
   sites.values = values;
   assert_ok(hf_add_sites(solver, &sites, NULL));
   assert_ok(hf_solver_certify(solver, &found));
@@ -310,10 +311,10 @@ static void very_soft_sites_pass(void** state) {
 static void weights_that_a_rule_set_are_counted(void** state) {
   (void)state;
   hf_surface surface = surface_on(&tube);
-  hf_surface_report report = HF_INIT(hf_surface_report);
-  assert_ok(hf_surface_get_report(surface, &report));
-  assert_int_equal(report.changed_vertex_count, 0);
-  assert_int_equal(report.first_changed_vertex, NO_INDEX);
+  hf_mesh_statistics found = HF_INIT(hf_mesh_statistics);
+  assert_ok(hf_surface_get_mesh_statistics(surface, &found));
+  assert_int_equal(found.changed_vertex_count, 0);
+  assert_int_equal(found.first_changed_vertex, NO_INDEX);
   hf_surface_destroy(surface);
   /* two unit squares with a column of this width between them */
   const double widths[2] = {1e-9, 1e-12};
@@ -332,10 +333,10 @@ static void weights_that_a_rule_set_are_counted(void** state) {
       desc.surface.triangles = HF_ARRAY(triangles, 6);
       desc.surface.operator_kind = operator_kind;
       assert_ok(hf_surface_create(&desc.surface, &surface));
-      assert_ok(hf_surface_get_report(surface, &report));
+      assert_ok(hf_surface_get_mesh_statistics(surface, &found));
       const int kept = operator_kind == HF_OPERATOR_UNIFORM || w == 0;
-      assert_true(kept ? report.changed_vertex_count == 0 : report.changed_vertex_count >= 4);
-      assert_int_equal(report.first_changed_vertex, kept ? NO_INDEX : 1);
+      assert_true(kept ? found.changed_vertex_count == 0 : found.changed_vertex_count >= 4);
+      assert_int_equal(found.first_changed_vertex, kept ? NO_INDEX : 1);
       hf_surface_destroy(surface);
     }
   }

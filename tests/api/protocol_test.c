@@ -96,8 +96,8 @@ static hf_result trace_isolines(Call* c) {
   return r;
 }
 static hf_result find_path(Call* c) {
-  const hf_surface_point from = {{0, 0, 0}, 0, {1, 0, 0}};
-  const hf_surface_point to = {{TUBE_VERTICES - 2, 0, 0}, 0, {1, 0, 0}};
+  const hf_place from = {{0, 0, 0}, 0, {1, 0, 0}};
+  const hf_place to = {{TUBE_VERTICES - 2, 0, 0}, 0, {1, 0, 0}};
   hf_path path = HF_INIT(hf_path);
   path.point_capacity = (uint32_t)c->capacity[0];
   path.point_edges = c->array[0];
@@ -230,7 +230,7 @@ static hf_result weights_mirror(Call* c) {
   desc.source_influence_count = 1;
   desc.joints = one_joint;
   desc.weights = one_share;
-  const hf_result r = hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, NULL);
+  const hf_result r = hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, NULL, NULL);
   c->count[0] = out.vertex_count;
   return r;
 }

@@ -163,15 +163,15 @@ class Arrays(unittest.TestCase):
         for faces in (quads, quads.astype(np.uint32), (offsets, quads), (None, np.full(len(quads), 4), quads.ravel()),
                       (offsets[:-1].astype(np.int32), np.full(len(quads), 4, np.int32), quads)):
             with hf.Surface(points, faces=faces) as surface, hf.Solver(surface) as solver:
-                self.assertEqual((surface.report.face_count, surface.report.polygon_count), (len(quads), len(quads)))
+                self.assertEqual((surface.info.face_count, surface.mesh_statistics.polygon_count), (len(quads), len(quads)))
                 solver.add_sites([0, 100], [0.0, 1.0])
                 fields.append(solver.solve(dtype=np.float64))
                 np.testing.assert_array_equal(fields[0], fields[-1])
                 hit = surface.cast_ray(points[quads[7]].mean(0) * 3, -points[quads[7]].mean(0))
-                corners, weights = list(hit.corners), list(hit.barycentrics)
+                corners, weights = list(hit.place.corners), list(hit.place.barycentrics)
                 self.assertTrue(set(corners) <= set(quads[hit.triangle]))
                 np.testing.assert_allclose(np.dot(weights, points[corners]), hit.position, atol=1e-6)
-                solver.add_sites(corners=[corners], barycentrics=[weights], values=[2.0])
+                solver.add_sites(places=[(corners, weights)], values=[2.0])
                 np.testing.assert_allclose(np.dot(weights, solver.solve(dtype=np.float64)[corners]), 2, atol=1e-12)
         for wrong in (quads[:, :2], (offsets,), (None, quads), "text", (offsets, offsets, quads), quads + len(points),
                       (np.zeros(3, int), quads), (None, None, quads), (None, [4, 4], None)):
@@ -415,7 +415,7 @@ class Regions(unittest.TestCase):
             np.testing.assert_array_equal(region.vertices(), [0, 1, 2, 12, 13, 14])
             region.redo()
             self.assertEqual(set(region.vertices()), grown)
-            self.assertEqual(region.info.factorisation_count, 0)
+            self.assertEqual(region.statistics.factorisation_count, 0)
             region.edit(curve=[int(v) for v in (0, 1, 2, 3, 15, 27, 39, 38, 37, 36, 24, 12)])
             self.assertTrue({13, 14, 25, 26} <= set(region.vertices()))
             for wrong in (lambda: region.edit(add_vertices=[288]), lambda: region.edit(curve=[0]), lambda: region.morph(np.nan),
@@ -437,14 +437,14 @@ class Given(unittest.TestCase):
 
     def test_links_are_written_changed_and_given_back(self):
         links = self.surface.links()
-        self.assertEqual(len(links), self.surface.report.link_count)
+        self.assertEqual(len(links), self.surface.links_info.link_count)
         self.assertGreater(len(links), 1)
         again = self.surface.relink(mode=hf.LinkMode.LIST, links=links)
         np.testing.assert_array_equal(again.links()["vertex"], links["vertex"])
         self.assertIs(type(again), hf.Surface)
         one = hf.Surface(self.points, np.concatenate([mesh("torus")[1], mesh("torus")[1] + len(self.points) // 2]),
                          links={"mode": hf.LinkMode.LIST, "links": links[:1]})
-        self.assertEqual(one.report.link_count, 1)
+        self.assertEqual(one.links_info.link_count, 1)
         with self.assertRaisesRegex(hf.InvalidArgumentError, "links must be records"):
             self.surface.relink(mode=hf.LinkMode.LIST, links=[[0, 1]])
 
@@ -490,14 +490,14 @@ class Picking(unittest.TestCase):
         points, triangles = mesh("torus")
         surface = hf.Surface(points, triangles)
         hit = surface.cast_ray([9, 0.3, 0.2], [-2, 0, 0])
-        np.testing.assert_allclose(np.dot(hit.barycentrics, points[triangles[hit.triangle]]), hit.position, atol=1e-12)
+        np.testing.assert_allclose(np.dot(hit.place.barycentrics, points[list(hit.place.corners)]), hit.position, atol=1e-12)
         self.assertIn(hit.vertex, triangles[hit.triangle])
         np.testing.assert_allclose(9 - 2 * hit.distance, hit.position[0], atol=1e-12)
         self.assertIsNone(surface.cast_ray([9, 0, 0], [1, 0, 0]))
         solver = hf.Solver(surface)
-        solver.add_sites(triangles=[hit.triangle], barycentrics=[list(hit.barycentrics)], values=[2.0])
+        solver.add_sites(places=[hit], values=[2.0])
         solver.add_site(150)
-        np.testing.assert_allclose(np.dot(hit.barycentrics, solver.solve(dtype=np.float64)[triangles[hit.triangle]]), 2)
+        np.testing.assert_allclose(np.dot(hit.place.barycentrics, solver.solve(dtype=np.float64)[list(hit.place.corners)]), 2)
         pose = hf.Pose(surface)
         self.assertEqual([pose.add_handle_at(hit.position, 0.5), pose.add_handle_at([-4, 0, 0], 0.5)], [0, 1])
         pose.set_transform(0, translation=[1, 0, 0])

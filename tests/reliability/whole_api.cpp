@@ -1,5 +1,6 @@
 #include <array>
 
+#include "../support/place_in.h"
 #include "../support/stick_man.h"
 #include "support/arrays.h"
 #include "whole_api_run.h"
@@ -27,6 +28,9 @@ void Run::surface_and_picking() {
   hf_surface_report report = desc<hf_surface_report>();
   call(hf_surface_get_report(surface, &report), "hf_surface_get_report");
   take(&report, 1);
+  hf_mesh_statistics mesh = desc<hf_mesh_statistics>();
+  call(hf_surface_get_mesh_statistics(surface, &mesh), "hf_surface_get_mesh_statistics");
+  take(&mesh, 1);
   std::vector<std::uint32_t> components(n);
   std::uint32_t count = 0;
   call(hf_surface_get_components(surface, n, components.data(), &count), "hf_surface_get_components");
@@ -54,6 +58,9 @@ void Run::surface_and_picking() {
   links.mode = HF_LINK_PIECES;
   hf_surface linked = nullptr;
   call(hf_surface_relink(surface, &links, nullptr, &linked), "hf_surface_relink");
+  hf_links_info linked_info = desc<hf_links_info>();
+  call(hf_surface_get_links_info(linked, &linked_info), "hf_surface_get_links_info");
+  take(&linked_info, 1);
   call(hf_surface_get_links(linked, 0, nullptr, &link_count), "hf_surface_get_links");
   take(&link_count, 1);
   call(hf_surface_get_pieces(linked, n, pieces.data(), light.data(), &pieces_count), "hf_surface_get_pieces");
@@ -79,11 +86,11 @@ void Run::solver_and_sites() {
   sites = sites_at(2, 30, 10, 7);
   sites.radii = s.radii.data();
   call(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, discs");
-  const std::uint32_t triangles[2] = {33, 400};
+  const hf_place inside[2] = {place_in(s.triangles.data(), s.triangle_count, 33, s.barycentrics.data()),
+                              place_in(s.triangles.data(), s.triangle_count, 400, s.barycentrics.data() + 3)};
   sites = sites_at(2, 1, 20);
   sites.vertices = nullptr;
-  sites.triangles = triangles;
-  sites.barycentrics = s.barycentrics.data();
+  sites.places = inside;
   call(hf_add_sites(solver, &sites, numbers.data() + 6), "hf_add_sites, points");
   take_field(solver);
   call(hf_solve(solver, floats.data(), 12, nullptr), "hf_solve");
@@ -181,6 +188,9 @@ void Run::other_kinds() {
   hf_pose_info info = desc<hf_pose_info>();
   call(hf_pose_get_info(pose, &info), "hf_pose_get_info");
   take(&info, 1);
+  hf_pose_statistics figures = desc<hf_pose_statistics>();
+  call(hf_pose_get_statistics(pose, &figures), "hf_pose_get_statistics");
+  take(&figures.cluster_count, 1);
   hf_pose_destroy(pose);
 }
 
@@ -304,8 +314,8 @@ void Run::analysis() {
   call(hf_geodesics_solve(geodesics, 1, sources, OUT_ROWS(floats.data(), 12)), "hf_geodesics_solve");
   take(distance.data(), n);
   take_floats();
-  const hf_surface_point from = {{3, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}},
-                         to = {{HF_NO_INDEX, 200, HF_NO_INDEX}, 0, {0, 1, 0}};
+  const hf_place from = {{3, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}},
+                 to = {{HF_NO_INDEX, 200, HF_NO_INDEX}, 0, {0, 1, 0}};
   hf_path path = desc<hf_path>();
   call(hf_geodesics_find_path(geodesics, &from, &to, &path), "hf_geodesics_find_path");
   Numbers map(2 * n), corners(3 * path.point_count);

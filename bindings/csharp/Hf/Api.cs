@@ -413,7 +413,7 @@ namespace Hf
     }
 
     /// <summary>A spring from a vertex to a point of a triangle. Surface.Links writes it, LinksDesc reads it.</summary>
-    public sealed unsafe class Link
+    public sealed unsafe partial class Link
     {
         /// <summary>as given, of welded copies the first</summary>
         public uint Vertex;
@@ -451,8 +451,8 @@ namespace Hf
         }
     }
 
-    /// <summary>The options a surface was made with, defaults filled in.</summary>
-    public sealed unsafe class SurfaceInfo
+    /// <summary>The options a surface was made with, defaults filled in. More than 16 fields: they mirror SurfaceDesc.</summary>
+    public sealed unsafe partial class SurfaceInfo
     {
         /// <summary>as given</summary>
         public uint VertexCount;
@@ -506,8 +506,8 @@ namespace Hf
 
     /// <summary>Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are
     /// 0. Where faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces.
-    /// Degenerate triangles, negative edges and the smallest angle are of the cut.</summary>
-    public sealed unsafe class SurfaceReport
+    /// Degenerate triangles are of the cut.</summary>
+    public sealed unsafe partial class SurfaceReport
     {
         /// <summary>as given</summary>
         public uint VertexCount;
@@ -531,40 +531,13 @@ namespace Hf
         /// <summary>edges that two triangles run through in the same direction</summary>
         public uint FlippedEdgeCount;
         public uint BoundaryEdgeCount;
-        /// <summary>edges of negative cotangent weight, before any clamping</summary>
-        public uint NegativeEdgeCount;
-        /// <summary>radians, over the usable triangles</summary>
-        public double SmallestAngle;
-        /// <summary>in the unit of the positions, without isolated vertices</summary>
-        public double BoundingBoxDiagonal;
-        /// <summary>welded vertices with a weight that is not the mesh's, in the operator of field_kind: of triangles too
-        /// thin for it, or cut to the digits that there are. A certificate holds for the weights used; near such
-        /// vertices the field may be another's</summary>
-        public uint ChangedVertexCount;
-        /// <summary>the first of them, as given; uint.MaxValue without one</summary>
-        public uint FirstChangedVertex;
-        /// <summary>edge-connected pieces, linked or not</summary>
-        public uint PieceCount;
-        /// <summary>Surface.Links writes them</summary>
-        public uint LinkCount;
-        public uint LightPieceCount;
-        /// <summary>pieces without a link, if there are several</summary>
-        public uint LonePieceCount;
-        /// <summary>of the tree over the pieces, in the unit of the positions</summary>
-        public double LongestTreeLink;
-        /// <summary>as given; 0 where triangles were given</summary>
-        public uint FaceCount;
-        /// <summary>faces of more than three corners</summary>
-        public uint PolygonCount;
-        /// <summary>polygons with a corner farther than 1 % of their diameter from their mean plane</summary>
-        public uint NonPlanarCount;
-        /// <summary>corners of the largest face</summary>
-        public uint LargestFace;
         /// <summary>closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The inner wall of a
         /// hollow body is one too. Fields do not change; what uses normals does</summary>
         public uint InsideOutCount;
         /// <summary>the first vertex of one, as given; uint.MaxValue without one</summary>
         public uint FirstInsideOutVertex;
+        /// <summary>in the unit of the positions, without isolated vertices</summary>
+        public double BoundingBoxDiagonal;
 
         internal SurfaceReport(hf_surface_report* raw)
         {
@@ -579,27 +552,69 @@ namespace Hf
             NonManifoldEdgeCount = raw->non_manifold_edge_count;
             FlippedEdgeCount = raw->flipped_edge_count;
             BoundaryEdgeCount = raw->boundary_edge_count;
-            NegativeEdgeCount = raw->negative_edge_count;
-            SmallestAngle = raw->smallest_angle;
+            InsideOutCount = raw->inside_out_count;
+            FirstInsideOutVertex = raw->first_inside_out_vertex;
             BoundingBoxDiagonal = raw->bounding_box_diagonal;
+        }
+    }
+
+    /// <summary>What a developer reads about a mesh: its faces, and the weights of its operator.</summary>
+    public sealed unsafe partial class MeshStatistics
+    {
+        /// <summary>faces of more than three corners</summary>
+        public uint PolygonCount;
+        /// <summary>polygons with a corner farther than 1 % of their diameter from their mean plane</summary>
+        public uint NonPlanarCount;
+        /// <summary>corners of the largest face; 0 where triangles were given</summary>
+        public uint LargestFace;
+        /// <summary>edges of the cut of negative cotangent weight, before any clamping</summary>
+        public uint NegativeEdgeCount;
+        /// <summary>welded vertices with a weight that is not the mesh's, in the operator of field_kind: of triangles too
+        /// thin for it, or cut to the digits that there are. A certificate holds for the weights used; near such
+        /// vertices the field may be another's</summary>
+        public uint ChangedVertexCount;
+        /// <summary>the first of them, as given; uint.MaxValue without one</summary>
+        public uint FirstChangedVertex;
+        /// <summary>radians, over the usable triangles of the cut</summary>
+        public double SmallestAngle;
+
+        internal MeshStatistics(hf_mesh_statistics* raw)
+        {
+            PolygonCount = raw->polygon_count;
+            NonPlanarCount = raw->non_planar_count;
+            LargestFace = raw->largest_face;
+            NegativeEdgeCount = raw->negative_edge_count;
             ChangedVertexCount = raw->changed_vertex_count;
             FirstChangedVertex = raw->first_changed_vertex;
+            SmallestAngle = raw->smallest_angle;
+        }
+    }
+
+    /// <summary>How the pieces of a mesh are linked.</summary>
+    public sealed unsafe partial class LinksInfo
+    {
+        /// <summary>edge-connected pieces, linked or not</summary>
+        public uint PieceCount;
+        /// <summary>Surface.Links writes them</summary>
+        public uint LinkCount;
+        public uint LightPieceCount;
+        /// <summary>pieces without a link, if there are several</summary>
+        public uint LonePieceCount;
+        /// <summary>of the tree over the pieces, in the unit of the positions</summary>
+        public double LongestTreeLink;
+
+        internal LinksInfo(hf_links_info* raw)
+        {
             PieceCount = raw->piece_count;
             LinkCount = raw->link_count;
             LightPieceCount = raw->light_piece_count;
             LonePieceCount = raw->lone_piece_count;
             LongestTreeLink = raw->longest_tree_link;
-            FaceCount = raw->face_count;
-            PolygonCount = raw->polygon_count;
-            NonPlanarCount = raw->non_planar_count;
-            LargestFace = raw->largest_face;
-            InsideOutCount = raw->inside_out_count;
-            FirstInsideOutVertex = raw->first_inside_out_vertex;
         }
     }
 
     /// <summary>How far linked pieces have opened, in the unit of the positions.</summary>
-    public sealed unsafe class GapsInfo
+    public sealed unsafe partial class GapsInfo
     {
         public uint LinkCount;
         /// <summary>95 of 100 links opened no more than this; 0 without links</summary>
@@ -619,7 +634,7 @@ namespace Hf
 
     /// <summary>Surface.Statistics writes sizes and times of a surface here. Times are in milliseconds. Bytes are doubles
     /// (exact to 2^53).</summary>
-    public sealed unsafe class SurfaceStatistics
+    public sealed unsafe partial class SurfaceStatistics
     {
         /// <summary>size of the factored matrix</summary>
         public uint UnknownCount;
@@ -666,36 +681,58 @@ namespace Hf
         }
     }
 
+    /// <summary>One place on a surface: a vertex, or a point between three corners of a face. Hit has one, sites, pins,
+    /// curves, handles and paths take it. Lists of places have three forms, of which you set one: `vertices` (4
+    /// bytes each), `places`, and `points` in space.</summary>
+    public sealed unsafe partial class Place
+    {
+        /// <summary>vertices of one face, as given; a corner of barycentric 0 is ignored and can be uint.MaxValue</summary>
+        public uint[] Corners = new uint[3];
+        /// <summary>weights of the corners, &gt;= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex</summary>
+        public double[] Barycentrics = new double[3];
+
+        internal Place(hf_place* raw)
+        {
+            for (int i = 0; i < 3; ++i) Corners[i] = raw->corners[i];
+            for (int i = 0; i < 3; ++i) Barycentrics[i] = raw->barycentrics[i];
+        }
+
+        public Place() { }
+
+        internal void Write(hf_place* raw)
+        {
+            Call.Fill(Corners, "Corners", 3, raw->corners);
+            Call.Fill(Barycentrics, "Barycentrics", 3, raw->barycentrics);
+        }
+    }
+
     /// <summary>Surface.CastRay writes the first triangle that a ray hits here.</summary>
-    public sealed unsafe class Hit
+    public sealed unsafe partial class Hit
     {
         /// <summary>or face, as given</summary>
         public uint Triangle;
         /// <summary>its corner nearest to the hit, as given, of welded copies the first</summary>
         public uint Vertex;
-        /// <summary>weights of `corners`, of sum 1: a site for Solver.AddSites</summary>
-        public double[] Barycentrics = new double[3];
+        /// <summary>corners of the triangle, of welded copies the first, and their weights. In a face of more corners three
+        /// of them: the triangle of the face's cut that the ray hits</summary>
+        public Place Place;
         /// <summary>in the unit of the positions</summary>
         public double[] Position = new double[3];
         /// <summary>from the origin, in lengths of `direction`</summary>
         public double Distance;
-        /// <summary>the triangle's vertices, as given, of welded copies the first. In a face of more corners three of them:
-        /// the triangle of the face's cut that the ray hits</summary>
-        public uint[] Corners = new uint[3];
 
         internal Hit(hf_hit* raw)
         {
             Triangle = raw->triangle;
             Vertex = raw->vertex;
-            for (int i = 0; i < 3; ++i) Barycentrics[i] = raw->barycentrics[i];
+            Place = new Place(&raw->place);
             for (int i = 0; i < 3; ++i) Position[i] = raw->position[i];
             Distance = raw->distance;
-            for (int i = 0; i < 3; ++i) Corners[i] = raw->corners[i];
         }
     }
 
     /// <summary>Solver.Info writes the options of a solver here, with defaults filled in, and the number of its sites.</summary>
-    public sealed unsafe class SolverInfo
+    public sealed unsafe partial class SolverInfo
     {
         /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
@@ -716,7 +753,7 @@ namespace Hf
     }
 
     /// <summary>The components that the sites of a solve did not reach.</summary>
-    public sealed unsafe class SolveInfo
+    public sealed unsafe partial class SolveInfo
     {
         /// <summary>components without a site</summary>
         public uint UnreachedComponentCount;
@@ -734,7 +771,7 @@ namespace Hf
     }
 
     /// <summary>Counts and errors of a preview.</summary>
-    public sealed unsafe class PreviewInfo
+    public sealed unsafe partial class PreviewInfo
     {
         /// <summary>1: solved in double, as Solver.Solve does</summary>
         public bool Exact;
@@ -768,7 +805,7 @@ namespace Hf
     /// <summary>The certificate says how accurate a field is. Each error is relative to the range of the site values of its
     /// component and channel, and of its targets where it is screened. Where all are equal, it is relative to their
     /// size. A value that is not finite counts as infinitely wrong.</summary>
-    public sealed unsafe class Certificate
+    public sealed unsafe partial class Certificate
     {
         /// <summary>1: the field must keep to the range of its sites: harmonic, intrinsic Delaunay or clamped operator, all
         ///     sites at vertices</summary>
@@ -785,7 +822,7 @@ namespace Hf
         public double Overshoot;
         /// <summary>as given, where the largest of the three is</summary>
         public uint WorstVertex;
-        /// <summary>welded vertices with a weight that a rule set (SurfaceReport). On a mesh, and for bi-harmonic fields,
+        /// <summary>welded vertices with a weight that a rule set (MeshStatistics). On a mesh, and for bi-harmonic fields,
         /// the errors hold for the weights used; on a graph for your own, within 1e30 of their median</summary>
         public uint ChangedVertexCount;
         /// <summary>how far a value may be from the exact field: a bound by K alone where no weight is negative and the
@@ -807,7 +844,7 @@ namespace Hf
     }
 
     /// <summary>Counts, memory and cost estimates of a solver. Bytes are doubles (exact to 2^53).</summary>
-    public sealed unsafe class SolverStatistics
+    public sealed unsafe partial class SolverStatistics
     {
         public uint SiteCount;
         /// <summary>numeric factorisations this solver made; the surface's own is not counted</summary>
@@ -853,7 +890,7 @@ namespace Hf
         }
     }
 
-    public sealed unsafe class CriticalPoint
+    public sealed unsafe partial class CriticalPoint
     {
         /// <summary>as given, of welded copies the first</summary>
         public uint Vertex;
@@ -886,7 +923,7 @@ namespace Hf
         }
     }
 
-    public sealed unsafe class CriticalInfo
+    public sealed unsafe partial class CriticalInfo
     {
         /// <summary>minima + maxima + saddles</summary>
         public uint PointCount;
@@ -910,7 +947,7 @@ namespace Hf
         }
     }
 
-    public sealed unsafe class Extremity
+    public sealed unsafe partial class Extremity
     {
         /// <summary>as given, of welded copies the first</summary>
         public uint Vertex;
@@ -942,7 +979,7 @@ namespace Hf
 
     /// <summary>A singularity is a triangle, or a face, around which the field makes extra turns. They are counted in parts
     /// of 1 / degree of a full turn.</summary>
-    public sealed unsafe class Singularity
+    public sealed unsafe partial class Singularity
     {
         /// <summary>or face, as given</summary>
         public uint Triangle;
@@ -969,7 +1006,7 @@ namespace Hf
     }
 
     /// <summary>The options a direction field was made with, and counts of its constraints and of the work done so far.</summary>
-    public sealed unsafe class DirectionStatistics
+    public sealed unsafe partial class DirectionStatistics
     {
         public uint Degree;
         public uint SiteLimit;
@@ -1011,7 +1048,7 @@ namespace Hf
     }
 
     /// <summary>Pose.Info writes the options of a pose here, with defaults filled in, and the number of its handles.</summary>
-    public sealed unsafe class PoseInfo
+    public sealed unsafe partial class PoseInfo
     {
         public uint BandCount;
         public uint IterationCount;
@@ -1031,7 +1068,7 @@ namespace Hf
     }
 
     /// <summary>Pose.Handle writes the region of a handle here, its layer, and its motion in the last Pose.Deform.</summary>
-    public sealed unsafe class HandleInfo
+    public sealed unsafe partial class HandleInfo
     {
         /// <summary>of the region, welded copies counted once</summary>
         public uint VertexCount;
@@ -1065,27 +1102,36 @@ namespace Hf
         }
     }
 
-    /// <summary>Counts and times of a deform.</summary>
-    public sealed unsafe class DeformInfo
+    /// <summary>What a deform did.</summary>
+    public sealed unsafe partial class DeformInfo
     {
         /// <summary>done</summary>
         public uint IterationCount;
-        public uint ClusterCount;
         /// <summary>in components without a handle; they stay at rest</summary>
         public uint UnreachedVertexCount;
         /// <summary>largest change of a rotation in the last iteration</summary>
         public double LastChange;
+
+        internal DeformInfo(hf_deform_info* raw)
+        {
+            IterationCount = raw->iteration_count;
+            UnreachedVertexCount = raw->unreached_vertex_count;
+            LastChange = raw->last_change;
+        }
+    }
+
+    /// <summary>Size of a pose and times of its last deform, in milliseconds; 0 before the first.</summary>
+    public sealed unsafe partial class PoseStatistics
+    {
+        public uint ClusterCount;
         public double SolveMs;
         public double BlendMs;
         public double NormalMs;
         public double RefineMs;
 
-        internal DeformInfo(hf_deform_info* raw)
+        internal PoseStatistics(hf_pose_statistics* raw)
         {
-            IterationCount = raw->iteration_count;
             ClusterCount = raw->cluster_count;
-            UnreachedVertexCount = raw->unreached_vertex_count;
-            LastChange = raw->last_change;
             SolveMs = raw->solve_ms;
             BlendMs = raw->blend_ms;
             NormalMs = raw->normal_ms;
@@ -1095,7 +1141,7 @@ namespace Hf
 
     /// <summary>One proposed handle. position and radius are those of HandlesDesc: the regions of all proposals are
     /// disjoint.</summary>
-    public sealed unsafe class HandleProposal
+    public sealed unsafe partial class HandleProposal
     {
         /// <summary>nearest to the position; as given, of welded copies the first</summary>
         public uint Vertex;
@@ -1142,7 +1188,7 @@ namespace Hf
     }
 
     /// <summary>Counts of a quad mesh.</summary>
-    public sealed unsafe class QuadsInfo
+    public sealed unsafe partial class QuadsInfo
     {
         public uint VertexCount;
         public uint FaceCount;
@@ -1160,8 +1206,8 @@ namespace Hf
         }
     }
 
-    /// <summary>Counts and areas of a region and of its last edit. Welded copies count as one vertex.</summary>
-    public sealed unsafe class RegionInfo
+    /// <summary>Counts and areas of a region. Welded copies count as one vertex.</summary>
+    public sealed unsafe partial class RegionInfo
     {
         /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
@@ -1171,6 +1217,25 @@ namespace Hf
         public uint RimCount;
         /// <summary>vertices that fix the base: the rim, for thin plates two rows or more</summary>
         public uint SiteCount;
+        /// <summary>of the triangles with a corner in the region, on the surface, in units^2</summary>
+        public double Area;
+        /// <summary>the same on the base</summary>
+        public double BaseArea;
+
+        internal RegionInfo(hf_region_info* raw)
+        {
+            FieldKind = (FieldKind)raw->field_kind;
+            VertexCount = raw->vertex_count;
+            RimCount = raw->rim_count;
+            SiteCount = raw->site_count;
+            Area = raw->area;
+            BaseArea = raw->base_area;
+        }
+    }
+
+    /// <summary>Work of the last edit of a region, and of all its edits.</summary>
+    public sealed unsafe partial class RegionStatistics
+    {
         /// <summary>sites of the last edit ...</summary>
         public uint InsertedCount;
         public uint RemovedCount;
@@ -1183,17 +1248,9 @@ namespace Hf
         public uint LastRoute;
         /// <summary>1: the last base took a sweep through the whole factor</summary>
         public bool WholeSweep;
-        /// <summary>of the triangles with a corner in the region, on the surface, in units^2</summary>
-        public double Area;
-        /// <summary>the same on the base</summary>
-        public double BaseArea;
 
-        internal RegionInfo(hf_region_info* raw)
+        internal RegionStatistics(hf_region_statistics* raw)
         {
-            FieldKind = (FieldKind)raw->field_kind;
-            VertexCount = raw->vertex_count;
-            RimCount = raw->rim_count;
-            SiteCount = raw->site_count;
             InsertedCount = raw->inserted_count;
             RemovedCount = raw->removed_count;
             KeptCount = raw->kept_count;
@@ -1201,13 +1258,11 @@ namespace Hf
             PathSolveCount = raw->path_solve_count;
             LastRoute = raw->last_route;
             WholeSweep = raw->whole_sweep != 0;
-            Area = raw->area;
-            BaseArea = raw->base_area;
         }
     }
 
     /// <summary>Figures of a retarget. Angles, stride and drop count all frames since the last reset.</summary>
-    public sealed unsafe class RetargetInfo
+    public sealed unsafe partial class RetargetInfo
     {
         public uint SourceJointCount;
         public uint TargetJointCount;
@@ -1249,7 +1304,7 @@ namespace Hf
 
     /// <summary>How a chain of the target follows the source. Angles lie between a bone of the target and the same bone of
     /// the source, in radians. They are 0 for a chain of one joint, and for a chain whose rest is not aligned.</summary>
-    public sealed unsafe class ChainMatch
+    public sealed unsafe partial class ChainMatch
     {
         /// <summary>Role</summary>
         public Role Role;
@@ -1285,7 +1340,7 @@ namespace Hf
 
     /// <summary>The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints; a length is 0
     /// where the body has no such part. Lengths of legs belong to the hindmost pair that stands.</summary>
-    public sealed unsafe class SkeletonInfo
+    public sealed unsafe partial class SkeletonInfo
     {
         public uint JointCount;
         public uint ChainCount;
@@ -1329,7 +1384,7 @@ namespace Hf
     }
 
     /// <summary>The findings about a joint.</summary>
-    public sealed unsafe class JointInfo
+    public sealed unsafe partial class JointInfo
     {
         /// <summary>JointKind</summary>
         public JointKind Kind;
@@ -1364,7 +1419,7 @@ namespace Hf
     }
 
     /// <summary>Joints of one role and side, from root to tip.</summary>
-    public sealed unsafe class Chain
+    public sealed unsafe partial class Chain
     {
         /// <summary>Role</summary>
         public Role Role;
@@ -1406,7 +1461,7 @@ namespace Hf
         }
     }
 
-    public sealed unsafe class PairInfo
+    public sealed unsafe partial class PairInfo
     {
         public uint Flags;
         /// <summary>of the pair's fields, see HandleInfo</summary>
@@ -1438,7 +1493,7 @@ namespace Hf
     }
 
     /// <summary>Transfer.Info writes counts and the scale of a transfer here.</summary>
-    public sealed unsafe class TransferInfo
+    public sealed unsafe partial class TransferInfo
     {
         public uint PairCount;
         public uint ClusterCount;
@@ -1448,9 +1503,6 @@ namespace Hf
         public uint CrossedCount;
         /// <summary>1: from the legs or the boxes; 0: given in the desc</summary>
         public bool ScaleFound;
-        /// <summary>numeric factorisations by edits of pairs; 0 unless they are very many</summary>
-        public uint SourceFactorisationCount;
-        public uint TargetFactorisationCount;
         /// <summary>lengths of the target over those of the source, both in the units of their meshes</summary>
         public double Scale;
 
@@ -1461,15 +1513,27 @@ namespace Hf
             AlignedCount = raw->aligned_count;
             CrossedCount = raw->crossed_count;
             ScaleFound = raw->scale_found != 0;
+            Scale = raw->scale;
+        }
+    }
+
+    /// <summary>Work of a transfer.</summary>
+    public sealed unsafe partial class TransferStatistics
+    {
+        /// <summary>numeric factorisations by edits of pairs; 0 unless they are very many</summary>
+        public uint SourceFactorisationCount;
+        public uint TargetFactorisationCount;
+
+        internal TransferStatistics(hf_transfer_statistics* raw)
+        {
             SourceFactorisationCount = raw->source_factorisation_count;
             TargetFactorisationCount = raw->target_factorisation_count;
-            Scale = raw->scale;
         }
     }
 
     /// <summary>What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and
     /// the result is continuous in each dial.</summary>
-    public sealed unsafe class TransferDials
+    public sealed unsafe partial class TransferDials
     {
         /// <summary>the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
         /// foot does not slide. The body travels as much farther</summary>
@@ -1503,7 +1567,7 @@ namespace Hf
     }
 
     /// <summary>Counts of the weights. Vertices are counted as given.</summary>
-    public sealed unsafe class WeightsInfo
+    public sealed unsafe partial class WeightsInfo
     {
         public uint VertexCount;
         public uint JointCount;
@@ -1516,6 +1580,25 @@ namespace Hf
         public uint NearestCount;
         public uint RigidCount;
         public uint IsolatedCount;
+
+        internal WeightsInfo(hf_weights_info* raw)
+        {
+            VertexCount = raw->vertex_count;
+            JointCount = raw->joint_count;
+            PinCount = raw->pin_count;
+            LockCount = raw->lock_count;
+            InformedCount = raw->informed_count;
+            SolvedCount = raw->solved_count;
+            PinnedCount = raw->pinned_count;
+            NearestCount = raw->nearest_count;
+            RigidCount = raw->rigid_count;
+            IsolatedCount = raw->isolated_count;
+        }
+    }
+
+    /// <summary>What a developer reads about weights: pieces that were guessed, joints that deserve a look, work done.</summary>
+    public sealed unsafe partial class WeightsStatistics
+    {
         /// <summary>pieces without information</summary>
         public uint NearestPieceCount;
         /// <summary>small ones of them</summary>
@@ -1533,18 +1616,8 @@ namespace Hf
         /// <summary>elimination paths of pins since then</summary>
         public uint PathSolveCount;
 
-        internal WeightsInfo(hf_weights_info* raw)
+        internal WeightsStatistics(hf_weights_statistics* raw)
         {
-            VertexCount = raw->vertex_count;
-            JointCount = raw->joint_count;
-            PinCount = raw->pin_count;
-            LockCount = raw->lock_count;
-            InformedCount = raw->informed_count;
-            SolvedCount = raw->solved_count;
-            PinnedCount = raw->pinned_count;
-            NearestCount = raw->nearest_count;
-            RigidCount = raw->rigid_count;
-            IsolatedCount = raw->isolated_count;
             NearestPieceCount = raw->nearest_piece_count;
             RigidPieceCount = raw->rigid_piece_count;
             Blind = raw->blind != 0;
@@ -1559,7 +1632,7 @@ namespace Hf
     }
 
     /// <summary>Counts of transferred weights. Vertices of the target are counted as given.</summary>
-    public sealed unsafe class WeightsTransferInfo
+    public sealed unsafe partial class WeightsTransferInfo
     {
         public uint VertexCount;
         /// <summary>vertices by WeightsOrigin</summary>
@@ -1583,8 +1656,8 @@ namespace Hf
         }
     }
 
-    /// <summary>The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh.</summary>
-    public sealed unsafe class WeightsMirrorInfo
+    /// <summary>The findings of a mirror. Vertices are counted as given.</summary>
+    public sealed unsafe partial class WeightsMirrorInfo
     {
         public uint VertexCount;
         /// <summary>MirrorPlane</summary>
@@ -1602,19 +1675,9 @@ namespace Hf
         public uint NearestCount;
         public uint RigidCount;
         public uint IsolatedCount;
-        /// <summary>the joint farthest off, uint.MaxValue: none has a partner</summary>
-        public uint WorstJoint;
-        /// <summary>the vertex farthest off, uint.MaxValue: none was mirrored</summary>
-        public uint WorstVertex;
         /// <summary>of the plane</summary>
         public double[] Point = new double[3];
         public double[] Normal = new double[3];
-        /// <summary>mean distance of reflected joints from their partners</summary>
-        public double JointOff;
-        public double WorstJointOff;
-        /// <summary>mean distance of reflected vertices from the surface</summary>
-        public double VertexOff;
-        public double WorstVertexOff;
 
         internal WeightsMirrorInfo(hf_weights_mirror_info* raw)
         {
@@ -1631,10 +1694,29 @@ namespace Hf
             NearestCount = raw->nearest_count;
             RigidCount = raw->rigid_count;
             IsolatedCount = raw->isolated_count;
-            WorstJoint = raw->worst_joint;
-            WorstVertex = raw->worst_vertex;
             for (int i = 0; i < 3; ++i) Point[i] = raw->point[i];
             for (int i = 0; i < 3; ++i) Normal[i] = raw->normal[i];
+        }
+    }
+
+    /// <summary>How far a surface and its joints are from their reflections. Lengths are in the unit of the mesh.</summary>
+    public sealed unsafe partial class WeightsMirrorStatistics
+    {
+        /// <summary>the joint farthest off, uint.MaxValue: none has a partner</summary>
+        public uint WorstJoint;
+        /// <summary>the vertex farthest off, uint.MaxValue: none was mirrored</summary>
+        public uint WorstVertex;
+        /// <summary>mean distance of reflected joints from their partners</summary>
+        public double JointOff;
+        public double WorstJointOff;
+        /// <summary>mean distance of reflected vertices from the surface</summary>
+        public double VertexOff;
+        public double WorstVertexOff;
+
+        internal WeightsMirrorStatistics(hf_weights_mirror_statistics* raw)
+        {
+            WorstJoint = raw->worst_joint;
+            WorstVertex = raw->worst_vertex;
             JointOff = raw->joint_off;
             WorstJointOff = raw->worst_joint_off;
             VertexOff = raw->vertex_off;
@@ -1667,7 +1749,7 @@ namespace Hf
     {
         /// <summary>[capacity] numbers</summary>
         public uint[] Sites;
-        /// <summary>[capacity] the vertex given, uint.MaxValue for a point in a triangle</summary>
+        /// <summary>[capacity] the vertex of the place, uint.MaxValue for a point in a triangle</summary>
         public uint[] Vertices;
         /// <summary>[capacity]</summary>
         public uint[] Components;
@@ -1878,30 +1960,26 @@ namespace Hf
         }
     }
 
-    /// <summary>Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the
-    /// less influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic
-    /// disc. A radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its
-    /// vertices. For harmonic fields the boundary vertices of a disc count towards site_limit; for bi-harmonic
-    /// fields all its vertices do.</summary>
+    /// <summary>Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point
+    /// site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below
+    /// the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic
+    /// fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.</summary>
     public sealed unsafe class SitesDesc
     {
         /// <summary>[siteCount] vertices as given, or null</summary>
         public uint[] Vertices;
         /// <summary>[siteCount x channelCount], up to 1e200 in size; null = 0</summary>
         public double[] Values;
-        /// <summary>[siteCount] triangles (or faces of three corners) as given, or null</summary>
-        public uint[] Triangles;
-        /// <summary>[siteCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1 within
-        /// 1e-6</summary>
-        public double[] Barycentrics;
+        /// <summary>[siteCount], or null</summary>
+        public Place[] Places;
+        /// <summary>[siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+        /// the nearest point of the surface, up to two boxes away</summary>
+        public double[] Points;
         /// <summary>[siteCount] &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
         /// 1e-12 to 1e12</summary>
         public double[] Stiffness;
         /// <summary>[siteCount] &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points</summary>
         public double[] Radii;
-        /// <summary>[siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more corners
-        /// this places a site in a triangle of them</summary>
-        public uint[] Corners;
 
         public static implicit operator SitesDesc(uint[] vertices)
         {
@@ -1913,33 +1991,32 @@ namespace Hf
             var desc = (hf_sites_desc*)c.New(sizeof(hf_sites_desc));
             desc->struct_size = (uint)sizeof(hf_sites_desc);
             desc->vertices = (IntPtr)c.Array(Vertices, "vertices", prefix + "site_count");
-            desc->triangles = (IntPtr)c.Array(Triangles, "triangles", prefix + "site_count");
-            desc->barycentrics = (IntPtr)c.Array(Barycentrics, "barycentrics", prefix + "site_count", "3");
+            var placesRows = (hf_place*)c.Given(Places, "places", sizeof(hf_place), prefix + "site_count");
+            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(placesRows + i);
+            desc->places = (IntPtr)placesRows;
+            desc->points = (IntPtr)c.Array(Points, "points", prefix + "site_count", "3");
             desc->values = (IntPtr)c.Array(Values, "values", prefix + "site_count", "channel_count");
             desc->stiffness = (IntPtr)c.Array(Stiffness, "stiffness", prefix + "site_count");
             desc->radii = (IntPtr)c.Array(Radii, "radii", prefix + "site_count");
-            desc->corners = (IntPtr)c.Array(Corners, "corners", prefix + "site_count", "3");
             desc->site_count = (uint)c.Count(prefix + "site_count", 1);
             return (IntPtr)desc;
         }
     }
 
-    /// <summary>Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are
-    /// the region, and any single vertex that these surround but for one edge. The rim is the vertices next to
-    /// them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along edges the
-    /// rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a
-    /// vertex at most 8 times.</summary>
+    /// <summary>Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The
+    /// vertices on its chosen side are the region, and any single vertex that these surround but for one edge. The
+    /// rim is the vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the
+    /// curve runs along edges the rim is the curve. A whole border of the surface is a curve too; it has only one
+    /// side. The curve passes a vertex at most 8 times.</summary>
     public sealed unsafe class CurveDesc
     {
         /// <summary>[pointCount] vertices as given, or null</summary>
         public uint[] Vertices;
-        /// <summary>[pointCount] triangles (or faces of three corners) as given, or null</summary>
-        public uint[] Triangles;
-        /// <summary>[pointCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1 within
-        /// 1e-6</summary>
-        public double[] Barycentrics;
-        /// <summary>[pointCount x 3] three vertices of one face, as Hit has them, or null</summary>
-        public uint[] Corners;
+        /// <summary>[pointCount], or null</summary>
+        public Place[] Places;
+        /// <summary>[pointCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+        /// the nearest point of the surface, up to two boxes away</summary>
+        public double[] Points;
         /// <summary>BodySide</summary>
         public Side Side;
         /// <summary>with Side.Seed</summary>
@@ -1960,9 +2037,10 @@ namespace Hf
             desc->seed_vertex = SeedVertex;
             desc->kind = (int)Kind;
             desc->vertices = (IntPtr)c.Array(Vertices, "vertices", prefix + "point_count");
-            desc->triangles = (IntPtr)c.Array(Triangles, "triangles", prefix + "point_count");
-            desc->barycentrics = (IntPtr)c.Array(Barycentrics, "barycentrics", prefix + "point_count", "3");
-            desc->corners = (IntPtr)c.Array(Corners, "corners", prefix + "point_count", "3");
+            var placesRows = (hf_place*)c.Given(Places, "places", sizeof(hf_place), prefix + "point_count");
+            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(placesRows + i);
+            desc->places = (IntPtr)placesRows;
+            desc->points = (IntPtr)c.Array(Points, "points", prefix + "point_count", "3");
             desc->point_count = (uint)c.Count(prefix + "point_count", 0);
             return (IntPtr)desc;
         }
@@ -2145,11 +2223,11 @@ namespace Hf
         /// copies the graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors,
         /// components and reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED:
         /// poses, regions, directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin
-        /// weights, vector fields, links, screening, and sites in triangles or on discs.
+        /// weights, vector fields, links, screening, and sites at places, at points or on discs.
         ///
         /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than
-        /// 1e30 from the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-
-        /// harmonic fields limit weights to 1e3 times the median.
+        /// 1e30 from the median of their component are limited; MeshStatistics counts their vertices as changed.
+        /// Bi-harmonic fields limit weights to 1e3 times the median.
         ///
         /// edges: [edgeCount x 2] of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges
         ///     are added up. Self loops are ignored
@@ -2228,6 +2306,21 @@ namespace Hf
             }
         }
 
+        /// <summary>Writes the statistics of the mesh.</summary>
+        public MeshStatistics MeshStatistics
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var statisticsStruct = new hf_mesh_statistics { struct_size = (uint)sizeof(hf_mesh_statistics) };
+                    hf_mesh_statistics* statistics = &statisticsStruct;
+                    HfException.Check(Functions.hf_surface_get_mesh_statistics(RawHandle, statistics));
+                    return new MeshStatistics(statistics);
+                }
+            }
+        }
+
         /// <summary>Writes the component of every vertex of your mesh, and uint.MaxValue for isolated vertices. Components
         /// are numbered in the order of their lowest vertex numbers.</summary>
         public uint[] Components()
@@ -2247,6 +2340,21 @@ namespace Hf
                 }
                 while (found.Again());
                 return found.Take<uint>("components");
+            }
+        }
+
+        /// <summary>Writes how the pieces of a surface are linked.</summary>
+        public LinksInfo LinksInfo
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var infoStruct = new hf_links_info { struct_size = (uint)sizeof(hf_links_info) };
+                    hf_links_info* info = &infoStruct;
+                    HfException.Check(Functions.hf_surface_get_links_info(RawHandle, info));
+                    return new LinksInfo(info);
+                }
             }
         }
 
@@ -2762,31 +2870,30 @@ namespace Hf
         ///
         /// vertices: [siteCount] vertices as given, or null
         /// values: [siteCount x channelCount], up to 1e200 in size; null = 0
-        /// triangles: [siteCount] triangles (or faces of three corners) as given, or null
-        /// barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of
-        ///     sum 1 within 1e-6
+        /// places: [siteCount], or null
+        /// points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each
+        ///     stands for the nearest point of the surface, up to two boxes away
         /// stiffness: [siteCount] &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
         ///     clamped to 1e-12 to 1e12
         /// radii: [siteCount] &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-        /// corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
-        ///     corners this places a site in a triangle of them
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
-        public uint[] AddSites(uint[] vertices = null, double[] values = null, uint[] triangles = null,
-                double[] barycentrics = null, double[] stiffness = null, double[] radii = null, uint[] corners = null)
+        public uint[] AddSites(uint[] vertices = null, double[] values = null, Place[] places = null,
+                double[] points = null, double[] stiffness = null, double[] radii = null)
         {
             using (var c = new Call(this))
             {
                 var descStruct = new hf_sites_desc { struct_size = (uint)sizeof(hf_sites_desc) };
                 hf_sites_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "site_count");
-                desc->triangles = (IntPtr)c.Array(triangles, "triangles", "site_count");
-                desc->barycentrics = (IntPtr)c.Array(barycentrics, "barycentrics", "site_count", "3");
+                var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "site_count");
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                desc->places = (IntPtr)placesRows;
+                desc->points = (IntPtr)c.Array(points, "points", "site_count", "3");
                 desc->values = (IntPtr)c.Array(values, "values", "site_count", "channel_count");
                 desc->stiffness = (IntPtr)c.Array(stiffness, "stiffness", "site_count");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "site_count");
-                desc->corners = (IntPtr)c.Array(corners, "corners", "site_count", "3");
                 desc->site_count = (uint)c.Count("site_count", 1);
                 var sites = new uint[c.Product("site_count")];
                 var sitesPlace = (uint*)c.Pin(sites);
@@ -2832,19 +2939,17 @@ namespace Hf
         /// sites: [siteCount].
         /// vertices: [siteCount] vertices as given, or null
         /// values: [siteCount x channelCount], up to 1e200 in size; null = 0
-        /// triangles: [siteCount] triangles (or faces of three corners) as given, or null
-        /// barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of
-        ///     sum 1 within 1e-6
+        /// places: [siteCount], or null
+        /// points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each
+        ///     stands for the nearest point of the surface, up to two boxes away
         /// stiffness: [siteCount] &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
         ///     clamped to 1e-12 to 1e12
         /// radii: [siteCount] &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-        /// corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
-        ///     corners this places a site in a triangle of them
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
-        public void MoveSites(uint[] sites, uint[] vertices = null, double[] values = null, uint[] triangles = null,
-                double[] barycentrics = null, double[] stiffness = null, double[] radii = null, uint[] corners = null)
+        public void MoveSites(uint[] sites, uint[] vertices = null, double[] values = null, Place[] places = null,
+                double[] points = null, double[] stiffness = null, double[] radii = null)
         {
             using (var c = new Call(this))
             {
@@ -2852,12 +2957,13 @@ namespace Hf
                 var descStruct = new hf_sites_desc { struct_size = (uint)sizeof(hf_sites_desc) };
                 hf_sites_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "site_count");
-                desc->triangles = (IntPtr)c.Array(triangles, "triangles", "site_count");
-                desc->barycentrics = (IntPtr)c.Array(barycentrics, "barycentrics", "site_count", "3");
+                var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "site_count");
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                desc->places = (IntPtr)placesRows;
+                desc->points = (IntPtr)c.Array(points, "points", "site_count", "3");
                 desc->values = (IntPtr)c.Array(values, "values", "site_count", "channel_count");
                 desc->stiffness = (IntPtr)c.Array(stiffness, "stiffness", "site_count");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "site_count");
-                desc->corners = (IntPtr)c.Array(corners, "corners", "site_count", "3");
                 desc->site_count = (uint)c.Count("site_count", 1);
                 HfException.Check(Functions.hf_solver_move_sites(RawHandle, (uint)c.Count("site_count", 1), sites_,
                     desc));
@@ -4059,10 +4165,12 @@ namespace Hf
         /// this at once. On a higher layer the surface does not move (to 1e-9 of the box) until you move the
         /// handle. Handles of lower layers hold the surface in place for the higher layers.
         ///
-        /// regionVertices: lists of whole numbers: all regions one after the other; null: points are given
-        /// points: [handleCount x 3] at rest. The region is the vertex nearest to the point and what is edge-
-        ///     connected to it within the radius. null: regions are given
-        /// radii: [handleCount] of the regions of points, in the unit of the mesh; null: regions are given. A
+        /// regionVertices: lists of whole numbers: all regions one after the other; null: places are given
+        /// vertices: [handleCount] vertices as given, or null
+        /// places: [handleCount], or null
+        /// points: [handleCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. A point
+        ///     can lie inside the body, as a joint does: its nearest vertex counts
+        /// radii: [handleCount] of the regions of places, in the unit of the mesh; null: regions are given. A
         ///     radius below 1 % of the box makes regions of 2 vertices or more
         /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
         /// inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -4071,8 +4179,9 @@ namespace Hf
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
         /// HF_ERROR_TOO_LARGE.</summary>
-        public uint[] AddHandles(uint[][] regionVertices = null, double[] points = null, double[] radii = null,
-                uint layer = 0, bool inPlace = false, bool freeRotation = false, Progress progress = null)
+        public uint[] AddHandles(uint[][] regionVertices = null, uint[] vertices = null, Place[] places = null,
+                double[] points = null, double[] radii = null, uint layer = 0, bool inPlace = false,
+                bool freeRotation = false, Progress progress = null)
         {
             using (var c = new Call(this))
             {
@@ -4081,6 +4190,10 @@ namespace Hf
                 hf_handles_desc* desc = &descStruct;
                 c.Lists(regionVertices, "regionVertices", "handle_count", out desc->region_counts,
                     out desc->region_vertices);
+                desc->vertices = (IntPtr)c.Array(vertices, "vertices", "handle_count");
+                var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "handle_count");
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                desc->places = (IntPtr)placesRows;
                 desc->points = (IntPtr)c.Array(points, "points", "handle_count", "3");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "handle_count");
                 desc->progress = c.Handle(progress);
@@ -4503,6 +4616,21 @@ namespace Hf
                         HfException.Check(Functions.hf_pose_deform(RawHandle, desc, &info));
                         lastDeformInfo = info;
                     }
+                }
+            }
+        }
+
+        /// <summary>Writes the statistics of a pose.</summary>
+        public PoseStatistics Statistics
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var statisticsStruct = new hf_pose_statistics { struct_size = (uint)sizeof(hf_pose_statistics) };
+                    hf_pose_statistics* statistics = &statisticsStruct;
+                    HfException.Check(Functions.hf_pose_get_statistics(RawHandle, statistics));
+                    return new PoseStatistics(statistics);
                 }
             }
         }
@@ -4985,6 +5113,21 @@ namespace Hf
                     hf_region_info* info = &infoStruct;
                     HfException.Check(Functions.hf_region_get_info(RawHandle, info));
                     return new RegionInfo(info);
+                }
+            }
+        }
+
+        /// <summary>Writes the statistics of a region.</summary>
+        public RegionStatistics Statistics
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var statisticsStruct = new hf_region_statistics { struct_size = (uint)sizeof(hf_region_statistics) };
+                    hf_region_statistics* statistics = &statisticsStruct;
+                    HfException.Check(Functions.hf_region_get_statistics(RawHandle, statistics));
+                    return new RegionStatistics(statistics);
                 }
             }
         }
@@ -5854,6 +5997,21 @@ namespace Hf
             }
         }
 
+        /// <summary>Writes the statistics of a transfer.</summary>
+        public TransferStatistics Statistics
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var statisticsStruct = new hf_transfer_statistics { struct_size = (uint)sizeof(hf_transfer_statistics) };
+                    hf_transfer_statistics* statistics = &statisticsStruct;
+                    HfException.Check(Functions.hf_transfer_get_statistics(RawHandle, statistics));
+                    return new TransferStatistics(statistics);
+                }
+            }
+        }
+
         /// <summary>Sets the dials of a transfer for the next frames.
         ///
         /// stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A
@@ -6294,9 +6452,9 @@ namespace Hf
         /// of a disc. Pins at the same places with other weights cost no path.
         ///
         /// vertices: [pinCount] vertices as given, or null
-        /// triangles: [pinCount] triangles as given, or null
-        /// barycentrics: [pinCount x 3] with triangles, else null: weights of the corners, &gt;= 0, of sum 1 within
-        ///     1e-6
+        /// places: [pinCount], or null
+        /// points: [pinCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands
+        ///     for the nearest point of the surface, up to two boxes away
         /// radii: [pinCount] of the geodesic disc around the place, in the unit of the mesh; null or 0: the place
         ///     alone
         /// joints: [pinCount x influenceCount] joints
@@ -6305,7 +6463,7 @@ namespace Hf
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT,
         /// HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
-        public void SetPins(uint[] vertices = null, uint[] triangles = null, double[] barycentrics = null,
+        public void SetPins(uint[] vertices = null, Place[] places = null, double[] points = null,
                 double[] radii = null, uint[] joints = null, float[] weights = null, Progress progress = null)
         {
             using (var c = new Call(this))
@@ -6313,8 +6471,10 @@ namespace Hf
                 var descStruct = new hf_pins_desc { struct_size = (uint)sizeof(hf_pins_desc) };
                 hf_pins_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "pin_count");
-                desc->triangles = (IntPtr)c.Array(triangles, "triangles", "pin_count");
-                desc->barycentrics = (IntPtr)c.Array(barycentrics, "barycentrics", "pin_count", "3");
+                var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "pin_count");
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                desc->places = (IntPtr)placesRows;
+                desc->points = (IntPtr)c.Array(points, "points", "pin_count", "3");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "pin_count");
                 desc->joints = (IntPtr)c.Array(joints, "joints", "pin_count", "influence_count");
                 desc->weights = (IntPtr)c.Array(weights, "weights", "pin_count", "influence_count");
@@ -6411,6 +6571,21 @@ namespace Hf
                     hf_weights_info* info = &infoStruct;
                     HfException.Check(Functions.hf_weights_get_info(RawHandle, info));
                     return new WeightsInfo(info);
+                }
+            }
+        }
+
+        /// <summary>Writes the statistics.</summary>
+        public WeightsStatistics Statistics
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var statisticsStruct = new hf_weights_statistics { struct_size = (uint)sizeof(hf_weights_statistics) };
+                    hf_weights_statistics* statistics = &statisticsStruct;
+                    HfException.Check(Functions.hf_weights_get_statistics(RawHandle, statistics));
+                    return new WeightsStatistics(statistics);
                 }
             }
         }
@@ -6518,19 +6693,21 @@ namespace Hf
         /// influenceCount: joints of each vertex in the result: 4 or 8; 0: 4
         /// progress: an object to poll and cancel through
         /// info: filled in when given
+        /// statistics: filled in when given
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL, HF_ERROR_UNSUPPORTED.</summary>
-        public static (WeightsOut Weights, uint[] Partners, uint[] Pairings,
-                WeightsMirrorInfo Info) Mirror(Surface surface, double[] heads = null, string[] names = null,
-                uint[] partners = null, double[] plane = null, uint[] joints = null, float[] weights = null,
-                MirrorTo to = default(MirrorTo), double distance = 0, double angle = 0, uint influenceCount = 0,
-                Progress progress = null)
+        public static (WeightsOut Weights, uint[] Partners, uint[] Pairings, WeightsMirrorInfo Info,
+                WeightsMirrorStatistics Statistics) Mirror(Surface surface, double[] heads = null,
+                string[] names = null, uint[] partners = null, double[] plane = null, uint[] joints = null,
+                float[] weights = null, MirrorTo to = default(MirrorTo), double distance = 0, double angle = 0,
+                uint influenceCount = 0, Progress progress = null)
         {
             using (var c = new Call(null))
             {
                 c.Parent("surface", surface);
                 var info = new hf_weights_mirror_info { struct_size = (uint)sizeof(hf_weights_mirror_info) };
+                var statistics = new hf_weights_mirror_statistics { struct_size = (uint)sizeof(hf_weights_mirror_statistics) };
                 var descStruct = new hf_weights_mirror_desc { struct_size = (uint)sizeof(hf_weights_mirror_desc),
                     to = (int)to, distance = distance, angle = angle, influence_count = influenceCount };
                 hf_weights_mirror_desc* desc = &descStruct;
@@ -6563,7 +6740,7 @@ namespace Hf
                         weights_->weights = (IntPtr)found.Place("weights");
                         weights_->origins = (IntPtr)found.Place("origins");
                         found.Result = Functions.hf_weights_mirror(c.Handle(surface), desc, weights_, partners_Place,
-                            pairingsPlace, &info);
+                            pairingsPlace, &info, &statistics);
                         found.Told("vertex_capacity", weights_->vertex_count);
                         found.Told("vertex_count", weights_->vertex_count);
                         found.Told("influence_count", weights_->influence_count);
@@ -6571,7 +6748,8 @@ namespace Hf
                 while (found.Again());
                 return (new WeightsOut { InfluenceCount = weights_->influence_count,
                     Joints = found.Take<uint>("joints"), Weights = found.Take<float>("weights"),
-                    Origins = found.Take<byte>("origins") }, partners_, pairings, new WeightsMirrorInfo(&info));
+                    Origins = found.Take<byte>("origins") }, partners_, pairings, new WeightsMirrorInfo(&info),
+                    new WeightsMirrorStatistics(&statistics));
             }
         }
 

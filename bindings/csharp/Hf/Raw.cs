@@ -353,23 +353,35 @@ namespace Hf.Native
         public uint non_manifold_edge_count;
         public uint flipped_edge_count;
         public uint boundary_edge_count;
-        public uint negative_edge_count;
-        public uint reserved;
-        public double smallest_angle;
+        public uint inside_out_count;
+        public uint first_inside_out_vertex;
         public double bounding_box_diagonal;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_mesh_statistics
+    {
+        public uint struct_size;
+        public uint polygon_count;
+        public uint non_planar_count;
+        public uint largest_face;
+        public uint negative_edge_count;
         public uint changed_vertex_count;
         public uint first_changed_vertex;
+        public uint reserved;
+        public double smallest_angle;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_links_info
+    {
+        public uint struct_size;
         public uint piece_count;
         public uint link_count;
         public uint light_piece_count;
         public uint lone_piece_count;
+        public uint reserved;
         public double longest_tree_link;
-        public uint face_count;
-        public uint polygon_count;
-        public uint non_planar_count;
-        public uint largest_face;
-        public uint inside_out_count;
-        public uint first_inside_out_vertex;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -405,6 +417,14 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_place
+    {
+        public fixed uint corners[3];
+        public uint reserved;
+        public fixed double barycentrics[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_pick_desc
     {
         public uint struct_size;
@@ -419,11 +439,9 @@ namespace Hf.Native
         public int found;
         public uint triangle;
         public uint vertex;
-        public fixed double barycentrics[3];
+        public hf_place place;
         public fixed double position[3];
         public double distance;
-        public fixed uint corners[3];
-        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -453,12 +471,11 @@ namespace Hf.Native
         public uint struct_size;
         public uint site_count;
         public IntPtr vertices;
-        public IntPtr triangles;
-        public IntPtr barycentrics;
+        public IntPtr places;
+        public IntPtr points;
         public IntPtr values;
         public IntPtr stiffness;
         public IntPtr radii;
-        public IntPtr corners;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -599,14 +616,6 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_surface_point
-    {
-        public fixed uint corners[3];
-        public uint reserved;
-        public fixed double barycentrics[3];
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_path
     {
         public uint struct_size;
@@ -706,6 +715,8 @@ namespace Hf.Native
         public uint handle_count;
         public IntPtr region_counts;
         public IntPtr region_vertices;
+        public IntPtr vertices;
+        public IntPtr places;
         public IntPtr points;
         public IntPtr radii;
         public uint layer;
@@ -742,13 +753,9 @@ namespace Hf.Native
     {
         public uint struct_size;
         public uint iteration_count;
-        public uint cluster_count;
         public uint unreached_vertex_count;
+        public uint reserved;
         public double last_change;
-        public double solve_ms;
-        public double blend_ms;
-        public double normal_ms;
-        public double refine_ms;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -764,6 +771,17 @@ namespace Hf.Native
         public uint first_vertex;
         public uint vertex_count;
         public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_pose_statistics
+    {
+        public uint struct_size;
+        public uint cluster_count;
+        public double solve_ms;
+        public double blend_ms;
+        public double normal_ms;
+        public double refine_ms;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -893,11 +911,10 @@ namespace Hf.Native
         public uint struct_size;
         public uint point_count;
         public IntPtr vertices;
-        public IntPtr triangles;
-        public IntPtr barycentrics;
+        public IntPtr places;
+        public IntPtr points;
         public int side;
         public uint seed_vertex;
-        public IntPtr corners;
         public int kind;
         public uint reserved;
     }
@@ -923,6 +940,15 @@ namespace Hf.Native
         public uint vertex_count;
         public uint rim_count;
         public uint site_count;
+        public uint reserved;
+        public double area;
+        public double base_area;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_region_statistics
+    {
+        public uint struct_size;
         public uint inserted_count;
         public uint removed_count;
         public uint kept_count;
@@ -930,8 +956,6 @@ namespace Hf.Native
         public uint path_solve_count;
         public uint last_route;
         public int whole_sweep;
-        public double area;
-        public double base_area;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1126,9 +1150,15 @@ namespace Hf.Native
         public uint aligned_count;
         public uint crossed_count;
         public int scale_found;
+        public double scale;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_transfer_statistics
+    {
+        public uint struct_size;
         public uint source_factorisation_count;
         public uint target_factorisation_count;
-        public double scale;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1176,8 +1206,8 @@ namespace Hf.Native
         public uint struct_size;
         public uint pin_count;
         public IntPtr vertices;
-        public IntPtr triangles;
-        public IntPtr barycentrics;
+        public IntPtr places;
+        public IntPtr points;
         public IntPtr radii;
         public uint influence_count;
         public uint reserved;
@@ -1213,6 +1243,12 @@ namespace Hf.Native
         public uint nearest_count;
         public uint rigid_count;
         public uint isolated_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_weights_statistics
+    {
+        public uint struct_size;
         public uint nearest_piece_count;
         public uint rigid_piece_count;
         public int blind;
@@ -1223,7 +1259,6 @@ namespace Hf.Native
         public uint helper_count;
         public uint factorisation_count;
         public uint path_solve_count;
-        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1290,10 +1325,17 @@ namespace Hf.Native
         public uint nearest_count;
         public uint rigid_count;
         public uint isolated_count;
-        public uint worst_joint;
-        public uint worst_vertex;
         public fixed double point[3];
         public fixed double normal[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_weights_mirror_statistics
+    {
+        public uint struct_size;
+        public uint worst_joint;
+        public uint worst_vertex;
+        public uint reserved;
         public double joint_off;
         public double worst_joint_off;
         public double vertex_off;
@@ -1322,7 +1364,9 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_surface_destroy(IntPtr surface);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_info(IntPtr surface, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_report(IntPtr surface, void* out_report);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_mesh_statistics(IntPtr surface, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_components(IntPtr surface, uint capacity, void* out_components, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_links_info(IntPtr surface, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_links(IntPtr surface, uint capacity, void* out_links, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_pieces(IntPtr surface, uint capacity, void* out_pieces, void* out_light, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_measure_gaps(IntPtr surface, void* positions, uint capacity, void* out_gaps, void* out_info);
@@ -1393,6 +1437,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_field(IntPtr pose, uint handle, void* out_values);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_deform(IntPtr pose, void* out_positions, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_deform(IntPtr pose, void* desc, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_statistics(IntPtr pose, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* inout_skin);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_propose_handles(IntPtr surface, void* desc, uint capacity, void* out_proposals, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_create(IntPtr surface, void* desc, void* out_quads);
@@ -1408,6 +1453,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_region_destroy(IntPtr region);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_edit(IntPtr region, void* edit);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_info(IntPtr region, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_statistics(IntPtr region, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_vertices(IntPtr region, int list, uint capacity, void* out_vertices, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_curve(IntPtr region, uint capacity, void* out_points, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_morph(IntPtr region, void* desc);
@@ -1436,6 +1482,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_remove_pairs(IntPtr transfer, uint pair_count, void* pairs);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_pair(IntPtr transfer, uint pair, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_info(IntPtr transfer, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_statistics(IntPtr transfer, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_set_dials(IntPtr transfer, void* dials);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_dials(IntPtr transfer, void* out_dials);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_apply(IntPtr transfer, void* frame);
@@ -1450,8 +1497,9 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get(IntPtr weights, void* inout_weights);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_joints(IntPtr weights, uint capacity, void* out_flags, void* out_vertex_counts, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_info(IntPtr weights, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_statistics(IntPtr weights, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_helpers(IntPtr weights, void* names, uint capacity, void* out_reasons, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_transfer(IntPtr source, IntPtr target, void* desc, void* inout_weights, void* out_info);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_mirror(IntPtr surface, void* desc, void* inout_weights, void* out_partners, void* out_pairings, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_mirror(IntPtr surface, void* desc, void* inout_weights, void* out_partners, void* out_pairings, void* out_info, void* out_statistics);
     }
 }

@@ -89,17 +89,16 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const sitesDesc = (c, prefix, options) => {
-    const { vertices = null, values = null, triangles = null, barycentrics = null, stiffness = null, radii = null,
-            corners = null, ...more } = options;
+    const { vertices = null, values = null, places = null, points = null, stiffness = null, radii = null,
+            ...more } = options;
     none(more);
     const desc = c.struct('hf_sites_desc', {});
     c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'site_count']);
-    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'site_count']);
-    c.rows(desc, 'barycentrics', 'barycentrics', barycentrics, 'f8', [prefix + 'site_count', 3]);
+    desc.set('places', c.places('places', places, [prefix + 'site_count']));
+    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'site_count', 3]);
     c.rows(desc, 'values', 'values', values, 'f8', [prefix + 'site_count', 'channel_count']);
     c.rows(desc, 'stiffness', 'stiffness', stiffness, 'f8', [prefix + 'site_count']);
     c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'site_count']);
-    c.rows(desc, 'corners', 'corners', corners, 'u4', [prefix + 'site_count', 3]);
     c.counts(desc, { site_count: [prefix + 'site_count', 1] });
     return desc;
   };
@@ -156,11 +155,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const handlesDesc = (c, prefix, options) => {
-    const { regionVertices = null, points = null, radii = null, layer = 0, inPlace = false, freeRotation = false,
-            progress = null, ...more } = options;
+    const { regionVertices = null, vertices = null, places = null, points = null, radii = null, layer = 0,
+            inPlace = false, freeRotation = false, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_handles_desc', { layer, in_place: inPlace, free_rotation: freeRotation });
     c.ragged(desc, 'region_counts', 'region_vertices', 'regionVertices', regionVertices, prefix + 'handle_count');
+    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'handle_count']);
+    desc.set('places', c.places('places', places, [prefix + 'handle_count']));
     c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'handle_count', 3]);
     c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'handle_count']);
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
@@ -223,14 +224,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const curveDesc = (c, prefix, options) => {
-    const { vertices = null, triangles = null, barycentrics = null, corners = null, side = 0, seedVertex = 0, kind = 0,
-            ...more } = options;
+    const { vertices = null, places = null, points = null, side = 0, seedVertex = 0, kind = 0, ...more } = options;
     none(more);
     const desc = c.struct('hf_curve_desc', { side, seed_vertex: seedVertex, kind });
     c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'point_count']);
-    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'point_count']);
-    c.rows(desc, 'barycentrics', 'barycentrics', barycentrics, 'f8', [prefix + 'point_count', 3]);
-    c.rows(desc, 'corners', 'corners', corners, 'u4', [prefix + 'point_count', 3]);
+    desc.set('places', c.places('places', places, [prefix + 'point_count']));
+    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'point_count', 3]);
     c.counts(desc, { point_count: [prefix + 'point_count', 0] });
     return desc;
   };
@@ -373,13 +372,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const pinsDesc = (c, prefix, options) => {
-    const { vertices = null, triangles = null, barycentrics = null, radii = null, joints = null, weights = null,
-            progress = null, ...more } = options;
+    const { vertices = null, places = null, points = null, radii = null, joints = null, weights = null, progress = null,
+            ...more } = options;
     none(more);
     const desc = c.struct('hf_pins_desc', {});
     c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'pin_count']);
-    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'pin_count']);
-    c.rows(desc, 'barycentrics', 'barycentrics', barycentrics, 'f8', [prefix + 'pin_count', 3]);
+    desc.set('places', c.places('places', places, [prefix + 'pin_count']));
+    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'pin_count', 3]);
     c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'pin_count']);
     c.rows(desc, 'joints', 'joints', joints, 'u4', [prefix + 'pin_count', prefix + 'influence_count']);
     c.rows(desc, 'weights', 'weights', weights, 'f4', [prefix + 'pin_count', prefix + 'influence_count']);
@@ -480,6 +479,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return report.toObject();
     }
 
+    get meshStatistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_mesh_statistics', {});
+      call('hf_surface_get_mesh_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
     components() {
       const c = new Call(this);
       const count = new Uint32Array(1);
@@ -487,6 +493,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
               this._handle, room.capacity, written(made.components), written(count)), () => ({ capacity: count[0] }),
               { capacity: null }, { components: ['u4', ['capacity']] });
       return found.components;
+    }
+
+    get linksInfo() {
+      const c = new Call(this);
+      const info = c.struct('hf_links_info', {});
+      call('hf_surface_get_links_info', this._handle, info);
+      return info.toObject();
     }
 
     links() {
@@ -858,10 +871,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const path = c.struct('hf_path', {});
       const found = c.grow(this, 'hf_geodesics_find_path', (room, made) => (c.into(path, room, made),
-              call('hf_geodesics_find_path', this._handle, c.place('hf_surface_point', from, 'from'),
-              c.place('hf_surface_point', to, 'to'), path)), () => ({ point_capacity: path.get('point_count') }),
-              { point_capacity: null }, { pointEdges: ['u4', ['point_capacity', 2]], parameters: ['f8',
-              ['point_capacity']], positions: ['f8', ['point_capacity', 3]] });
+              call('hf_geodesics_find_path', this._handle, c.place(from, 'from'), c.place(to, 'to'), path)),
+              () => ({ point_capacity: path.get('point_count') }), { point_capacity: null }, { pointEdges: ['u4',
+              ['point_capacity', 2]], parameters: ['f8', ['point_capacity']], positions: ['f8', ['point_capacity',
+              3]] });
       return { ...found, pointCount: path.get('point_count'), length: path.get('length') };
     }
 
@@ -869,8 +882,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const map = c.out(null, 'f8', ['vertex_count', 2]);
       const frame = c.out(null, 'f8', [6]);
-      call('hf_geodesics_get_map', this._handle, c.place('hf_surface_point', centre, 'centre'), radius, written(map),
-              written(frame));
+      call('hf_geodesics_get_map', this._handle, c.place(centre, 'centre'), radius, written(map), written(frame));
       return { map, frame };
     }
   }
@@ -1100,6 +1112,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return out;
     }
 
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_pose_statistics', {});
+      call('hf_pose_get_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
     skin(options = {}) {
       const { influenceCount = 0, scales = false, ...more } = options;
       none(more);
@@ -1225,6 +1244,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const info = c.struct('hf_region_info', {});
       call('hf_region_get_info', this._handle, info);
       return info.toObject();
+    }
+
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_region_statistics', {});
+      call('hf_region_get_statistics', this._handle, statistics);
+      return statistics.toObject();
     }
 
     vertices(list = 0) {
@@ -1461,6 +1487,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return info.toObject();
     }
 
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_transfer_statistics', {});
+      call('hf_transfer_get_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
     setDials(options = {}) {
       const c = new Call(this);
       const desc = transferDials(c, '', options);
@@ -1584,6 +1617,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return info.toObject();
     }
 
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_weights_statistics', {});
+      call('hf_weights_get_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
     helpers(names = null) {
       const c = new Call(this);
       const count = new Uint32Array(1);
@@ -1611,18 +1651,20 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     static mirror(surface, options = {}) {
       const c = new Call(null, { surface });
       const info = c.struct('hf_weights_mirror_info', {});
+      const statistics = c.struct('hf_weights_mirror_statistics', {});
       const desc = weightsMirrorDesc(c, '', options);
       const weights_ = c.struct('hf_weights_out', {});
       const partners_ = c.out(null, 'u4', ['joint_count']);
       const pairings = c.out(null, 'u4', ['joint_count']);
       const found = c.grow(surface, 'hf_weights_mirror', (room, made) => (c.into(weights_, room, made),
               call('hf_weights_mirror', handleOf(surface, Surface, 'surface'), desc, weights_, written(partners_),
-              written(pairings), info)), () => ({ vertex_capacity: weights_.get('vertex_count'),
+              written(pairings), info, statistics)), () => ({ vertex_capacity: weights_.get('vertex_count'),
               vertex_count: weights_.get('vertex_count'), influence_count: weights_.get('influence_count') }),
               { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
               weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
       return { ...{ ...found, vertexCount: weights_.get('vertex_count'),
-              influenceCount: weights_.get('influence_count') }, partners: partners_, pairings, info: info.toObject() };
+              influenceCount: weights_.get('influence_count') }, partners: partners_, pairings, info: info.toObject(),
+              statistics: statistics.toObject() };
     }
   }
 

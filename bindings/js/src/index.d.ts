@@ -13,8 +13,8 @@ export class HfError extends Error {
   functionName: string;
 }
 
-/** A vertex, or three corners of a triangle and their weights, such as a hit. */
-export type Place = number | { corners: Numbers; barycentrics: Numbers };
+/** A vertex, a hit, or three corners of a triangle and their weights. */
+export type PlaceGiven = number | { corners: Numbers; barycentrics: Numbers } | { place: Place };
 
 export interface Handle {
   readonly closed: boolean;
@@ -58,7 +58,7 @@ export interface Link {
   inTree: number;
 }
 
-/** The options a surface was made with, defaults filled in. */
+/** The options a surface was made with, defaults filled in. More than 16 fields: they mirror hf_surface_desc. */
 export interface SurfaceInfo {
   /** as given */
   vertexCount: number;
@@ -93,7 +93,7 @@ export interface SurfaceInfo {
 /**
  * Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are 0.
  * Where faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces. Degenerate
- * triangles, negative edges and the smallest angle are of the cut.
+ * triangles are of the cut.
  */
 export interface SurfaceReport {
   /** as given */
@@ -117,12 +117,27 @@ export interface SurfaceReport {
   /** edges that two triangles run through in the same direction */
   flippedEdgeCount: number;
   boundaryEdgeCount: number;
-  /** edges of negative cotangent weight, before any clamping */
-  negativeEdgeCount: number;
-  /** radians, over the usable triangles */
-  smallestAngle: number;
+  /**
+   * closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The inner wall of a hollow
+   * body is one too. Fields do not change; what uses normals does
+   */
+  insideOutCount: number;
+  /** the first vertex of one, as given; constants.HF_NO_INDEX without one */
+  firstInsideOutVertex: number;
   /** in the unit of the positions, without isolated vertices */
   boundingBoxDiagonal: number;
+}
+
+/** What a developer reads about a mesh: its faces, and the weights of its operator. */
+export interface MeshStatistics {
+  /** faces of more than three corners */
+  polygonCount: number;
+  /** polygons with a corner farther than 1 % of their diameter from their mean plane */
+  nonPlanarCount: number;
+  /** corners of the largest face; 0 where triangles were given */
+  largestFace: number;
+  /** edges of the cut of negative cotangent weight, before any clamping */
+  negativeEdgeCount: number;
   /**
    * welded vertices with a weight that is not the mesh's, in the operator of field_kind: of triangles too thin for
    * it, or cut to the digits that there are. A certificate holds for the weights used; near such vertices the
@@ -131,6 +146,12 @@ export interface SurfaceReport {
   changedVertexCount: number;
   /** the first of them, as given; constants.HF_NO_INDEX without one */
   firstChangedVertex: number;
+  /** radians, over the usable triangles of the cut */
+  smallestAngle: number;
+}
+
+/** How the pieces of a mesh are linked. */
+export interface LinksInfo {
   /** edge-connected pieces, linked or not */
   pieceCount: number;
   /** Surface.links writes them */
@@ -140,21 +161,6 @@ export interface SurfaceReport {
   lonePieceCount: number;
   /** of the tree over the pieces, in the unit of the positions */
   longestTreeLink: number;
-  /** as given; 0 where triangles were given */
-  faceCount: number;
-  /** faces of more than three corners */
-  polygonCount: number;
-  /** polygons with a corner farther than 1 % of their diameter from their mean plane */
-  nonPlanarCount: number;
-  /** corners of the largest face */
-  largestFace: number;
-  /**
-   * closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The inner wall of a hollow
-   * body is one too. Fields do not change; what uses normals does
-   */
-  insideOutCount: number;
-  /** the first vertex of one, as given; constants.HF_NO_INDEX without one */
-  firstInsideOutVertex: number;
 }
 
 /** How far linked pieces have opened, in the unit of the positions. */
@@ -200,6 +206,18 @@ export interface SurfaceStatistics {
   linksMs: number;
 }
 
+/**
+ * One place on a surface: a vertex, or a point between three corners of a face. Hit has one, sites, pins, curves,
+ * handles and paths take it. Lists of places have three forms, of which you set one: `vertices` (4 bytes each),
+ * `places`, and `points` in space.
+ */
+export interface Place {
+  /** vertices of one face, as given; a corner of barycentric 0 is ignored and can be constants.HF_NO_INDEX */
+  corners: number[];
+  /** weights of the corners, >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
+  barycentrics: number[];
+}
+
 /** Surface.castRay writes the first triangle that a ray hits here. */
 export interface Hit {
   /** 1: a triangle was hit; 0: none, and all else is 0 or constants.HF_NO_INDEX */
@@ -208,17 +226,15 @@ export interface Hit {
   triangle: number;
   /** its corner nearest to the hit, as given, of welded copies the first */
   vertex: number;
-  /** weights of `corners`, of sum 1: a site for Solver.addSites */
-  barycentrics: number[];
+  /**
+   * corners of the triangle, of welded copies the first, and their weights. In a face of more corners three of
+   * them: the triangle of the face's cut that the ray hits
+   */
+  place: Place;
   /** in the unit of the positions */
   position: number[];
   /** from the origin, in lengths of `direction` */
   distance: number;
-  /**
-   * the triangle's vertices, as given, of welded copies the first. In a face of more corners three of them: the
-   * triangle of the face's cut that the ray hits
-   */
-  corners: number[];
 }
 
 /** Solver.info writes the options of a solver here, with defaults filled in, and the number of its sites. */
@@ -241,7 +257,7 @@ export interface SitesInfo {
   count: number;
   /** [capacity] numbers */
   sites: Uint32Array;
-  /** [capacity] the vertex given, constants.HF_NO_INDEX for a point in a triangle */
+  /** [capacity] the vertex of the place, constants.HF_NO_INDEX for a point in a triangle */
   vertices: Uint32Array;
   /** [capacity] */
   components: Uint32Array;
@@ -314,7 +330,7 @@ export interface Certificate {
   /** as given, where the largest of the three is */
   worstVertex: number;
   /**
-   * welded vertices with a weight that a rule set (SurfaceReport). On a mesh, and for bi-harmonic fields, the
+   * welded vertices with a weight that a rule set (MeshStatistics). On a mesh, and for bi-harmonic fields, the
    * errors hold for the weights used; on a graph for your own, within 1e30 of their median
    */
   changedVertexCount: number;
@@ -401,14 +417,6 @@ export interface CriticalInfo {
   indexSum: number;
   /** vertices - edges + triangles of the usable surface that has values */
   eulerCharacteristic: number;
-}
-
-/** A point of the surface in the form of Hit: three corners of a triangle and their weights. */
-export interface SurfacePoint {
-  /** as given; a corner of barycentric 0 is ignored and can be constants.HF_NO_INDEX */
-  corners: number[];
-  /** >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
-  barycentrics: number[];
 }
 
 /**
@@ -523,15 +531,19 @@ export interface HandleInfo {
   freeRotation: number;
 }
 
-/** Counts and times of a deform. */
+/** What a deform did. */
 export interface DeformInfo {
   /** done */
   iterationCount: number;
-  clusterCount: number;
   /** in components without a handle; they stay at rest */
   unreachedVertexCount: number;
   /** largest change of a rotation in the last iteration */
   lastChange: number;
+}
+
+/** Size of a pose and times of its last deform, in milliseconds; 0 before the first. */
+export interface PoseStatistics {
+  clusterCount: number;
   solveMs: number;
   blendMs: number;
   normalMs: number;
@@ -637,7 +649,7 @@ export interface Streamlines {
   lineEnds: Uint32Array;
 }
 
-/** Counts and areas of a region and of its last edit. Welded copies count as one vertex. */
+/** Counts and areas of a region. Welded copies count as one vertex. */
 export interface RegionInfo {
   /** HF_FIELD_* */
   fieldKind: number;
@@ -647,6 +659,14 @@ export interface RegionInfo {
   rimCount: number;
   /** vertices that fix the base: the rim, for thin plates two rows or more */
   siteCount: number;
+  /** of the triangles with a corner in the region, on the surface, in units^2 */
+  area: number;
+  /** the same on the base */
+  baseArea: number;
+}
+
+/** Work of the last edit of a region, and of all its edits. */
+export interface RegionStatistics {
   /** sites of the last edit ... */
   insertedCount: number;
   removedCount: number;
@@ -659,10 +679,6 @@ export interface RegionInfo {
   lastRoute: number;
   /** 1: the last base took a sweep through the whole factor */
   wholeSweep: number;
-  /** of the triangles with a corner in the region, on the surface, in units^2 */
-  area: number;
-  /** the same on the base */
-  baseArea: number;
 }
 
 /** Figures of a retarget. Angles, stride and drop count all frames since the last reset. */
@@ -796,11 +812,15 @@ export interface TransferInfo {
   crossedCount: number;
   /** 1: from the legs or the boxes; 0: given in the desc */
   scaleFound: number;
+  /** lengths of the target over those of the source, both in the units of their meshes */
+  scale: number;
+}
+
+/** Work of a transfer. */
+export interface TransferStatistics {
   /** numeric factorisations by edits of pairs; 0 unless they are very many */
   sourceFactorisationCount: number;
   targetFactorisationCount: number;
-  /** lengths of the target over those of the source, both in the units of their meshes */
-  scale: number;
 }
 
 /**
@@ -866,6 +886,10 @@ export interface WeightsInfo {
   nearestCount: number;
   rigidCount: number;
   isolatedCount: number;
+}
+
+/** What a developer reads about weights: pieces that were guessed, joints that deserve a look, work done. */
+export interface WeightsStatistics {
   /** pieces without information */
   nearestPieceCount: number;
   /** small ones of them */
@@ -897,7 +921,7 @@ export interface WeightsTransferInfo {
   guessedPieceCount: number;
 }
 
-/** The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh. */
+/** The findings of a mirror. Vertices are counted as given. */
 export interface WeightsMirrorInfo {
   vertexCount: number;
   /** HF_MIRROR_PLANE_* */
@@ -915,13 +939,17 @@ export interface WeightsMirrorInfo {
   nearestCount: number;
   rigidCount: number;
   isolatedCount: number;
+  /** of the plane */
+  point: number[];
+  normal: number[];
+}
+
+/** How far a surface and its joints are from their reflections. Lengths are in the unit of the mesh. */
+export interface WeightsMirrorStatistics {
   /** the joint farthest off, constants.HF_NO_INDEX: none has a partner */
   worstJoint: number;
   /** the vertex farthest off, constants.HF_NO_INDEX: none was mirrored */
   worstVertex: number;
-  /** of the plane */
-  point: number[];
-  normal: number[];
   /** mean distance of reflected joints from their partners */
   jointOff: number;
   worstJointOff: number;
@@ -931,21 +959,22 @@ export interface WeightsMirrorInfo {
 }
 
 /**
- * Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
- * region, and any single vertex that these surround but for one edge. The rim is the vertices next to them, on or
- * beyond the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the
- * curve. A whole border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8
- * times.
+ * Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The
+ * vertices on its chosen side are the region, and any single vertex that these surround but for one edge. The rim
+ * is the vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the curve
+ * runs along edges the rim is the curve. A whole border of the surface is a curve too; it has only one side. The
+ * curve passes a vertex at most 8 times.
  */
 export interface CurveDescGiven {
   /** [pointCount] vertices as given, or null */
   vertices?: Rows | null;
-  /** [pointCount] triangles (or faces of three corners) as given, or null */
-  triangles?: Rows | null;
-  /** [pointCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1 within 1e-6 */
-  barycentrics?: Rows | null;
-  /** [pointCount x 3] three vertices of one face, as Hit has them, or null */
-  corners?: Rows | null;
+  /** [pointCount], or null */
+  places?: readonly PlaceGiven[] | null;
+  /**
+   * [pointCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for the
+   * nearest point of the surface, up to two boxes away
+   */
+  points?: Rows | null;
   /** HF_SIDE_* */
   side?: number;
   /** with HF_SIDE_SEED */
@@ -1016,21 +1045,23 @@ export interface LinksDescGiven {
 }
 
 /**
- * Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the
- * less influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic
- * disc. A radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices.
- * For harmonic fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its
- * vertices do.
+ * Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site
+ * has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh
+ * spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the
+ * boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
  */
 export interface SitesDescGiven {
   /** [siteCount] vertices as given, or null */
   vertices?: Rows | null;
   /** [siteCount x channelCount], up to 1e200 in size; null = 0 */
   values?: Rows | null;
-  /** [siteCount] triangles (or faces of three corners) as given, or null */
-  triangles?: Rows | null;
-  /** [siteCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1 within 1e-6 */
-  barycentrics?: Rows | null;
+  /** [siteCount], or null */
+  places?: readonly PlaceGiven[] | null;
+  /**
+   * [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for the
+   * nearest point of the surface, up to two boxes away
+   */
+  points?: Rows | null;
   /**
    * [siteCount] >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to 1e-12 to
    * 1e12
@@ -1038,11 +1069,6 @@ export interface SitesDescGiven {
   stiffness?: Rows | null;
   /** [siteCount] >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points */
   radii?: Rows | null;
-  /**
-   * [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more corners this
-   * places a site in a triangle of them
-   */
-  corners?: Rows | null;
 }
 
 /** The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex. */
@@ -1117,11 +1143,15 @@ export interface Surface extends Handle {
   readonly info: SurfaceInfo;
   /** Writes the report of the mesh. */
   readonly report: SurfaceReport;
+  /** Writes the statistics of the mesh. */
+  readonly meshStatistics: MeshStatistics;
   /**
    * Writes the component of every vertex of your mesh, and constants.HF_NO_INDEX for isolated vertices. Components
    * are numbered in the order of their lowest vertex numbers.
    */
   components(): Uint32Array;
+  /** Writes how the pieces of a surface are linked. */
+  readonly linksInfo: LinksInfo;
   /**
    * Writes the links of a surface. You can edit them and give them back with HF_LINK_LIST. A list does not say
    * which pieces are light: name them in light_vertices, as Surface.pieces marks them. Then the list alone gives
@@ -1293,10 +1323,10 @@ export interface SurfaceClass {
    * graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
    * reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions,
    * directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
-   * links, screening, and sites in triangles or on discs.
+   * links, screening, and sites at places, at points or on discs.
    *
    * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from
-   * the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-harmonic fields
+   * the median of their component are limited; MeshStatistics counts their vertices as changed. Bi-harmonic fields
    * limit weights to 1e3 times the median.
    *
    * edges: [edgeCount x 2] of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are
@@ -1350,20 +1380,18 @@ export interface Solver extends Recorded {
    *
    * vertices: [siteCount] vertices as given, or null
    * values: [siteCount x channelCount], up to 1e200 in size; null = 0
-   * triangles: [siteCount] triangles (or faces of three corners) as given, or null
-   * barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1
-   *     within 1e-6
+   * places: [siteCount], or null
+   * points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+   *     the nearest point of the surface, up to two boxes away
    * stiffness: [siteCount] >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
    *     1e-12 to 1e12
    * radii: [siteCount] >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-   * corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
-   *     corners this places a site in a triangle of them
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
    * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   addSites(vertices?: Rows | null, values?: Rows | null,
-          options?: { triangles?: Rows | null; barycentrics?: Rows | null; stiffness?: Rows | null; radii?: Rows | null; corners?: Rows | null }): Uint32Array;
+          options?: { places?: readonly PlaceGiven[] | null; points?: Rows | null; stiffness?: Rows | null; radii?: Rows | null }): Uint32Array;
   /**
    * Adds one hard site at a vertex.
    *
@@ -1388,20 +1416,18 @@ export interface Solver extends Recorded {
    * sites: [siteCount].
    * vertices: [siteCount] vertices as given, or null
    * values: [siteCount x channelCount], up to 1e200 in size; null = 0
-   * triangles: [siteCount] triangles (or faces of three corners) as given, or null
-   * barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1
-   *     within 1e-6
+   * places: [siteCount], or null
+   * points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+   *     the nearest point of the surface, up to two boxes away
    * stiffness: [siteCount] >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
    *     1e-12 to 1e12
    * radii: [siteCount] >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-   * corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
-   *     corners this places a site in a triangle of them
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
    * HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   moveSites(sites: Rows, vertices?: Rows | null, values?: Rows | null,
-          options?: { triangles?: Rows | null; barycentrics?: Rows | null; stiffness?: Rows | null; radii?: Rows | null; corners?: Rows | null }): void;
+          options?: { places?: readonly PlaceGiven[] | null; points?: Rows | null; stiffness?: Rows | null; radii?: Rows | null }): void;
   /**
    * Gives sites new values. The call costs nothing until the next solve.
    *
@@ -1589,7 +1615,7 @@ export interface Geodesics extends Handle {
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
    * HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
    */
-  findPath(from: Place, to: Place): Path;
+  findPath(from: PlaceGiven, to: PlaceGiven): Path;
   /**
    * Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each
    * vertex gets the length of its shortest path from the point, in the direction in which that path leaves the
@@ -1600,7 +1626,7 @@ export interface Geodesics extends Handle {
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
    * HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
    */
-  map(centre: Place, radius?: number): { map: Float64Array; frame: Float64Array };
+  map(centre: PlaceGiven, radius?: number): { map: Float64Array; frame: Float64Array };
 }
 export interface GeodesicsClass {
   new (surface: Surface, options?: { method?: number; smoothing?: number; progress?: Progress | null }): Geodesics;
@@ -1728,10 +1754,12 @@ export interface Pose extends Recorded {
    * layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold
    * the surface in place for the higher layers.
    *
-   * regionVertices: lists of whole numbers: all regions one after the other; null: points are given
-   * points: [handleCount x 3] at rest. The region is the vertex nearest to the point and what is edge-connected to
-   *     it within the radius. null: regions are given
-   * radii: [handleCount] of the regions of points, in the unit of the mesh; null: regions are given. A radius
+   * regionVertices: lists of whole numbers: all regions one after the other; null: places are given
+   * vertices: [handleCount] vertices as given, or null
+   * places: [handleCount], or null
+   * points: [handleCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. A point can
+   *     lie inside the body, as a joint does: its nearest vertex counts
+   * radii: [handleCount] of the regions of places, in the unit of the mesh; null: regions are given. A radius
    *     below 1 % of the box makes regions of 2 vertices or more
    * layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
    * inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -1742,7 +1770,7 @@ export interface Pose extends Recorded {
    * HF_ERROR_TOO_LARGE.
    */
   addHandles(regionVertices?: ReadonlyArray<Numbers> | null,
-          options?: { points?: Rows | null; radii?: Rows | null; layer?: number; inPlace?: boolean | number; freeRotation?: boolean | number; progress?: Progress | null }): Uint32Array;
+          options?: { vertices?: Rows | null; places?: readonly PlaceGiven[] | null; points?: Rows | null; radii?: Rows | null; layer?: number; inPlace?: boolean | number; freeRotation?: boolean | number; progress?: Progress | null }): Uint32Array;
   /**
    * Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
    * edge-connected to it within `radius` of the point.
@@ -1855,6 +1883,8 @@ export interface Pose extends Recorded {
    */
   deform<T extends Floats = Float32Array>(out?: T | null,
           options?: { iterationCount?: number; restart?: boolean | number; refine?: number; refineFromLast?: boolean | number; firstVertex?: number; vertexCount?: number; Type?: FloatsType; normals?: Float32Array | null }): T;
+  /** Writes the statistics of a pose. */
+  readonly statistics: PoseStatistics;
   /**
    * Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were
    * added. If the handles do not reach some vertices, a last joint that never moves holds those vertices. The
@@ -2036,6 +2066,8 @@ export interface Region extends Recorded {
   edit(options?: { removeVertices?: Rows | null; addVertices?: Rows | null; ringCount?: number; curve?: CurveDescGiven | Rows | null; progress?: Progress | null }): void;
   /** Writes the info of a region. */
   readonly info: RegionInfo;
+  /** Writes the statistics of a region. */
+  readonly statistics: RegionStatistics;
   /**
    * Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
    *
@@ -2271,6 +2303,8 @@ export interface Transfer extends Handle {
    * Throws HF_ERROR_EMPTY.
    */
   readonly info: TransferInfo;
+  /** Writes the statistics of a transfer. */
+  readonly statistics: TransferStatistics;
   /**
    * Sets the dials of a transfer for the next frames.
    *
@@ -2392,8 +2426,9 @@ export interface Weights extends Recorded {
    * disc. Pins at the same places with other weights cost no path.
    *
    * vertices: [pinCount] vertices as given, or null
-   * triangles: [pinCount] triangles as given, or null
-   * barycentrics: [pinCount x 3] with triangles, else null: weights of the corners, >= 0, of sum 1 within 1e-6
+   * places: [pinCount], or null
+   * points: [pinCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+   *     the nearest point of the surface, up to two boxes away
    * radii: [pinCount] of the geodesic disc around the place, in the unit of the mesh; null or 0: the place alone
    * joints: [pinCount x influenceCount] joints
    * weights: [pinCount x influenceCount] >= 0, scaled to the sum 1
@@ -2403,7 +2438,7 @@ export interface Weights extends Recorded {
    * HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
   setPins(vertices?: Rows | null,
-          options?: { triangles?: Rows | null; barycentrics?: Rows | null; radii?: Rows | null; joints?: Rows | null; weights?: Rows | null; progress?: Progress | null }): void;
+          options?: { places?: readonly PlaceGiven[] | null; points?: Rows | null; radii?: Rows | null; joints?: Rows | null; weights?: Rows | null; progress?: Progress | null }): void;
   /**
    * Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0
    * unlocks.
@@ -2429,6 +2464,8 @@ export interface Weights extends Recorded {
   joints(): { flags: Uint32Array; vertexCounts: Uint32Array };
   /** Writes the info. */
   readonly info: WeightsInfo;
+  /** Writes the statistics. */
+  readonly statistics: WeightsStatistics;
   /**
    * Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and
    * sets deforms to 0.
@@ -2479,12 +2516,13 @@ export interface WeightsClass {
    * influenceCount: joints of each vertex in the result: 4 or 8; 0: 4
    * progress: an object to poll and cancel through
    * info: filled in when given
+   * statistics: filled in when given
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
    * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL, HF_ERROR_UNSUPPORTED.
    */
   mirror(surface: Surface,
-          options?: { heads?: Rows | null; names?: string | readonly string[] | null; partners?: Rows | null; plane?: Rows | null; joints?: Rows | null; weights?: Rows | null; to?: number; distance?: number; angle?: number; influenceCount?: number; progress?: Progress | null }): WeightsOut & { partners: Uint32Array; pairings: Uint32Array; info: WeightsMirrorInfo };
+          options?: { heads?: Rows | null; names?: string | readonly string[] | null; partners?: Rows | null; plane?: Rows | null; joints?: Rows | null; weights?: Rows | null; to?: number; distance?: number; angle?: number; influenceCount?: number; progress?: Progress | null }): WeightsOut & { partners: Uint32Array; pairings: Uint32Array; info: WeightsMirrorInfo; statistics: WeightsMirrorStatistics };
 }
 
 export interface Api {

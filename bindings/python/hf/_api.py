@@ -11,14 +11,17 @@ import numpy as np
 
 from . import _raw
 from ._library import ArrayLike, Call, Object, Recorded, address, call, handle_of, library, number, place, ref
-from ._library import Place
+from ._library import PlaceLike
 
 
 Link = _raw.hf_link
 SurfaceInfo = _raw.hf_surface_info
 SurfaceReport = _raw.hf_surface_report
+MeshStatistics = _raw.hf_mesh_statistics
+LinksInfo = _raw.hf_links_info
 GapsInfo = _raw.hf_gaps_info
 SurfaceStatistics = _raw.hf_surface_statistics
+Place = _raw.hf_place
 Hit = _raw.hf_hit
 SolverInfo = _raw.hf_solver_info
 SolveInfo = _raw.hf_solve_info
@@ -27,7 +30,6 @@ Certificate = _raw.hf_certificate
 SolverStatistics = _raw.hf_solver_statistics
 CriticalPoint = _raw.hf_critical_point
 CriticalInfo = _raw.hf_critical_info
-SurfacePoint = _raw.hf_surface_point
 Extremity = _raw.hf_extremity
 Singularity = _raw.hf_singularity
 DirectionStatistics = _raw.hf_direction_statistics
@@ -35,9 +37,11 @@ PoseInfo = _raw.hf_pose_info
 Transform = _raw.hf_transform
 HandleInfo = _raw.hf_handle_info
 DeformInfo = _raw.hf_deform_info
+PoseStatistics = _raw.hf_pose_statistics
 HandleProposal = _raw.hf_handle_proposal
 QuadsInfo = _raw.hf_quads_info
 RegionInfo = _raw.hf_region_info
+RegionStatistics = _raw.hf_region_statistics
 RetargetInfo = _raw.hf_retarget_info
 ChainMatch = _raw.hf_chain_match
 SkeletonInfo = _raw.hf_skeleton_info
@@ -45,10 +49,13 @@ JointInfo = _raw.hf_joint_info
 Chain = _raw.hf_chain
 PairInfo = _raw.hf_pair_info
 TransferInfo = _raw.hf_transfer_info
+TransferStatistics = _raw.hf_transfer_statistics
 TransferDials = _raw.hf_transfer_dials
 WeightsInfo = _raw.hf_weights_info
+WeightsStatistics = _raw.hf_weights_statistics
 WeightsTransferInfo = _raw.hf_weights_transfer_info
 WeightsMirrorInfo = _raw.hf_weights_mirror_info
+WeightsMirrorStatistics = _raw.hf_weights_mirror_statistics
 
 
 class Weld(IntEnum):
@@ -491,7 +498,7 @@ class SitesInfo(NamedTuple):
     sites: np.ndarray
     """(capacity,) numbers"""
     vertices: np.ndarray
-    """(capacity,) the vertex given, NO_INDEX for a point in a triangle"""
+    """(capacity,) the vertex of the place, NO_INDEX for a point in a triangle"""
     components: np.ndarray
     """(capacity,)"""
     values: np.ndarray
@@ -676,17 +683,15 @@ def _solver_desc(c: Call, prefix: str = '', *, field_kind: int = FieldKind.HARMO
 
 
 def _sites_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None,
-        triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
-        stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
-        corners: Optional[ArrayLike] = None) -> Any:
+        places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None,
+        stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None) -> Any:
     desc = c.struct(_raw.hf_sites_desc, {})
     c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'site_count',))
-    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'site_count',))
-    c.rows(desc, 'barycentrics', barycentrics, 'f8', (prefix + 'site_count', 3))
+    desc.places = c.places('places', places, (prefix + 'site_count',))
+    c.rows(desc, 'points', points, 'f8', (prefix + 'site_count', 3))
     c.rows(desc, 'values', values, 'f8', (prefix + 'site_count', 'channel_count'))
     c.rows(desc, 'stiffness', stiffness, 'f8', (prefix + 'site_count',))
     c.rows(desc, 'radii', radii, 'f8', (prefix + 'site_count',))
-    c.rows(desc, 'corners', corners, 'u4', (prefix + 'site_count', 3))
     c.counts(desc, site_count=(prefix + 'site_count', 1))
     return desc
 
@@ -738,10 +743,13 @@ def _pose_desc(c: Call, prefix: str = '', *, band_count: int = 0, iteration_coun
 
 
 def _handles_desc(c: Call, prefix: str = '', *, region_vertices: Optional[Sequence[ArrayLike]] = None,
+        vertices: Optional[ArrayLike] = None, places: Optional[Sequence[PlaceLike]] = None,
         points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False,
         free_rotation: bool = False, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_handles_desc, {'layer': layer, 'in_place': in_place, 'free_rotation': free_rotation})
     c.ragged(desc, 'region_counts', 'region_vertices', region_vertices, prefix + 'handle_count')
+    c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'handle_count',))
+    desc.places = c.places('places', places, (prefix + 'handle_count',))
     c.rows(desc, 'points', points, 'f8', (prefix + 'handle_count', 3))
     c.rows(desc, 'radii', radii, 'f8', (prefix + 'handle_count',))
     desc.progress = handle_of(progress, Progress, 'progress')
@@ -800,14 +808,12 @@ def _region_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = 
 
 
 def _curve_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
-        triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
-        corners: Optional[ArrayLike] = None, side: int = Side.SMALLER, seed_vertex: int = 0,
-        kind: int = CurveKind.STRAIGHT) -> Any:
+        places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None, side: int = Side.SMALLER,
+        seed_vertex: int = 0, kind: int = CurveKind.STRAIGHT) -> Any:
     desc = c.struct(_raw.hf_curve_desc, {'side': side, 'seed_vertex': seed_vertex, 'kind': kind})
     c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'point_count',))
-    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'point_count',))
-    c.rows(desc, 'barycentrics', barycentrics, 'f8', (prefix + 'point_count', 3))
-    c.rows(desc, 'corners', corners, 'u4', (prefix + 'point_count', 3))
+    desc.places = c.places('places', places, (prefix + 'point_count',))
+    c.rows(desc, 'points', points, 'f8', (prefix + 'point_count', 3))
     c.counts(desc, point_count=(prefix + 'point_count', 0))
     return desc
 
@@ -942,13 +948,13 @@ def _joints_desc(c: Call, prefix: str = '', *, heads: Optional[ArrayLike] = None
 
 
 def _pins_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
-        triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
+        places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None,
         radii: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_pins_desc, {})
     c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'pin_count',))
-    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'pin_count',))
-    c.rows(desc, 'barycentrics', barycentrics, 'f8', (prefix + 'pin_count', 3))
+    desc.places = c.places('places', places, (prefix + 'pin_count',))
+    c.rows(desc, 'points', points, 'f8', (prefix + 'pin_count', 3))
     c.rows(desc, 'radii', radii, 'f8', (prefix + 'pin_count',))
     c.rows(desc, 'joints', joints, 'u4', (prefix + 'pin_count', prefix + 'influence_count'))
     c.rows(desc, 'weights', weights, 'f4', (prefix + 'pin_count', prefix + 'influence_count'))
@@ -1088,10 +1094,10 @@ class Surface(Object):
         graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
         reports work as on a mesh. A call that needs triangles returns UnsupportedError: poses, regions, directions,
         geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links,
-        screening, and sites in triangles or on discs.
+        screening, and sites at places, at points or on discs.
 
         A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from
-        the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-harmonic fields
+        the median of their component are limited; MeshStatistics counts their vertices as changed. Bi-harmonic fields
         limit weights to 1e3 times the median.
 
         edges: (edge_count, 2) of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are
@@ -1140,6 +1146,14 @@ class Surface(Object):
         call('hf_surface_get_report', self._handle, ref(report))
         return report
 
+    @property
+    def mesh_statistics(self) -> MeshStatistics:
+        """Writes the statistics of the mesh."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_mesh_statistics, {})
+        call('hf_surface_get_mesh_statistics', self._handle, ref(statistics))
+        return statistics
+
     def components(self) -> np.ndarray:
         """Writes the component of every vertex of your mesh, and NO_INDEX for isolated vertices. Components are numbered
         in the order of their lowest vertex numbers.
@@ -1153,6 +1167,14 @@ class Surface(Object):
         found = c.grow(self, 'hf_surface_get_components', run, lambda: {'capacity': count.value}, {'capacity': None},
                 {'components': (np.uint32, ('capacity',))})
         return found['components']
+
+    @property
+    def links_info(self) -> LinksInfo:
+        """Writes how the pieces of a surface are linked."""
+        c = Call(self)
+        info = c.struct(_raw.hf_links_info, {})
+        call('hf_surface_get_links_info', self._handle, ref(info))
+        return info
 
     def links(self) -> np.ndarray:
         """Writes the links of a surface. You can edit them and give them back with LinkMode.LIST. A list does not say
@@ -1500,28 +1522,25 @@ class Solver(Recorded):
         return info
 
     def add_sites(self, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
-            triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
-            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
-            corners: Optional[ArrayLike] = None) -> np.ndarray:
+            places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None,
+            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None) -> np.ndarray:
         """Adds sites.
 
         vertices: (site_count,) vertices as given, or None
         values: (site_count, channel_count), up to 1e200 in size; None = 0
-        triangles: (site_count,) triangles (or faces of three corners) as given, or None
-        barycentrics: (site_count, 3) with triangles or corners, else None: weights of the corners, >= 0, of sum 1
-            within 1e-6
+        places: (site_count,), or None
+        points: (site_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. Each stands for
+            the nearest point of the surface, up to two boxes away
         stiffness: (site_count,) >= 0, relative to the mean diagonal of K; 0 = hard (exact); None = all hard; clamped
             to 1e-12 to 1e12
         radii: (site_count,) >= 0, geodesic, in the unit of the mesh; 0 = a point; None = all points
-        corners: (site_count, 3) three vertices as given, of one face, or None: Hit has them. In a face of more
-            corners this places a site in a triangle of them
 
         Raises ConflictError, DuplicateError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
         UnsupportedError.
         """
         c = Call(self)
-        desc = _sites_desc(c, vertices=vertices, values=values, triangles=triangles, barycentrics=barycentrics,
-                stiffness=stiffness, radii=radii, corners=corners)
+        desc = _sites_desc(c, vertices=vertices, values=values, places=places, points=points, stiffness=stiffness,
+                radii=radii)
         sites = c.out(None, 'u4', ('site_count',), packed=True)
         call('hf_add_sites', self._handle, ref(desc), address(sites))
         return sites
@@ -1553,30 +1572,27 @@ class Solver(Recorded):
         call('hf_remove_sites', self._handle, c.n.setdefault('site_count', 1), sites_)
 
     def move_sites(self, sites: ArrayLike, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
-            triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
-            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
-            corners: Optional[ArrayLike] = None) -> None:
+            places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None,
+            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None) -> None:
         """Moves sites to new places. Each site keeps its number, value, stiffness and radius.
 
         sites: (site_count,).
         vertices: (site_count,) vertices as given, or None
         values: (site_count, channel_count), up to 1e200 in size; None = 0
-        triangles: (site_count,) triangles (or faces of three corners) as given, or None
-        barycentrics: (site_count, 3) with triangles or corners, else None: weights of the corners, >= 0, of sum 1
-            within 1e-6
+        places: (site_count,), or None
+        points: (site_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. Each stands for
+            the nearest point of the surface, up to two boxes away
         stiffness: (site_count,) >= 0, relative to the mean diagonal of K; 0 = hard (exact); None = all hard; clamped
             to 1e-12 to 1e12
         radii: (site_count,) >= 0, geodesic, in the unit of the mesh; 0 = a point; None = all points
-        corners: (site_count, 3) three vertices as given, of one face, or None: Hit has them. In a face of more
-            corners this places a site in a triangle of them
 
         Raises ConflictError, DuplicateError, InvalidArgumentError, NonFiniteError, NotFoundError, OutOfRangeError,
         TooLargeError, UnsupportedError.
         """
         c = Call(self)
         sites_ = c.array('sites', sites, 'u4', ('site_count',))
-        desc = _sites_desc(c, vertices=vertices, values=values, triangles=triangles, barycentrics=barycentrics,
-                stiffness=stiffness, radii=radii, corners=corners)
+        desc = _sites_desc(c, vertices=vertices, values=values, places=places, points=points, stiffness=stiffness,
+                radii=radii)
         call('hf_solver_move_sites', self._handle, c.n.setdefault('site_count', 1), sites_, ref(desc))
 
     def set_values(self, sites: ArrayLike, values: ArrayLike) -> None:
@@ -1846,7 +1862,7 @@ class Geodesics(Object):
         call('hf_geodesics_solve', self._handle, c.n.setdefault('source_count', 1), sources_, ref(out_view))
         return out
 
-    def find_path(self, from_: Place, to: Place) -> Path:
+    def find_path(self, from_: PlaceLike, to: PlaceLike) -> Path:
         """Finds the shortest path between two points, exact up to rounding, whatever the method of the object. If
         several are as short, it writes one of them. The path is straight where its triangles are unfolded; it bends
         at vertices only.
@@ -1858,15 +1874,14 @@ class Geodesics(Object):
 
         def run(room: Any, made: Any) -> None:
             c.into(path, room, made)
-            call('hf_geodesics_find_path', self._handle, ref(place(_raw.hf_surface_point, from_)),
-                    ref(place(_raw.hf_surface_point, to)), ref(path))
+            call('hf_geodesics_find_path', self._handle, ref(place(from_, 'from')), ref(place(to, 'to')), ref(path))
 
         found = c.grow(self, 'hf_geodesics_find_path', run, lambda: {'point_capacity': path.point_count},
                 {'point_capacity': None}, {'point_edges': (np.uint32, ('point_capacity', 2)), 'parameters': (np.float64,
                 ('point_capacity',)), 'positions': (np.float64, ('point_capacity', 3))})
         return Path(length=path.length, **found)
 
-    def map(self, centre: Place, radius: float = 0.0) -> Tuple[np.ndarray, np.ndarray]:
+    def map(self, centre: PlaceLike, radius: float = 0.0) -> Tuple[np.ndarray, np.ndarray]:
         """Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each
         vertex gets the length of its shortest path from the point, in the direction in which that path leaves the
         point.
@@ -1878,7 +1893,7 @@ class Geodesics(Object):
         c = Call(self)
         map = c.out(None, 'f8', ('vertex_count', 2), packed=True)
         frame = c.out(None, 'f8', (6,), packed=True)
-        call('hf_geodesics_get_map', self._handle, ref(place(_raw.hf_surface_point, centre)), number(radius, 'radius',
+        call('hf_geodesics_get_map', self._handle, ref(place(centre, 'centre')), number(radius, 'radius',
                 ctypes.c_double), address(map), address(frame))
         return map, frame
 
@@ -2090,9 +2105,10 @@ class Pose(Recorded):
         call('hf_pose_get_info', self._handle, ref(info))
         return info
 
-    def add_handles(self, region_vertices: Optional[Sequence[ArrayLike]] = None, *, points: Optional[ArrayLike] = None,
-            radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False, free_rotation: bool = False,
-            progress: Optional[Progress] = None) -> np.ndarray:
+    def add_handles(self, region_vertices: Optional[Sequence[ArrayLike]] = None, *,
+            vertices: Optional[ArrayLike] = None, places: Optional[Sequence[PlaceLike]] = None,
+            points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, layer: int = 0,
+            in_place: bool = False, free_rotation: bool = False, progress: Optional[Progress] = None) -> np.ndarray:
         """Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a
         posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
         that its region has in the last pose (Pose.handle writes it), and the surface stays where it is (to 1e-6 of
@@ -2101,10 +2117,12 @@ class Pose(Recorded):
         layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold
         the surface in place for the higher layers.
 
-        region_vertices: lists of whole numbers: all regions one after the other; None: points are given
-        points: (handle_count, 3) at rest. The region is the vertex nearest to the point and what is edge-connected to
-            it within the radius. None: regions are given
-        radii: (handle_count,) of the regions of points, in the unit of the mesh; None: regions are given. A radius
+        region_vertices: lists of whole numbers: all regions one after the other; None: places are given
+        vertices: (handle_count,) vertices as given, or None
+        places: (handle_count,), or None
+        points: (handle_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. A point can
+            lie inside the body, as a joint does: its nearest vertex counts
+        radii: (handle_count,) of the regions of places, in the unit of the mesh; None: regions are given. A radius
             below 1 % of the box makes regions of 2 vertices or more
         layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
         in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -2114,8 +2132,8 @@ class Pose(Recorded):
         Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError.
         """
         c = Call(self)
-        desc = _handles_desc(c, region_vertices=region_vertices, points=points, radii=radii, layer=layer,
-                in_place=in_place, free_rotation=free_rotation, progress=progress)
+        desc = _handles_desc(c, region_vertices=region_vertices, vertices=vertices, places=places, points=points,
+                radii=radii, layer=layer, in_place=in_place, free_rotation=free_rotation, progress=progress)
         handles = c.out(None, 'u4', ('handle_count',), packed=True)
         call('hf_pose_add_handles', self._handle, ref(desc), address(handles))
         return handles
@@ -2282,6 +2300,14 @@ class Pose(Recorded):
             desc.normals = c.view_out(normals, ('vertex_count', 3))
         call('hf_pose_deform', self._handle, ref(desc), c.info(info, _raw.hf_deform_info))
         return out
+
+    @property
+    def statistics(self) -> PoseStatistics:
+        """Writes the statistics of a pose."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_pose_statistics, {})
+        call('hf_pose_get_statistics', self._handle, ref(statistics))
+        return statistics
 
     def skin(self, influence_count: int = 0, *, scales: bool = False) -> SkinInfo:
         """Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were
@@ -2565,6 +2591,14 @@ class Region(Recorded):
         info = c.struct(_raw.hf_region_info, {})
         call('hf_region_get_info', self._handle, ref(info))
         return info
+
+    @property
+    def statistics(self) -> RegionStatistics:
+        """Writes the statistics of a region."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_region_statistics, {})
+        call('hf_region_get_statistics', self._handle, ref(statistics))
+        return statistics
 
     def vertices(self, list: int = RegionList.INSIDE) -> np.ndarray:
         """Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
@@ -2993,6 +3027,14 @@ class Transfer(Object):
         call('hf_transfer_get_info', self._handle, ref(info))
         return info
 
+    @property
+    def statistics(self) -> TransferStatistics:
+        """Writes the statistics of a transfer."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_transfer_statistics, {})
+        call('hf_transfer_get_statistics', self._handle, ref(statistics))
+        return statistics
+
     def set_dials(self, *, stride: float = 0.0, hip_height_share: float = 0.0, neck_follow: float = 0.0,
             tail_follow: float = 0.0, arm_space: float = 0.0, long_follow: float = 0.0) -> None:
         """Sets the dials of a transfer for the next frames.
@@ -3175,16 +3217,16 @@ class Weights(Recorded):
                 progress=progress)
         call('hf_weights_set_joints', self._handle, ref(desc))
 
-    def set_pins(self, vertices: Optional[ArrayLike] = None, *, triangles: Optional[ArrayLike] = None,
-            barycentrics: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
-            joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
-            progress: Optional[Progress] = None) -> None:
+    def set_pins(self, vertices: Optional[ArrayLike] = None, *, places: Optional[Sequence[PlaceLike]] = None,
+            points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None,
+            weights: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> None:
         """Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
         disc. Pins at the same places with other weights cost no path.
 
         vertices: (pin_count,) vertices as given, or None
-        triangles: (pin_count,) triangles as given, or None
-        barycentrics: (pin_count, 3) with triangles, else None: weights of the corners, >= 0, of sum 1 within 1e-6
+        places: (pin_count,), or None
+        points: (pin_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. Each stands for
+            the nearest point of the surface, up to two boxes away
         radii: (pin_count,) of the geodesic disc around the place, in the unit of the mesh; None or 0: the place alone
         joints: (pin_count, influence_count) joints
         weights: (pin_count, influence_count) >= 0, scaled to the sum 1
@@ -3194,8 +3236,8 @@ class Weights(Recorded):
         TooLargeError.
         """
         c = Call(self)
-        desc = _pins_desc(c, vertices=vertices, triangles=triangles, barycentrics=barycentrics, radii=radii,
-                joints=joints, weights=weights, progress=progress)
+        desc = _pins_desc(c, vertices=vertices, places=places, points=points, radii=radii, joints=joints,
+                weights=weights, progress=progress)
         call('hf_weights_set_pins', self._handle, ref(desc))
 
     def set_locks(self, joints: ArrayLike, values: Optional[ArrayLike] = None) -> None:
@@ -3255,6 +3297,14 @@ class Weights(Recorded):
         info = c.struct(_raw.hf_weights_info, {})
         call('hf_weights_get_info', self._handle, ref(info))
         return info
+
+    @property
+    def statistics(self) -> WeightsStatistics:
+        """Writes the statistics."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_weights_statistics, {})
+        call('hf_weights_get_statistics', self._handle, ref(statistics))
+        return statistics
 
     def helpers(self, names: Union[None, str, Sequence[str]] = None) -> np.ndarray:
         """Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and
@@ -3317,7 +3367,8 @@ class Weights(Recorded):
             partners: Optional[ArrayLike] = None, plane: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None,
             weights: Optional[ArrayLike] = None, *, to: int = MirrorTo.TO_NEGATIVE, distance: float = 0.0,
             angle: float = 0.0, influence_count: int = 0, progress: Optional[Progress] = None,
-            info: Optional[WeightsMirrorInfo] = None) -> Tuple[WeightsOut, np.ndarray, np.ndarray]:
+            info: Optional[WeightsMirrorInfo] = None,
+            statistics: Optional[WeightsMirrorStatistics] = None) -> Tuple[WeightsOut, np.ndarray, np.ndarray]:
         """Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the
         nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
         fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a
@@ -3335,6 +3386,7 @@ class Weights(Recorded):
         influence_count: joints of each vertex in the result: 4 or 8; 0: 4
         progress: an object to poll and cancel through
         info: filled in when given
+        statistics: filled in when given
 
         Raises CancelledError, EmptyError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
         TooSmallError, UnsupportedError.
@@ -3350,7 +3402,8 @@ class Weights(Recorded):
         def run(room: Any, made: Any) -> None:
             c.into(weights_, room, made)
             call('hf_weights_mirror', handle_of(surface, Surface, 'surface'), ref(desc), ref(weights_),
-                    address(partners_), address(pairings), c.info(info, _raw.hf_weights_mirror_info))
+                    address(partners_), address(pairings), c.info(info, _raw.hf_weights_mirror_info), c.info(statistics,
+                    _raw.hf_weights_mirror_statistics))
 
         found = c.grow(surface, 'hf_weights_mirror', run, lambda: {'vertex_capacity': weights_.vertex_count,
                 'vertex_count': weights_.vertex_count, 'influence_count': weights_.influence_count},
@@ -3365,12 +3418,13 @@ __all__ = [
     'CurveKind', 'DeformInfo', 'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod', 'Extremity',
     'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal',
     'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo', 'JointKind', 'Levels', 'Link',
-    'LinkMode', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo',
-    'Path', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh', 'Region',
-    'RegionInfo', 'RegionList', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion', 'Route',
-    'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo',
-    'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo', 'SurfacePoint',
-    'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode',
-    'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo', 'WeightsOrigin', 'WeightsOut',
+    'LinkMode', 'LinksInfo', 'MeshStatistics', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering',
+    'PairFlag', 'PairInfo', 'Path', 'Place', 'Pose', 'PoseInfo', 'PoseStatistics', 'PreviewInfo', 'Progress',
+    'Quads', 'QuadsInfo', 'QuadsMesh', 'Region', 'RegionInfo', 'RegionList', 'RegionStatistics', 'Retarget',
+    'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion', 'Route', 'ScaleFrom', 'Side', 'Singularity',
+    'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo', 'Solver', 'SolverInfo', 'SolverStatistics',
+    'Streamlines', 'Surface', 'SurfaceInfo', 'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials',
+    'TransferInfo', 'TransferMode', 'TransferStatistics', 'Transform', 'Weights', 'WeightsInfo',
+    'WeightsMirrorInfo', 'WeightsMirrorStatistics', 'WeightsOrigin', 'WeightsOut', 'WeightsStatistics',
     'WeightsTransferInfo', 'Weld'
 ]

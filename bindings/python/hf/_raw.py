@@ -503,23 +503,9 @@ class hf_surface_report(Struct):
     non_manifold_edge_count: int
     flipped_edge_count: int
     boundary_edge_count: int
-    negative_edge_count: int
-    reserved: int
-    smallest_angle: float
-    bounding_box_diagonal: float
-    changed_vertex_count: int
-    first_changed_vertex: int
-    piece_count: int
-    link_count: int
-    light_piece_count: int
-    lone_piece_count: int
-    longest_tree_link: float
-    face_count: int
-    polygon_count: int
-    non_planar_count: int
-    largest_face: int
     inside_out_count: int
     first_inside_out_vertex: int
+    bounding_box_diagonal: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -533,23 +519,53 @@ class hf_surface_report(Struct):
         ("non_manifold_edge_count", c_uint32),
         ("flipped_edge_count", c_uint32),
         ("boundary_edge_count", c_uint32),
-        ("negative_edge_count", c_uint32),
-        ("reserved", c_uint32),
-        ("smallest_angle", c_double),
+        ("inside_out_count", c_uint32),
+        ("first_inside_out_vertex", c_uint32),
         ("bounding_box_diagonal", c_double),
+    ]
+
+
+class hf_mesh_statistics(Struct):
+    """What a developer reads about a mesh"""
+    struct_size: int
+    polygon_count: int
+    non_planar_count: int
+    largest_face: int
+    negative_edge_count: int
+    changed_vertex_count: int
+    first_changed_vertex: int
+    reserved: int
+    smallest_angle: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("polygon_count", c_uint32),
+        ("non_planar_count", c_uint32),
+        ("largest_face", c_uint32),
+        ("negative_edge_count", c_uint32),
         ("changed_vertex_count", c_uint32),
         ("first_changed_vertex", c_uint32),
+        ("reserved", c_uint32),
+        ("smallest_angle", c_double),
+    ]
+
+
+class hf_links_info(Struct):
+    """How the pieces of a mesh are linked."""
+    struct_size: int
+    piece_count: int
+    link_count: int
+    light_piece_count: int
+    lone_piece_count: int
+    reserved: int
+    longest_tree_link: float
+    _fields_ = [
+        ("struct_size", c_uint32),
         ("piece_count", c_uint32),
         ("link_count", c_uint32),
         ("light_piece_count", c_uint32),
         ("lone_piece_count", c_uint32),
+        ("reserved", c_uint32),
         ("longest_tree_link", c_double),
-        ("face_count", c_uint32),
-        ("polygon_count", c_uint32),
-        ("non_planar_count", c_uint32),
-        ("largest_face", c_uint32),
-        ("inside_out_count", c_uint32),
-        ("first_inside_out_vertex", c_uint32),
     ]
 
 
@@ -609,6 +625,18 @@ class hf_surface_statistics(Struct):
     ]
 
 
+class hf_place(Struct):
+    """One place on a surface"""
+    corners: object
+    reserved: int
+    barycentrics: object
+    _fields_ = [
+        ("corners", c_uint32 * 3),
+        ("reserved", c_uint32),
+        ("barycentrics", c_double * 3),
+    ]
+
+
 class hf_pick_desc(Struct):
     """Options of picking"""
     struct_size: int
@@ -627,21 +655,17 @@ class hf_hit(Struct):
     found: int
     triangle: int
     vertex: int
-    barycentrics: object
+    place: object
     position: object
     distance: float
-    corners: object
-    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("found", c_int32),
         ("triangle", c_uint32),
         ("vertex", c_uint32),
-        ("barycentrics", c_double * 3),
+        ("place", hf_place),
         ("position", c_double * 3),
         ("distance", c_double),
-        ("corners", c_uint32 * 3),
-        ("reserved", c_uint32),
     ]
 
 
@@ -683,22 +707,20 @@ class hf_sites_desc(Struct):
     struct_size: int
     site_count: int
     vertices: int
-    triangles: int
-    barycentrics: int
+    places: int
+    points: int
     values: int
     stiffness: int
     radii: int
-    corners: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("site_count", c_uint32),
         ("vertices", c_void_p),
-        ("triangles", c_void_p),
-        ("barycentrics", c_void_p),
+        ("places", c_void_p),
+        ("points", c_void_p),
         ("values", c_void_p),
         ("stiffness", c_void_p),
         ("radii", c_void_p),
-        ("corners", c_void_p),
     ]
 
 
@@ -933,18 +955,6 @@ class hf_geodesics_desc(Struct):
     ]
 
 
-class hf_surface_point(Struct):
-    """A point of the surface in the form of hf_hit"""
-    corners: object
-    reserved: int
-    barycentrics: object
-    _fields_ = [
-        ("corners", c_uint32 * 3),
-        ("reserved", c_uint32),
-        ("barycentrics", c_double * 3),
-    ]
-
-
 class hf_path(Struct):
     """A path along the surface, from its first point to its last."""
     struct_size: int
@@ -1101,6 +1111,8 @@ class hf_handles_desc(Struct):
     handle_count: int
     region_counts: int
     region_vertices: int
+    vertices: int
+    places: int
     points: int
     radii: int
     layer: int
@@ -1113,6 +1125,8 @@ class hf_handles_desc(Struct):
         ("handle_count", c_uint32),
         ("region_counts", c_void_p),
         ("region_vertices", c_void_p),
+        ("vertices", c_void_p),
+        ("places", c_void_p),
         ("points", c_void_p),
         ("radii", c_void_p),
         ("layer", c_uint32),
@@ -1160,26 +1174,18 @@ class hf_handle_info(Struct):
 
 
 class hf_deform_info(Struct):
-    """Counts and times of a deform."""
+    """What a deform did."""
     struct_size: int
     iteration_count: int
-    cluster_count: int
     unreached_vertex_count: int
+    reserved: int
     last_change: float
-    solve_ms: float
-    blend_ms: float
-    normal_ms: float
-    refine_ms: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("iteration_count", c_uint32),
-        ("cluster_count", c_uint32),
         ("unreached_vertex_count", c_uint32),
+        ("reserved", c_uint32),
         ("last_change", c_double),
-        ("solve_ms", c_double),
-        ("blend_ms", c_double),
-        ("normal_ms", c_double),
-        ("refine_ms", c_double),
     ]
 
 
@@ -1206,6 +1212,24 @@ class hf_deform_desc(Struct):
         ("first_vertex", c_uint32),
         ("vertex_count", c_uint32),
         ("reserved", c_uint32),
+    ]
+
+
+class hf_pose_statistics(Struct):
+    """Size of a pose and times of its last deform, in milliseconds; 0 before the first."""
+    struct_size: int
+    cluster_count: int
+    solve_ms: float
+    blend_ms: float
+    normal_ms: float
+    refine_ms: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("cluster_count", c_uint32),
+        ("solve_ms", c_double),
+        ("blend_ms", c_double),
+        ("normal_ms", c_double),
+        ("refine_ms", c_double),
     ]
 
 
@@ -1421,22 +1445,20 @@ class hf_curve_desc(Struct):
     struct_size: int
     point_count: int
     vertices: int
-    triangles: int
-    barycentrics: int
+    places: int
+    points: int
     side: int
     seed_vertex: int
-    corners: int
     kind: int
     reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("point_count", c_uint32),
         ("vertices", c_void_p),
-        ("triangles", c_void_p),
-        ("barycentrics", c_void_p),
+        ("places", c_void_p),
+        ("points", c_void_p),
         ("side", c_int32),
         ("seed_vertex", c_uint32),
-        ("corners", c_void_p),
         ("kind", c_int32),
         ("reserved", c_uint32),
     ]
@@ -1465,19 +1487,13 @@ class hf_region_edit_desc(Struct):
 
 
 class hf_region_info(Struct):
-    """Counts and areas of a region and of its last edit."""
+    """Counts and areas of a region."""
     struct_size: int
     field_kind: int
     vertex_count: int
     rim_count: int
     site_count: int
-    inserted_count: int
-    removed_count: int
-    kept_count: int
-    factorisation_count: int
-    path_solve_count: int
-    last_route: int
-    whole_sweep: int
+    reserved: int
     area: float
     base_area: float
     _fields_ = [
@@ -1486,6 +1502,24 @@ class hf_region_info(Struct):
         ("vertex_count", c_uint32),
         ("rim_count", c_uint32),
         ("site_count", c_uint32),
+        ("reserved", c_uint32),
+        ("area", c_double),
+        ("base_area", c_double),
+    ]
+
+
+class hf_region_statistics(Struct):
+    """Work of the last edit of a region, and of all its edits."""
+    struct_size: int
+    inserted_count: int
+    removed_count: int
+    kept_count: int
+    factorisation_count: int
+    path_solve_count: int
+    last_route: int
+    whole_sweep: int
+    _fields_ = [
+        ("struct_size", c_uint32),
         ("inserted_count", c_uint32),
         ("removed_count", c_uint32),
         ("kept_count", c_uint32),
@@ -1493,8 +1527,6 @@ class hf_region_info(Struct):
         ("path_solve_count", c_uint32),
         ("last_route", c_uint32),
         ("whole_sweep", c_int32),
-        ("area", c_double),
-        ("base_area", c_double),
     ]
 
 
@@ -1818,8 +1850,6 @@ class hf_transfer_info(Struct):
     aligned_count: int
     crossed_count: int
     scale_found: int
-    source_factorisation_count: int
-    target_factorisation_count: int
     scale: float
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1828,9 +1858,19 @@ class hf_transfer_info(Struct):
         ("aligned_count", c_uint32),
         ("crossed_count", c_uint32),
         ("scale_found", c_int32),
+        ("scale", c_double),
+    ]
+
+
+class hf_transfer_statistics(Struct):
+    """Work of a transfer."""
+    struct_size: int
+    source_factorisation_count: int
+    target_factorisation_count: int
+    _fields_ = [
+        ("struct_size", c_uint32),
         ("source_factorisation_count", c_uint32),
         ("target_factorisation_count", c_uint32),
-        ("scale", c_double),
     ]
 
 
@@ -1905,8 +1945,8 @@ class hf_pins_desc(Struct):
     struct_size: int
     pin_count: int
     vertices: int
-    triangles: int
-    barycentrics: int
+    places: int
+    points: int
     radii: int
     influence_count: int
     reserved: int
@@ -1917,8 +1957,8 @@ class hf_pins_desc(Struct):
         ("struct_size", c_uint32),
         ("pin_count", c_uint32),
         ("vertices", c_void_p),
-        ("triangles", c_void_p),
-        ("barycentrics", c_void_p),
+        ("places", c_void_p),
+        ("points", c_void_p),
         ("radii", c_void_p),
         ("influence_count", c_uint32),
         ("reserved", c_uint32),
@@ -1963,17 +2003,6 @@ class hf_weights_info(Struct):
     nearest_count: int
     rigid_count: int
     isolated_count: int
-    nearest_piece_count: int
-    rigid_piece_count: int
-    blind: int
-    no_length_count: int
-    coincident_count: int
-    informs_none_count: int
-    outside_count: int
-    helper_count: int
-    factorisation_count: int
-    path_solve_count: int
-    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -1986,6 +2015,24 @@ class hf_weights_info(Struct):
         ("nearest_count", c_uint32),
         ("rigid_count", c_uint32),
         ("isolated_count", c_uint32),
+    ]
+
+
+class hf_weights_statistics(Struct):
+    """What a developer reads about weights"""
+    struct_size: int
+    nearest_piece_count: int
+    rigid_piece_count: int
+    blind: int
+    no_length_count: int
+    coincident_count: int
+    informs_none_count: int
+    outside_count: int
+    helper_count: int
+    factorisation_count: int
+    path_solve_count: int
+    _fields_ = [
+        ("struct_size", c_uint32),
         ("nearest_piece_count", c_uint32),
         ("rigid_piece_count", c_uint32),
         ("blind", c_int32),
@@ -1996,7 +2043,6 @@ class hf_weights_info(Struct):
         ("helper_count", c_uint32),
         ("factorisation_count", c_uint32),
         ("path_solve_count", c_uint32),
-        ("reserved", c_uint32),
     ]
 
 
@@ -2098,14 +2144,8 @@ class hf_weights_mirror_info(Struct):
     nearest_count: int
     rigid_count: int
     isolated_count: int
-    worst_joint: int
-    worst_vertex: int
     point: object
     normal: object
-    joint_off: float
-    worst_joint_off: float
-    vertex_off: float
-    worst_vertex_off: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -2121,10 +2161,26 @@ class hf_weights_mirror_info(Struct):
         ("nearest_count", c_uint32),
         ("rigid_count", c_uint32),
         ("isolated_count", c_uint32),
-        ("worst_joint", c_uint32),
-        ("worst_vertex", c_uint32),
         ("point", c_double * 3),
         ("normal", c_double * 3),
+    ]
+
+
+class hf_weights_mirror_statistics(Struct):
+    """How far a surface and its joints are from their reflections."""
+    struct_size: int
+    worst_joint: int
+    worst_vertex: int
+    reserved: int
+    joint_off: float
+    worst_joint_off: float
+    vertex_off: float
+    worst_vertex_off: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("worst_joint", c_uint32),
+        ("worst_vertex", c_uint32),
+        ("reserved", c_uint32),
         ("joint_off", c_double),
         ("worst_joint_off", c_double),
         ("vertex_off", c_double),
@@ -2132,7 +2188,7 @@ class hf_weights_mirror_info(Struct):
     ]
 
 
-STRUCTS = [hf_array, hf_array_out, hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_faces_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_surface_point, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info]
+STRUCTS = [hf_array, hf_array_out, hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_faces_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_mesh_statistics, hf_links_info, hf_gaps_info, hf_surface_statistics, hf_place, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_pose_statistics, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_statistics, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_statistics, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_weights_mirror_statistics]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -2148,7 +2204,9 @@ PROTOTYPES = {
     "hf_surface_destroy": (None, [c_void_p]),
     "hf_surface_get_info": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_get_report": (c_int32, [c_void_p, c_void_p]),
+    "hf_surface_get_mesh_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_get_components": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_surface_get_links_info": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_get_links": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_surface_get_pieces": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
     "hf_surface_measure_gaps": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
@@ -2219,6 +2277,7 @@ PROTOTYPES = {
     "hf_pose_get_field": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_pose_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_pose_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_propose_handles": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_quads_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
@@ -2234,6 +2293,7 @@ PROTOTYPES = {
     "hf_region_destroy": (None, [c_void_p]),
     "hf_region_edit": (c_int32, [c_void_p, c_void_p]),
     "hf_region_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_region_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_region_get_vertices": (c_int32, [c_void_p, c_int32, c_uint32, c_void_p, c_void_p]),
     "hf_region_get_curve": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_region_morph": (c_int32, [c_void_p, c_void_p]),
@@ -2262,6 +2322,7 @@ PROTOTYPES = {
     "hf_transfer_remove_pairs": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_transfer_get_pair": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_transfer_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_transfer_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_set_dials": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_get_dials": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_apply": (c_int32, [c_void_p, c_void_p]),
@@ -2276,9 +2337,10 @@ PROTOTYPES = {
     "hf_weights_get": (c_int32, [c_void_p, c_void_p]),
     "hf_weights_get_joints": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
     "hf_weights_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_weights_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_weights_get_helpers": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_weights_transfer": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
-    "hf_weights_mirror": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_weights_mirror": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
 }
 
 

@@ -109,6 +109,8 @@ impl<'a> Faces<'a> {
 }
 
 /// The mesh and the options of a surface. Set triangles or faces.
+///
+/// More than 16 fields: each limit and each hook is a choice of its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceOptions<'a> {
     /// `HF_WELD_*`
@@ -188,7 +190,8 @@ impl<'a> SurfaceOptions<'a> {
 }
 
 /// A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
-/// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of [`SurfaceOptions`].
+/// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of [`SurfaceOptions`]. More than 16
+/// fields: they mirror [`SurfaceOptions`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GraphOptions<'a> {
     /// `None`, or `[vertex_count]` of float or double: M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to
@@ -317,40 +320,37 @@ impl<'a> SolverOptions<'a> {
     }
 }
 
-/// Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the less
-/// influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius
-/// below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields
-/// the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
+/// Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site has.
+/// Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh spacing
+/// still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary vertices of
+/// a disc count towards site_limit; for bi-harmonic fields all its vertices do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sites<'a> {
     /// `[site_count]` vertices as given, or `None`
     pub vertices: Option<&'a [u32]>,
     /// `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
     pub values: Option<&'a [f64]>,
-    /// `[site_count]` triangles (or faces of three corners) as given, or `None`
-    pub triangles: Option<&'a [u32]>,
-    /// `[site_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
-    pub barycentrics: Option<&'a [f64]>,
+    /// `[site_count]`, or `None`
+    pub places: Option<&'a [raw::hf_place]>,
+    /// `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for the
+    /// nearest point of the surface, up to two boxes away
+    pub points: Option<&'a [f64]>,
     /// `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped to 1e-12 to
     /// 1e12
     pub stiffness: Option<&'a [f64]>,
     /// `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
     pub radii: Option<&'a [f64]>,
-    /// `[site_count x 3]` three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face of more
-    /// corners this places a site in a triangle of them
-    pub corners: Option<&'a [u32]>,
 }
 impl<'a> Sites<'a> {
     #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_sites_desc> {
         let mut desc = raw::hf_sites_desc { ..Default::default() };
         desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}site_count")])?;
-        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}site_count")])?;
-        desc.barycentrics = c.array(self.barycentrics, "barycentrics", &[&format!("{prefix}site_count"), "3"])?;
+        desc.places = c.array(self.places, "places", &[&format!("{prefix}site_count")])?;
+        desc.points = c.array(self.points, "points", &[&format!("{prefix}site_count"), "3"])?;
         desc.values = c.array(self.values, "values", &[&format!("{prefix}site_count"), "channel_count"])?;
         desc.stiffness = c.array(self.stiffness, "stiffness", &[&format!("{prefix}site_count")])?;
         desc.radii = c.array(self.radii, "radii", &[&format!("{prefix}site_count")])?;
-        desc.corners = c.array(self.corners, "corners", &[&format!("{prefix}site_count"), "3"])?;
         desc.site_count = c.count(&format!("{prefix}site_count"), 1)?;
         Ok(desc)
     }
@@ -522,13 +522,19 @@ impl PoseOptions {
     }
 }
 
-/// The handles to add. Give their regions as vertex lists one after the other, or as points with radii.
+/// The handles to add. Give their regions as vertex lists one after the other, or as places with radii: set
+/// region_vertices, vertices, places or points. The region of a place is its nearest vertex and what is edge-connected to
+/// it within the radius.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HandlesOptions<'a> {
-    /// `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to it
-    /// within the radius. `None`: regions are given
+    /// `[handle_count]` vertices as given, or `None`
+    pub vertices: Option<&'a [u32]>,
+    /// `[handle_count]`, or `None`
+    pub places: Option<&'a [raw::hf_place]>,
+    /// `[handle_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. A point can lie
+    /// inside the body, as a joint does: its nearest vertex counts
     pub points: Option<&'a [f64]>,
-    /// `[handle_count]` of the regions of points, in the unit of the mesh; `None`: regions are given. A radius below 1 %
+    /// `[handle_count]` of the regions of places, in the unit of the mesh; `None`: regions are given. A radius below 1 %
     /// of the box makes regions of 2 vertices or more
     pub radii: Option<&'a [f64]>,
     /// 0 to HF_LAYER_COUNT - 1, for the whole batch
@@ -559,6 +565,8 @@ impl<'a> HandlesOptions<'a> {
             free_rotation: i32::from(self.free_rotation), ..Default::default() };
         (desc.region_counts, desc.region_vertices) = c.lists(region_vertices, "region_vertices",
             &[&format!("{prefix}handle_count")])?;
+        desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}handle_count")])?;
+        desc.places = c.array(self.places, "places", &[&format!("{prefix}handle_count")])?;
         desc.points = c.array(self.points, "points", &[&format!("{prefix}handle_count"), "3"])?;
         desc.radii = c.array(self.radii, "radii", &[&format!("{prefix}handle_count")])?;
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
@@ -654,7 +662,8 @@ impl<'a> HandleProposalsOptions<'a> {
     }
 }
 
-/// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals.
+/// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals. More than 16
+/// fields: creases, guides and irregular vertices are lists with their counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QuadsOptions<'a> {
     /// `[crease_count x 2]` the two vertices of each edge, as given
@@ -755,20 +764,20 @@ impl<'a> RegionOptions<'a> {
     }
 }
 
-/// Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
-/// region, and any single vertex that these surround but for one edge. The rim is the vertices next to them, on or beyond
-/// the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the curve. A whole
-/// border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times.
+/// Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The vertices
+/// on its chosen side are the region, and any single vertex that these surround but for one edge. The rim is the vertices
+/// next to them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along edges the
+/// rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a vertex at
+/// most 8 times.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Curve<'a> {
     /// `[point_count]` vertices as given, or `None`
     pub vertices: Option<&'a [u32]>,
-    /// `[point_count]` triangles (or faces of three corners) as given, or `None`
-    pub triangles: Option<&'a [u32]>,
-    /// `[point_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
-    pub barycentrics: Option<&'a [f64]>,
-    /// `[point_count x 3]` three vertices of one face, as [`raw::hf_hit`] has them, or `None`
-    pub corners: Option<&'a [u32]>,
+    /// `[point_count]`, or `None`
+    pub places: Option<&'a [raw::hf_place]>,
+    /// `[point_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for the
+    /// nearest point of the surface, up to two boxes away
+    pub points: Option<&'a [f64]>,
     /// `HF_SIDE_*`
     pub side: i32,
     /// with [`raw::HF_SIDE_SEED`]
@@ -793,9 +802,8 @@ impl<'a> Curve<'a> {
         let mut desc = raw::hf_curve_desc { side: self.side, seed_vertex: self.seed_vertex, kind: self.kind,
             ..Default::default() };
         desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}point_count")])?;
-        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}point_count")])?;
-        desc.barycentrics = c.array(self.barycentrics, "barycentrics", &[&format!("{prefix}point_count"), "3"])?;
-        desc.corners = c.array(self.corners, "corners", &[&format!("{prefix}point_count"), "3"])?;
+        desc.places = c.array(self.places, "places", &[&format!("{prefix}point_count")])?;
+        desc.points = c.array(self.points, "points", &[&format!("{prefix}point_count"), "3"])?;
         desc.point_count = c.count(&format!("{prefix}point_count"), 0)?;
         Ok(desc)
     }
@@ -1193,14 +1201,14 @@ impl<'a> Joints<'a> {
     }
 }
 
-/// Places with given weights. Set vertices, or triangles with barycentrics. Give every vertex of a painted region to keep
-/// its weights.
+/// Places with given weights. Set vertices, places or points. Give every vertex of a painted region to keep its weights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pins<'a> {
-    /// `[pin_count]` triangles as given, or `None`
-    pub triangles: Option<&'a [u32]>,
-    /// `[pin_count x 3]` with triangles, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
-    pub barycentrics: Option<&'a [f64]>,
+    /// `[pin_count]`, or `None`
+    pub places: Option<&'a [raw::hf_place]>,
+    /// `[pin_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for the
+    /// nearest point of the surface, up to two boxes away
+    pub points: Option<&'a [f64]>,
     /// `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place alone
     pub radii: Option<&'a [f64]>,
     /// `[pin_count x influence_count]` joints
@@ -1215,8 +1223,8 @@ impl<'a> Pins<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str, vertices: Option<&[u32]>) -> Result<raw::hf_pins_desc> {
         let mut desc = raw::hf_pins_desc { ..Default::default() };
         desc.vertices = c.array(vertices, "vertices", &[&format!("{prefix}pin_count")])?;
-        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}pin_count")])?;
-        desc.barycentrics = c.array(self.barycentrics, "barycentrics", &[&format!("{prefix}pin_count"), "3"])?;
+        desc.places = c.array(self.places, "places", &[&format!("{prefix}pin_count")])?;
+        desc.points = c.array(self.points, "points", &[&format!("{prefix}pin_count"), "3"])?;
         desc.radii = c.array(self.radii, "radii", &[&format!("{prefix}pin_count")])?;
         desc.joints = c.array(self.joints, "joints", &[&format!("{prefix}pin_count"),
             &format!("{prefix}influence_count")])?;
@@ -1354,7 +1362,7 @@ pub struct Isolines {
 pub struct SitesInfo {
     /// `[capacity]` numbers
     pub sites: Vec<u32>,
-    /// `[capacity]` the vertex given, [`raw::HF_NO_INDEX`] for a point in a triangle
+    /// `[capacity]` the vertex of the place, [`raw::HF_NO_INDEX`] for a point in a triangle
     pub vertices: Vec<u32>,
     /// `[capacity]`
     pub components: Vec<u32>,
@@ -1546,10 +1554,10 @@ impl Surface {
     /// graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
     /// reports work as on a mesh. A call that needs triangles returns [`raw::HF_ERROR_UNSUPPORTED`]: poses, regions,
     /// directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
-    /// links, screening, and sites in triangles or on discs.
+    /// links, screening, and sites at places, at points or on discs.
     ///
     /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
-    /// median of their component are limited; [`raw::hf_surface_report`] counts their vertices as changed. Bi-harmonic
+    /// median of their component are limited; [`raw::hf_mesh_statistics`] counts their vertices as changed. Bi-harmonic
     /// fields limit weights to 1e3 times the median.
     ///
     /// edges: `[edge_count x 2]` of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are added
@@ -1604,6 +1612,16 @@ impl Surface {
         Ok(report)
     }
 
+    /// Writes the statistics of the mesh.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn mesh_statistics(&self) -> Result<raw::hf_mesh_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_mesh_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_get_mesh_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
+    }
+
     /// Writes the component of every vertex of your mesh, and [`raw::HF_NO_INDEX`] for isolated vertices. Components are
     /// numbered in the order of their lowest vertex numbers.
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -1624,6 +1642,16 @@ impl Surface {
         }
         components.truncate(c.product(&["capacity"]));
         Ok(components)
+    }
+
+    /// Writes how the pieces of a surface are linked.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn links_info(&self) -> Result<raw::hf_links_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_links_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_get_links_info(self.handle, &mut info) })?;
+        Ok(info)
     }
 
     /// Writes the links of a surface. You can edit them and give them back with [`raw::HF_LINK_LIST`]. A list does not
@@ -2052,14 +2080,12 @@ impl Solver {
     ///
     /// vertices: `[site_count]` vertices as given, or `None`
     /// values: `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
-    /// triangles: `[site_count]` triangles (or faces of three corners) as given, or `None`
-    /// barycentrics: `[site_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1
-    /// within 1e-6
+    /// places: `[site_count]`, or `None`
+    /// points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for
+    /// the nearest point of the surface, up to two boxes away
     /// stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped
     /// to 1e-12 to 1e12
     /// radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
-    /// corners: `[site_count x 3]` three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face
-    /// of more corners this places a site in a triangle of them
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
@@ -2111,14 +2137,12 @@ impl Solver {
     /// sites: `[site_count]`.
     /// vertices: `[site_count]` vertices as given, or `None`
     /// values: `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
-    /// triangles: `[site_count]` triangles (or faces of three corners) as given, or `None`
-    /// barycentrics: `[site_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1
-    /// within 1e-6
+    /// places: `[site_count]`, or `None`
+    /// points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for
+    /// the nearest point of the surface, up to two boxes away
     /// stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped
     /// to 1e-12 to 1e12
     /// radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
-    /// corners: `[site_count x 3]` three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face
-    /// of more corners this places a site in a triangle of them
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`],
@@ -2537,7 +2561,7 @@ impl Geodesics {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn find_path(&self, from: &raw::hf_surface_point, to: &raw::hf_surface_point) -> Result<Path> {
+    pub fn find_path(&self, from: &raw::hf_place, to: &raw::hf_place) -> Result<Path> {
         let mut c = Call::new(&self.counts);
         let mut path = raw::hf_path { ..Default::default() };
         let mut room = Room::new(&[("point_capacity", None)]);
@@ -2574,7 +2598,7 @@ impl Geodesics {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn map(&self, centre: &raw::hf_surface_point, radius: f64) -> Result<(Vec<f64>, Vec<f64>)> {
+    pub fn map(&self, centre: &raw::hf_place, radius: f64) -> Result<(Vec<f64>, Vec<f64>)> {
         let mut c = Call::new(&self.counts);
         let mut map = vec![f64::default(); c.product(&["vertex_count", "2"])];
         let mut frame = vec![f64::default(); c.product(&["6"])];
@@ -2872,10 +2896,12 @@ impl Pose {
     /// does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place
     /// for the higher layers.
     ///
-    /// region_vertices: lists of whole numbers: all regions one after the other; `None`: points are given
-    /// points: `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to
-    /// it within the radius. `None`: regions are given
-    /// radii: `[handle_count]` of the regions of points, in the unit of the mesh; `None`: regions are given. A radius
+    /// region_vertices: lists of whole numbers: all regions one after the other; `None`: places are given
+    /// vertices: `[handle_count]` vertices as given, or `None`
+    /// places: `[handle_count]`, or `None`
+    /// points: `[handle_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. A point can
+    /// lie inside the body, as a joint does: its nearest vertex counts
+    /// radii: `[handle_count]` of the regions of places, in the unit of the mesh; `None`: regions are given. A radius
     /// below 1 % of the box makes regions of 2 vertices or more
     /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
     /// in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -3116,6 +3142,16 @@ impl Pose {
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_deform(self.handle, &desc, &mut info) })?;
         Ok(info)
+    }
+
+    /// Writes the statistics of a pose.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_pose_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_pose_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
     }
 
     /// Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were
@@ -3499,6 +3535,16 @@ impl Region {
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_get_info(self.handle, &mut info) })?;
         Ok(info)
+    }
+
+    /// Writes the statistics of a region.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_region_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_region_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_region_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
     }
 
     /// Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
@@ -4053,6 +4099,16 @@ impl Transfer {
         Ok(info)
     }
 
+    /// Writes the statistics of a transfer.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_transfer_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_transfer_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
+    }
+
     /// Sets the dials of a transfer for the next frames.
     ///
     /// stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
@@ -4294,8 +4350,9 @@ impl Weights {
     /// disc. Pins at the same places with other weights cost no path.
     ///
     /// vertices: `[pin_count]` vertices as given, or `None`
-    /// triangles: `[pin_count]` triangles as given, or `None`
-    /// barycentrics: `[pin_count x 3]` with triangles, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
+    /// places: `[pin_count]`, or `None`
+    /// points: `[pin_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for
+    /// the nearest point of the surface, up to two boxes away
     /// radii: `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place alone
     /// joints: `[pin_count x influence_count]` joints
     /// weights: `[pin_count x influence_count]` >= 0, scaled to the sum 1
@@ -4402,6 +4459,16 @@ impl Weights {
         Ok(info)
     }
 
+    /// Writes the statistics.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_weights_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_weights_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_weights_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
+    }
+
     /// Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and sets
     /// deforms to 0.
     ///
@@ -4498,16 +4565,18 @@ impl Weights {
     /// influence_count: joints of each vertex in the result: 4 or 8; 0: 4
     /// progress: an object to poll and cancel through
     /// info: filled in when given
+    /// statistics: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_TOO_SMALL`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn mirror(surface: &Surface, options: &WeightsMirrorOptions) -> Result<(WeightsOut, Vec<u32>, Vec<u32>,
-            raw::hf_weights_mirror_info)> {
+            raw::hf_weights_mirror_info, raw::hf_weights_mirror_statistics)> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
         let mut info = raw::hf_weights_mirror_info::default();
+        let mut statistics = raw::hf_weights_mirror_statistics::default();
         let desc = options.fill(&mut c, "")?;
         let mut weights_ = raw::hf_weights_out { ..Default::default() };
         let mut partners_ = vec![u32::default(); c.product(&["joint_count"])];
@@ -4528,7 +4597,7 @@ impl Weights {
             weights_.origins = room.at(&mut all_origins);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_weights_mirror(surface.handle, &desc, &mut weights_, partners_.as_mut_ptr(),
-                pairings.as_mut_ptr(), &mut info) };
+                pairings.as_mut_ptr(), &mut info, &mut statistics) };
             if room.enough(&mut c, code, &[("vertex_capacity", weights_.vertex_count), ("vertex_count",
                 weights_.vertex_count), ("influence_count", weights_.influence_count)])? {
                 break;
@@ -4538,7 +4607,7 @@ impl Weights {
         all_weights.truncate(c.product(&["vertex_capacity", "influence_count"]));
         all_origins.truncate(c.product(&["vertex_capacity"]));
         Ok((WeightsOut { influence_count: weights_.influence_count, joints: all_joints, weights: all_weights,
-            origins: all_origins }, partners_, pairings, info))
+            origins: all_origins }, partners_, pairings, info, statistics))
     }
 
     /// Vertices of the surface, as given.
