@@ -305,6 +305,12 @@ static void surfaces_of_graphs_do_all_else(void** state) {
   assert_int_equal(info.weld, HF_WELD_NONE);
   assert_true(info.vertex_count == VERTICES && info.edge_count == EDGES && info.triangle_count == 0);
   assert_ok(hf_surface_get_report(graph, &report));
+  hf_mesh_statistics mesh = HF_INIT(hf_mesh_statistics);
+  hf_links_info links = HF_INIT(hf_links_info);
+  assert_ok(hf_surface_get_mesh_statistics(graph, &mesh));
+  assert_ok(hf_surface_get_links_info(graph, &links));
+  assert_int_equal(mesh.polygon_count + mesh.negative_edge_count + mesh.changed_vertex_count, 0);
+  assert_int_equal(links.link_count, 0);
   assert_true(report.component_count == 2 && report.isolated_vertex_count == 1 && report.triangle_count == 0);
   assert_true(report.welded_vertex_count == VERTICES && report.boundary_edge_count == 0);
   assert_ok(hf_surface_get_components(graph, VERTICES, components, &count));

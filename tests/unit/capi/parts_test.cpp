@@ -70,13 +70,13 @@ Posed pose_of(const Scene& scene, bool with, const std::vector<std::uint32_t>& t
   frame.positions = ROWS_OUT(out.positions.data());
   hf_deform_info info = HF_INIT(hf_deform_info);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(hf_pose_deform(pose, &frame, &info), HF_OK);
-  hf_links_info links = HF_INIT(hf_links_info);
-  EXPECT_EQ(hf_surface_get_links_info(surface, &links), HF_OK);
+  hf_links_info joined = HF_INIT(hf_links_info);
+  EXPECT_EQ(hf_surface_get_links_info(surface, &joined), HF_OK);
   out.unreached = info.unreached_vertex_count;
   hf_surface_report counts = HF_INIT(hf_surface_report);
   EXPECT_EQ(hf_surface_get_report(surface, &counts), HF_OK);
-  out.pieces = links.piece_count;
-  out.light = links.light_piece_count;
+  out.pieces = joined.piece_count;
+  out.light = joined.light_piece_count;
   out.groups = counts.component_count;
   hf_pose_destroy(pose);
   hf_surface_destroy(surface);
