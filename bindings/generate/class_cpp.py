@@ -279,7 +279,7 @@ class Writer(class_rust.Writer):
         struct = a.struct or next((self.structs[p["type"]] for p in plan.method.whole if a.item in self.structs[p["type"]].given), None)
         name = safe(a.name)
         if a.role == "place":
-            return f"const hf_surface_point& {name}"
+            return f"const hf_place& {name}"
         if a.role == "fill":
             return f"std::vector<{a.item['type']}>* {name} = nullptr"
         if a.role == "info":

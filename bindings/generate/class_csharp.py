@@ -430,16 +430,19 @@ class Writer:
     def info_class(self, name):
         """A struct that the library fills: fields, and for plain ones a way back."""
         struct = self.structs[name].struct
-        fields = [f for f in struct["fields"] if f["role"] in ("scalar", "enum", "flag", "fixed", "count", "string") and f["name"] != "found"]
+        fields = [f for f in struct["fields"] if f["role"] in ("scalar", "enum", "flag", "fixed", "count", "string", "value") and f["name"] != "found"]
         plain = struct["used"] == "plain"
-        out = ["", *(self.doc(struct["doc"], 4) if struct["doc"] else []), f"    public sealed unsafe class {cs(name)}", "    {"]
+        out = ["", *(self.doc(struct["doc"], 4) if struct["doc"] else []), f"    public sealed unsafe partial class {cs(name)}", "    {"]
         into, back = [], []
         for f in fields:
-            hint = {"enum": camel(f["enum"]) if f["enum"] else "int", "flag": "bool", "fixed": TYPES[f["type"]] + "[]"}.get(f["role"], TYPES[f["type"]])
+            hint = {"enum": camel(f["enum"]) if f["enum"] else "int", "flag": "bool", "fixed": TYPES.get(f["type"], "") + "[]", "value": cs(f["type"])}.get(f["role"]) or TYPES[f["type"]]
             out += self.doc(re.sub(r"^out[:;]?\s*", "", f["doc"]), 8) if f["doc"] else []
             out.append(f"        public {hint} {upper(f['name'])}{' = new ' + TYPES[f['type']] + '[' + str(f['count']) + ']' if f['role'] == 'fixed' else ''};")
             source = f"raw->{raw_safe(f['name'])}"
-            if f["role"] == "fixed":
+            if f["role"] == "value":
+                into.append(f"{upper(f['name'])} = new {cs(f['type'])}(&{source});")
+                back.append(f"{upper(f['name'])}.Write(&{source});")
+            elif f["role"] == "fixed":
                 into.append(f"for (int i = 0; i < {f['count']}; ++i) {upper(f['name'])}[i] = {source}[i];")
                 back.append(f'Call.Fill({upper(f["name"])}, "{upper(f["name"])}", {f["count"]}, {source});')
             else:

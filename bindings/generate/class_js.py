@@ -4,7 +4,7 @@ arrays to memory and counts, room for arrays that grow."""
 import re
 
 from model import named, symbols
-from plan import FIRST, camel, classes, counts_of, dims_used, recorded
+from plan import FIRST, PLACE, camel, classes, counts_of, dims_used, recorded
 from steps import Planner, desc_steps, field_steps, least
 from types_js import ARRAYS, KINDS, Types, js
 from words import Words, fold, wrapped
@@ -48,7 +48,7 @@ class Steps:
         if kind in ("self", "null", "stride"):
             return {"self": "this._handle", "null": "null", "stride": "0"}[kind]
         return {"number": name, "handle": f"handleOf({name}, {camel(rest[-1])}, '{name}')" if kind == "handle" else "",
-                "place": f"c.place('{rest[-1]}', {name}, '{name}')" if kind == "place" else "", "ref": name,
+                "place": f"c.place({name}, '{name}')" if kind == "place" else "", "ref": name,
                 "ref_if": f"{js(rest[-1])} === null || {js(rest[-1])} === undefined ? null : {name}" if kind == "ref_if" else "", "var": name,
                 "text": f"c.text({name}, '{name}')", "figure": f"written({name})", "address": f"written({name})",
                 "count": f"(c.n.{rest[0] if rest else ''} ??= 1)", "info": name, "room": f"room.{rest[0] if rest else ''}",
@@ -106,6 +106,8 @@ class Steps:
 
     def field_written(self, var, field):
         name = js(field["name"])
+        if field["type"] == PLACE:
+            return [f"{var}.set('{field['name']}', c.places('{name}', {name}, {self.dims(field['dims'])}));"]
         return [f"{var}.set('{field['name']}', c.written('{name}', {name}, '{field['type']}', {self.dims(field['dims'])}));"]
 
     def field_blob(self, var, field, count):

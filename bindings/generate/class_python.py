@@ -7,7 +7,7 @@ import textwrap
 from errors_python import block, error_name, errors
 from layer_python import TYPES as CTYPES
 from model import named, symbols
-from plan import camel, classes, counts_of, dims_used, recorded
+from plan import PLACE, camel, classes, counts_of, dims_used, recorded
 from steps import Planner, desc_steps, field_steps, least
 from words import Words, class_words, fold, method_words
 
@@ -17,7 +17,7 @@ RESERVED = {"from", "in", "is", "not", "and", "or", "with", "as", "def", "class"
             "global", "import", "raise", "try", "while", "for", "if", "else", "del", "self", "c", "run", "call"}
 HINTS = {"array": "Optional[ArrayLike]", "lists": "Optional[Sequence[ArrayLike]]", "fixed": "Optional[ArrayLike]", "desc": "Any",
          "text": "Union[None, str, Sequence[str]]", "blob": "Optional[bytes]", "out": "Optional[np.ndarray]", "type": "Any",
-         "fill": "Optional[np.ndarray]", "place": "Place", "request": "bool"}
+         "fill": "Optional[np.ndarray]", "place": "PlaceLike", "request": "bool"}
 
 
 def safe(name):
@@ -64,7 +64,7 @@ class Steps:
             name, item = rest
             return f"number({safe(name)}, '{name}', ctypes.{CTYPES[item['type']]}{', flag=False' if item['role'] == 'enum' else ''})"
         return {"self": "self._handle", "null": "None", "stride": "stride"}.get(kind) or {
-            "handle": "handle_of({0}, {1}, '{2}')", "place": "ref(place(_raw.{type}, {0}))", "ref": "ref({0})", "ref_if": "None if {1} is None else ref({0})",
+            "handle": "handle_of({0}, {1}, '{2}')", "place": "ref(place({0}, '{raw}'))", "ref": "ref({0})", "ref_if": "None if {1} is None else ref({0})",
             "var": "{0}", "text": "c.text({0})", "figure": "ref({0})", "address": "address({0})", "count": "c.n.setdefault('{raw}', 1)",
             "info": "c.info({0}, _raw.{type})", "room": "room['{raw}']", "grown": "address(made['{raw}'])", "literal": "{raw}",
             "size_of": "{0}.size"}[kind].format(safe(rest[0]), camel(rest[1]) if kind == "handle" else rest[1] if len(rest) > 1 else "", rest[0],
@@ -120,6 +120,8 @@ class Steps:
         return [f"c.ragged({var}, '{counts['name']}', '{field['name']}', {safe(field['name'])}, {self.dims(counts['dims'])[1:-1].rstrip(',')})"]
 
     def field_written(self, var, field):
+        if field["type"] == PLACE:
+            return [f"{var}.{field['name']} = c.places('{field['name']}', {safe(field['name'])}, {self.dims(field['dims'])})"]
         return [f"{var}.{field['name']} = c.written('{field['name']}', {safe(field['name'])}, _raw.{field['type']}, {self.dims(field['dims'])})"]
 
     def field_blob(self, var, field, count):
@@ -215,7 +217,7 @@ class Writer:
         elif a.role == "info":
             hint, default = f"Optional[{camel(a.item['type'])}]", "None"
         else:
-            hint = HINTS.get(a.role) or self.hint(a.item)
+            hint = "Optional[Sequence[PlaceLike]]" if a.role == "array" and a.item["type"] == PLACE else HINTS.get(a.role) or self.hint(a.item)
             default = {"type": "np.float32", "request": "False"}.get(a.role, "None" if a.role in HINTS else self.zero(a.item))
         if a.required:
             hint = hint.replace("Optional[ArrayLike]", "ArrayLike")
@@ -365,7 +367,7 @@ class Writer:
                 "# fmt: off", "", "from __future__ import annotations", "", "import ctypes", "from enum import IntEnum, IntFlag",
                 "from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union", "", "import numpy as np", "",
                 "from . import _raw", "from ._library import ArrayLike, Call, Object, Recorded, address, call, handle_of, library, number, place, ref",
-                "from ._library import Place"]
+                "from ._library import PlaceLike"]
         text = head + self.aliases() + self.enums() + self.result_classes() + fillers + bodies
         repeated = sorted({n for n in self.names if self.names.count(n) > 1})
         if repeated:

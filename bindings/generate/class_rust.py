@@ -328,7 +328,7 @@ class Writer:
     def argument(self, a, plan):
         struct = a.struct or next((self.structs[p["type"]] for p in plan.method.whole if a.item in self.structs[p["type"]].given), None)
         if a.role == "place":
-            return f"{safe(a.name)}: &raw::hf_surface_point"
+            return f"{safe(a.name)}: &raw::hf_place"
         if a.role == "fill":
             return f"{safe(a.name)}: Option<&mut [{TYPES[a.item['type']]}]>"
         if a.role == "request":

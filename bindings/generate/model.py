@@ -5,7 +5,7 @@ derive(api) adds them to the description; every layer reads the same. Roles:
   array             numbers or plain structs, `dims` rows by columns; string and bytes likewise
   count             how long an array is: a layer takes it from the array
   capacity, stride  of the caller's arrays
-  handle, struct, callback, enum, flag, scalar, fixed (double[3])
+  handle, struct, callback, enum, flag, scalar, fixed (double[3]), value (a plain struct inside another)
 """
 
 import re
@@ -36,7 +36,7 @@ def role_of(api, item, struct=None):
     if handle:
         return "handle"
     if inner and (item["dims"] or not item["pointer"]):
-        return "array" if item["pointer"] else "callback" if any(f["role"] == "callback" for f in inner["fields"]) else "struct"
+        return "array" if item["pointer"] else "callback" if any(f["role"] == "callback" for f in inner["fields"]) else "value"
     if inner:
         return "struct"
     if item["type"] == "char" and item["pointer"]:

@@ -18,6 +18,8 @@ FIRST = {"hf_surface_desc": ("positions", "triangles"), "hf_skeleton_desc": ("na
 # functions that no class holds: the layers use them for errors and versions
 LOOSE = ("hf_error_get_detail", "hf_result_get_name", "hf_version_get")
 
+PLACE = "hf_place"  # one place: languages take a vertex, a hit, or corners with weights for it
+
 LENT = ("borrow",)  # memory of the caller that outlives the call: no language of owned arrays can promise it
 
 

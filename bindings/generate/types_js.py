@@ -3,7 +3,7 @@
 import re
 
 from model import named
-from plan import camel, recorded
+from plan import PLACE, camel, recorded
 from steps import Planner
 from words import class_words, fold, method_words
 
@@ -24,12 +24,16 @@ class Types:
     def hint(self, a):
         if a.role == "handle":
             return camel(a.item["type"]) + ("" if a.required else " | null")
+        if a.role == "array" and a.item["type"] == PLACE:
+            return "readonly PlaceGiven[] | null"
         return {"array": "Rows | null" if not a.required else "Rows", "lists": "ReadonlyArray<Numbers> | null", "fixed": "Rows | null", "text": "string | readonly string[] | null",
-                "blob": "Uint8Array | null", "place": "Place", "type": "FloatsType", "request": "boolean", "flag": "boolean | number"}.get(a.role) or (
+                "blob": "Uint8Array | null", "place": "PlaceGiven", "type": "FloatsType", "request": "boolean", "flag": "boolean | number"}.get(a.role) or (
                     "T | null" if a.role == "out" and self.both else ARRAYS[KINDS[a.item["type"]]] + " | null" if a.role in ("out", "fill") else
                     f"{camel(a.item['type'])}Given | Rows | null" if a.role == "desc" else "number")
 
     def field_hint(self, f):
+        if f["role"] == "value":
+            return camel(f["type"])
         if f["role"] == "array":
             return ARRAYS[KINDS[f["type"]]]
         return "number[]" if f["role"] == "fixed" else "string" if f["role"] == "string" else "number"
@@ -124,8 +128,8 @@ export class HfError extends Error {
   functionName: string;
 }
 
-/** A vertex, or three corners of a triangle and their weights, such as a hit. */
-export type Place = number | { corners: Numbers; barycentrics: Numbers };
+/** A vertex, a hit, or three corners of a triangle and their weights. */
+export type PlaceGiven = number | { corners: Numbers; barycentrics: Numbers } | { place: Place };
 
 export interface Handle {
   readonly closed: boolean;

@@ -68,10 +68,10 @@ def bad_scenes():
     for wrong in ({"values": [1.0, 2.0]}, {"values": []}, {"values": [1.0], "stiffness": [1.0, 1.0]},
         {"values": [1.0], "radii": [1.0, 2.0]}):
         bad("INVALID_ARGUMENT", do="add_sites", vertices=[0], **wrong, **on)  # lengths that do not match
-    bad("OUT_OF_RANGE", do="add_sites", triangles=[4], barycentrics=[0.2, 0.3, 0.5], values=[1.0], **on)
-    bad("INVALID_ARGUMENT", do="add_sites", triangles=[0], barycentrics=[0.2, 0.3, 0.9], values=[1.0], **on)
-    bad("INVALID_ARGUMENT", do="add_sites", triangles=[0], barycentrics=[0.2, -0.2, 1.0], values=[1.0], **on)
-    bad("NON_FINITE", do="add_sites", triangles=[0], barycentrics=["nan", 0.5, 0.5], values=[1.0], **on)
+    bad("OUT_OF_RANGE", do="add_sites", places=[7, 2, 1, 0.2, 0.3, 0.5], values=[1.0], **on)
+    bad("INVALID_ARGUMENT", do="add_sites", places=[0, 2, 1, 0.2, 0.3, 0.9], values=[1.0], **on)
+    bad("INVALID_ARGUMENT", do="add_sites", places=[0, 2, 1, 0.2, -0.2, 1.0], values=[1.0], **on)
+    bad("NON_FINITE", do="add_sites", places=[0, 2, 1, "nan", 0.5, 0.5], values=[1.0], **on)
     bad("DUPLICATE", do="add_sites", vertices=[1, 1], values=[1.0, 1.0], **on)
     bad("CONFLICT", do="add_sites", vertices=[1, 1], values=[1.0, 2.0], **on)
     bad("OUT_OF_RANGE", do="add_site", vertex=7, value=1.0, **on)

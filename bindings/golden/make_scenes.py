@@ -116,7 +116,7 @@ def scenes(meshes):
     weights = [[0.2, 0.3, 0.5], [0.5, 0.25, 0.25]]
     rows = [dict(zip(t0, weights[0])), dict(zip(t1, weights[1])), 60, 230]
     scene("soft_inside", "Sites inside triangles and soft sites on vertices (oracle).", surface("torus"), solver(),
-          {"do": "add_sites", "on": "s", "triangles": [10, 300], "barycentrics": weights[0] + weights[1],
+          {"do": "add_sites", "on": "s", "places": [*t0, *weights[0], *t1, *weights[1]],
               "values": [1.0, -1.0]},
           sites([60, 230], [0.5, 2.0], stiffness=[2.0, 100.0]), solve(field(mesh, rows, [1, -1, 0.5, 2],
               [0, 0, 2, 100])))

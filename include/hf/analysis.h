@@ -156,13 +156,6 @@ HF_API hf_result hf_geodesics_solve(hf_geodesics geodesics, uint32_t source_coun
 HF_API hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, const uint32_t* sources,
                                         double* out_distances, uint32_t value_stride);
 
-/* A point of the surface in the form of hf_hit: three corners of a triangle and their weights. */
-typedef struct hf_surface_point {
-  uint32_t corners[3];    /* as given; a corner of barycentric 0 is ignored and can be HF_NO_INDEX */
-  uint32_t reserved;      /* 0 */
-  double barycentrics[3]; /* >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
-} hf_surface_point;
-
 /* A path along the surface, from its first point to its last. Each point lies on a mesh edge with the end vertices a
  * and b, at the position (1 - parameter) a + parameter b; at a vertex a is b. An end inside a triangle has HF_NO_INDEX
  * for both. The arrays are yours: each is NULL or as large as the capacity. */
@@ -184,8 +177,8 @@ typedef struct hf_path {
  * HF_ERROR_INVALID_ARGUMENT (isolated vertex, barycentrics, corners of no triangle), HF_ERROR_NON_FINITE, each with
  * index 0 for `from` and 1 for `to`; HF_ERROR_TOO_SMALL (point_capacity; the counts are written), HF_ERROR_TOO_LARGE
  * (as EXACT of hf_geodesics_solve), HF_ERROR_CANCELLED. Thread safety: as hf_geodesics_solve. Since 0.1. */
-HF_API hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_surface_point* from,
-                                        const hf_surface_point* to, hf_path* inout_path);
+HF_API hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_place* from, const hf_place* to,
+                                        hf_path* inout_path);
 
 /* Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each vertex gets
  * the length of its shortest path from the point, in the direction in which that path leaves the point. out_map:
@@ -195,8 +188,8 @@ HF_API hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_surface
  * consistently oriented mesh, the second axis is to the left of the first. The map is exact up to rounding, and tears
  * where two shortest paths meet. Errors: as hf_geodesics_find_path, with index 0; HF_ERROR_INVALID_ARGUMENT (radius).
  * Thread safety: as hf_geodesics_solve. Since 0.1. */
-HF_API hf_result hf_geodesics_get_map(hf_geodesics geodesics, const hf_surface_point* centre, double radius,
-                                      double* out_map, double* out_frame);
+HF_API hf_result hf_geodesics_get_map(hf_geodesics geodesics, const hf_place* centre, double radius, double* out_map,
+                                      double* out_frame);
 
 /* ---- extremities ---- */
 

@@ -184,27 +184,25 @@ struct SolverOptions {
   hf_solver_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the less
-// influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A
-// radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic
-// fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
+// Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site has.
+// Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh spacing
+// still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary vertices
+// of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
 struct Sites {
   // `[site_count]` vertices as given, or none
   std::vector<uint32_t> vertices{};
   // `[site_count x channel_count]`, up to 1e200 in size; none = 0
   std::vector<double> values{};
-  // `[site_count]` triangles (or faces of three corners) as given, or none
-  std::vector<uint32_t> triangles{};
-  // `[site_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1 within 1e-6
-  std::vector<double> barycentrics{};
+  // `[site_count]`, or none
+  std::vector<hf_place> places{};
+  // `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for the
+  // nearest point of the surface, up to two boxes away
+  std::vector<double> points{};
   // `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to 1e-12 to
   // 1e12
   std::vector<double> stiffness{};
   // `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
   std::vector<double> radii{};
-  // `[site_count x 3]` three vertices as given, of one face, or none: hf_hit has them. In a face of more corners this
-  // places a site in a triangle of them
-  std::vector<uint32_t> corners{};
   hf_sites_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
@@ -274,12 +272,18 @@ struct PoseOptions {
   hf_pose_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// The handles to add. Give their regions as vertex lists one after the other, or as points with radii.
+// The handles to add. Give their regions as vertex lists one after the other, or as places with radii: set
+// region_vertices, vertices, places or points. The region of a place is its nearest vertex and what is edge-connected
+// to it within the radius.
 struct HandlesOptions {
-  // `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to it within
-  // the radius. none: regions are given
+  // `[handle_count]` vertices as given, or none
+  std::vector<uint32_t> vertices{};
+  // `[handle_count]`, or none
+  std::vector<hf_place> places{};
+  // `[handle_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. A point can lie inside
+  // the body, as a joint does: its nearest vertex counts
   std::vector<double> points{};
-  // `[handle_count]` of the regions of points, in the unit of the mesh; none: regions are given. A radius below 1 % of
+  // `[handle_count]` of the regions of places, in the unit of the mesh; none: regions are given. A radius below 1 % of
   // the box makes regions of 2 vertices or more
   std::vector<double> radii{};
   // 0 to HF_LAYER_COUNT - 1, for the whole batch
@@ -380,19 +384,19 @@ struct RegionOptions {
   hf_region_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
-// region, and any single vertex that these surround but for one edge. The rim is the vertices next to them, on or
-// beyond the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the curve. A
-// whole border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times.
+// Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The vertices
+// on its chosen side are the region, and any single vertex that these surround but for one edge. The rim is the
+// vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along
+// edges the rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a
+// vertex at most 8 times.
 struct Curve {
   // `[point_count]` vertices as given, or none
   std::vector<uint32_t> vertices{};
-  // `[point_count]` triangles (or faces of three corners) as given, or none
-  std::vector<uint32_t> triangles{};
-  // `[point_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1 within 1e-6
-  std::vector<double> barycentrics{};
-  // `[point_count x 3]` three vertices of one face, as hf_hit has them, or none
-  std::vector<uint32_t> corners{};
+  // `[point_count]`, or none
+  std::vector<hf_place> places{};
+  // `[point_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for the
+  // nearest point of the surface, up to two boxes away
+  std::vector<double> points{};
   // HF_SIDE_*
   int32_t side = 0;
   // with HF_SIDE_SEED
@@ -587,13 +591,13 @@ struct Joints {
   hf_joints_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Places with given weights. Set vertices, or triangles with barycentrics. Give every vertex of a painted region to
-// keep its weights.
+// Places with given weights. Set vertices, places or points. Give every vertex of a painted region to keep its weights.
 struct Pins {
-  // `[pin_count]` triangles as given, or none
-  std::vector<uint32_t> triangles{};
-  // `[pin_count x 3]` with triangles, else none: weights of the corners, >= 0, of sum 1 within 1e-6
-  std::vector<double> barycentrics{};
+  // `[pin_count]`, or none
+  std::vector<hf_place> places{};
+  // `[pin_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for the nearest
+  // point of the surface, up to two boxes away
+  std::vector<double> points{};
   // `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; none or 0: the place alone
   std::vector<double> radii{};
   // `[pin_count x influence_count]` joints
@@ -1297,14 +1301,12 @@ class Solver {
   //
   // vertices: `[site_count]` vertices as given, or none
   // values: `[site_count x channel_count]`, up to 1e200 in size; none = 0
-  // triangles: `[site_count]` triangles (or faces of three corners) as given, or none
-  // barycentrics: `[site_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1
-  // within 1e-6
+  // places: `[site_count]`, or none
+  // points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for
+  // the nearest point of the surface, up to two boxes away
   // stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to
   // 1e-12 to 1e12
   // radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
-  // corners: `[site_count x 3]` three vertices as given, of one face, or none: hf_hit has them. In a face of more
-  // corners this places a site in a triangle of them
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -1347,14 +1349,12 @@ class Solver {
   // sites: `[site_count]`.
   // vertices: `[site_count]` vertices as given, or none
   // values: `[site_count x channel_count]`, up to 1e200 in size; none = 0
-  // triangles: `[site_count]` triangles (or faces of three corners) as given, or none
-  // barycentrics: `[site_count x 3]` with triangles or corners, else none: weights of the corners, >= 0, of sum 1
-  // within 1e-6
+  // places: `[site_count]`, or none
+  // points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for
+  // the nearest point of the surface, up to two boxes away
   // stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to
   // 1e-12 to 1e12
   // radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
-  // corners: `[site_count x 3]` three vertices as given, of one face, or none: hf_hit has them. In a face of more
-  // corners this places a site in a triangle of them
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -1778,7 +1778,7 @@ class Geodesics {
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
   // HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
-  Path find_path(const hf_surface_point& from, const hf_surface_point& to) const {
+  Path find_path(const hf_place& from, const hf_place& to) const {
     Call c(counts_);
     auto path = make<hf_path>();
     Room room({{"point_capacity", -1}});
@@ -1808,7 +1808,7 @@ class Geodesics {
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
   // HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
-  std::tuple<std::vector<double>, std::vector<double>> map(const hf_surface_point& centre, double radius = 0) const {
+  std::tuple<std::vector<double>, std::vector<double>> map(const hf_place& centre, double radius = 0) const {
     Call c(counts_);
     std::vector<double> map(c.product({"vertex_count", "2"}));
     std::vector<double> frame(c.product({"6"}));
@@ -2098,10 +2098,12 @@ class Pose {
   // only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower
   // layers hold the surface in place for the higher layers.
   //
-  // region_vertices: lists of whole numbers: all regions one after the other; none: points are given
-  // points: `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to
-  // it within the radius. none: regions are given
-  // radii: `[handle_count]` of the regions of points, in the unit of the mesh; none: regions are given. A radius below
+  // region_vertices: lists of whole numbers: all regions one after the other; none: places are given
+  // vertices: `[handle_count]` vertices as given, or none
+  // places: `[handle_count]`, or none
+  // points: `[handle_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. A point can lie
+  // inside the body, as a joint does: its nearest vertex counts
+  // radii: `[handle_count]` of the regions of places, in the unit of the mesh; none: regions are given. A radius below
   // 1 % of the box makes regions of 2 vertices or more
   // layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
   // in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -3485,8 +3487,9 @@ class Weights {
   // Pins at the same places with other weights cost no path.
   //
   // vertices: `[pin_count]` vertices as given, or none
-  // triangles: `[pin_count]` triangles as given, or none
-  // barycentrics: `[pin_count x 3]` with triangles, else none: weights of the corners, >= 0, of sum 1 within 1e-6
+  // places: `[pin_count]`, or none
+  // points: `[pin_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for the
+  // nearest point of the surface, up to two boxes away
   // radii: `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; none or 0: the place alone
   // joints: `[pin_count x influence_count]` joints
   // weights: `[pin_count x influence_count]` >= 0, scaled to the sum 1
@@ -3819,12 +3822,11 @@ inline hf_solver_desc SolverOptions::fill([[maybe_unused]] Call& c, [[maybe_unus
 inline hf_sites_desc Sites::fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const {
   auto desc = make<hf_sites_desc>();
   desc.vertices = c.array(vertices, false, "vertices", {prefix + "site_count"});
-  desc.triangles = c.array(triangles, false, "triangles", {prefix + "site_count"});
-  desc.barycentrics = c.array(barycentrics, false, "barycentrics", {prefix + "site_count", "3"});
+  desc.places = c.array(places, false, "places", {prefix + "site_count"});
+  desc.points = c.array(points, false, "points", {prefix + "site_count", "3"});
   desc.values = c.array(values, false, "values", {prefix + "site_count", "channel_count"});
   desc.stiffness = c.array(stiffness, false, "stiffness", {prefix + "site_count"});
   desc.radii = c.array(radii, false, "radii", {prefix + "site_count"});
-  desc.corners = c.array(corners, false, "corners", {prefix + "site_count", "3"});
   desc.site_count = c.count(prefix + "site_count", 1);
   return desc;
 }
@@ -3891,6 +3893,8 @@ inline hf_handles_desc HandlesOptions::fill([[maybe_unused]] Call& c, [[maybe_un
   desc.free_rotation = free_rotation ? 1 : 0;
   c.lists(region_vertices, false, &desc.region_counts, &desc.region_vertices, "region_vertices",
       {prefix + "handle_count"});
+  desc.vertices = c.array(vertices, false, "vertices", {prefix + "handle_count"});
+  desc.places = c.array(places, false, "places", {prefix + "handle_count"});
   desc.points = c.array(points, false, "points", {prefix + "handle_count", "3"});
   desc.radii = c.array(radii, false, "radii", {prefix + "handle_count"});
   desc.progress = progress ? progress->get() : nullptr;
@@ -3959,9 +3963,8 @@ inline hf_curve_desc Curve::fill([[maybe_unused]] Call& c, [[maybe_unused]] cons
   desc.seed_vertex = seed_vertex;
   desc.kind = kind;
   desc.vertices = c.array(vertices, false, "vertices", {prefix + "point_count"});
-  desc.triangles = c.array(triangles, false, "triangles", {prefix + "point_count"});
-  desc.barycentrics = c.array(barycentrics, false, "barycentrics", {prefix + "point_count", "3"});
-  desc.corners = c.array(corners, false, "corners", {prefix + "point_count", "3"});
+  desc.places = c.array(places, false, "places", {prefix + "point_count"});
+  desc.points = c.array(points, false, "points", {prefix + "point_count", "3"});
   desc.point_count = c.count(prefix + "point_count", 0);
   return desc;
 }
@@ -4110,8 +4113,8 @@ inline hf_pins_desc Pins::fill([[maybe_unused]] Call& c, [[maybe_unused]] const 
     const std::vector<uint32_t>& vertices) const {
   auto desc = make<hf_pins_desc>();
   desc.vertices = c.array(vertices, false, "vertices", {prefix + "pin_count"});
-  desc.triangles = c.array(triangles, false, "triangles", {prefix + "pin_count"});
-  desc.barycentrics = c.array(barycentrics, false, "barycentrics", {prefix + "pin_count", "3"});
+  desc.places = c.array(places, false, "places", {prefix + "pin_count"});
+  desc.points = c.array(points, false, "points", {prefix + "pin_count", "3"});
   desc.radii = c.array(radii, false, "radii", {prefix + "pin_count"});
   desc.joints = c.array(joints, false, "joints", {prefix + "pin_count", prefix + "influence_count"});
   desc.weights = c.array(weights, false, "weights", {prefix + "pin_count", prefix + "influence_count"});

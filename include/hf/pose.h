@@ -70,16 +70,20 @@ HF_API hf_result hf_pose_get_info(hf_pose pose, hf_pose_info* out_info);
 
 /* ---- handles ---- */
 
-/* The handles to add. Give their regions as vertex lists one after the other, or as points with radii. */
+/* The handles to add. Give their regions as vertex lists one after the other, or as places with radii: set
+ * region_vertices, vertices, places or points. The region of a place is its nearest vertex and what is edge-connected
+ * to it within the radius. */
 typedef struct hf_handles_desc {
   uint32_t struct_size;
   uint32_t handle_count;         /* >= 1 */
   const uint32_t* region_counts; /* [handle_count] vertices of each region, >= 1; repeats are allowed, up to four times
                                     the vertices of the mesh in all */
-  const uint32_t* region_vertices; /* [sum(region_counts)] all regions one after the other; NULL: points are given */
-  const double* points;  /* [handle_count][3] at rest. The region is the vertex nearest to the point and what is
-                            edge-connected to it within the radius. NULL: regions are given */
-  const double* radii;   /* [handle_count] of the regions of points, in the unit of the mesh; NULL: regions are given.
+  const uint32_t* region_vertices; /* [sum(region_counts)] all regions one after the other; NULL: places are given */
+  const uint32_t* vertices;        /* [handle_count] vertices as given, or NULL */
+  const hf_place* places;          /* [handle_count], or NULL */
+  const double* points;  /* [handle_count][3] points in space, at rest, in the unit and frame of the mesh, or NULL. A
+                            point can lie inside the body, as a joint does: its nearest vertex counts */
+  const double* radii;   /* [handle_count] of the regions of places, in the unit of the mesh; NULL: regions are given.
                             A radius below 1 % of the box makes regions of 2 vertices or more */
   uint32_t layer;        /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
   int32_t in_place;      /* 1: handles of layer 0 start where the posed surface stands, not at rest; see below */
@@ -98,8 +102,8 @@ typedef struct hf_handles_desc {
  * solve for the layer of the handles and for each higher layer. On large meshes a frame may be late. To avoid that, add
  * the handles to a clone in another thread and pose the old one meanwhile. Then set the transforms of the clone. No two
  * regions may overlap, on any layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and
- * HF_ERROR_CONFLICT (index = position in region_vertices, or handle when given by points), HF_ERROR_INVALID_ARGUMENT
- * (isolated vertex, layer, in_place, free_rotation, a radius, regions and points at once), HF_ERROR_NON_FINITE,
+ * HF_ERROR_CONFLICT (index = position in region_vertices, or handle when given by places), HF_ERROR_INVALID_ARGUMENT
+ * (isolated vertex, barycentrics, layer, in_place, free_rotation, a radius, two forms at once), HF_ERROR_NON_FINITE,
  * HF_ERROR_TOO_LARGE (HF_HANDLE_LIMIT, a point two boxes or more away), HF_ERROR_UNSUPPORTED (free_rotation with
  * HF_DEFORM_PAPER). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);

@@ -65,22 +65,22 @@ enum hf_curve_kind {
   HF_CURVE_EDGES = 1     /* by shortest paths along edges; points in triangles stand for their nearest corner */
 };
 
-/* Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
- * region, and any single vertex that these surround but for one edge. The rim is the vertices next to them, on or
- * beyond the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the curve. A
- * whole border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times. */
+/* Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The vertices
+ * on its chosen side are the region, and any single vertex that these surround but for one edge. The rim is the
+ * vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along
+ * edges the rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a
+ * vertex at most 8 times. */
 typedef struct hf_curve_desc {
   uint32_t struct_size;
-  uint32_t point_count;       /* 3 to the number of vertices of the mesh */
-  const uint32_t* vertices;   /* [point_count] vertices as given, or NULL */
-  const uint32_t* triangles;  /* [point_count] triangles (or faces of three corners) as given, or NULL */
-  const double* barycentrics; /* [point_count][3] with triangles or corners, else NULL: weights of the corners, >= 0, of
-                                 sum 1 within 1e-6 */
-  int32_t side;               /* HF_SIDE_* */
-  uint32_t seed_vertex;       /* with HF_SIDE_SEED */
-  const uint32_t* corners;    /* [point_count][3] three vertices of one face, as hf_hit has them, or NULL */
-  int32_t kind;               /* HF_CURVE_* */
-  uint32_t reserved;          /* 0 */
+  uint32_t point_count;     /* 3 to the number of vertices of the mesh */
+  const uint32_t* vertices; /* [point_count] vertices as given, or NULL */
+  const hf_place* places;   /* [point_count], or NULL */
+  const double* points; /* [point_count][3] points in space, at rest, in the unit and frame of the mesh, or NULL. Each
+                           stands for the nearest point of the surface, up to two boxes away */
+  int32_t side;         /* HF_SIDE_* */
+  uint32_t seed_vertex; /* with HF_SIDE_SEED */
+  int32_t kind;         /* HF_CURVE_* */
+  uint32_t reserved;    /* 0 */
 } hf_curve_desc;
 
 /* A change of a region. The parts are applied in the order curve, rings, remove, add. A part that is 0 or NULL is
@@ -101,13 +101,13 @@ typedef struct hf_region_edit_desc {
  * sweep over the factor then gives the base; for a small region the sweep covers only the part of the factor that its
  * vertices need. A region may have several pieces, in several components. Progress covers curve, sites and base; the
  * call can be cancelled between them. Errors: HF_ERROR_EMPTY (fewer than 3 points, index = how many; no vertex would be
- * left), HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (lists longer than the mesh has vertices),
- * HF_ERROR_CANCELLED, and HF_ERROR_INVALID_ARGUMENT: side, kind, weights, isolated vertex, points of different
- * components; corners of no triangle (index = the point); a curve that crosses itself (index = the point before the
- * crossing; it may touch itself); a STRAIGHT curve through a vertex whose triangles are not one fan (index = the point
- * before it); a curve that does not separate the surface or goes round no vertex; a seed on the curve or in another
- * component (index = the seed); a component without a rim (index = a vertex of it). Thread safety: changes `region`.
- * Since 0.1. */
+ * left), HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (lists longer than the mesh has vertices, a
+ * point two boxes or more away), HF_ERROR_CANCELLED, and HF_ERROR_INVALID_ARGUMENT: side, kind, weights, isolated
+ * vertex, points of different components; corners of no triangle (index = the point); a curve that crosses itself
+ * (index = the point before the crossing; it may touch itself); a STRAIGHT curve through a vertex whose triangles are
+ * not one fan (index = the point before it); a curve that does not separate the surface or goes round no vertex; a seed
+ * on the curve or in another component (index = the seed); a component without a rim (index = a vertex of it). Thread
+ * safety: changes `region`. Since 0.1. */
 HF_API hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit);
 
 /* Counts and areas of a region and of its last edit. Welded copies count as one vertex. */

@@ -74,31 +74,30 @@ HF_API hf_result hf_solver_get_info(hf_solver solver, hf_solver_info* out_info);
 
 /* ---- sites ---- */
 
-/* Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the less
- * influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A
- * radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic
- * fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do. */
+/* Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site has.
+ * Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh spacing
+ * still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary vertices
+ * of a disc count towards site_limit; for bi-harmonic fields all its vertices do. */
 typedef struct hf_sites_desc {
   uint32_t struct_size;
-  uint32_t site_count;        /* >= 1 */
-  const uint32_t* vertices;   /* [site_count] vertices as given, or NULL */
-  const uint32_t* triangles;  /* [site_count] triangles (or faces of three corners) as given, or NULL */
-  const double* barycentrics; /* [site_count][3] with triangles or corners, else NULL: weights of the corners, >= 0, of
-                                 sum 1 within 1e-6 */
-  const double* values;       /* [site_count][channel_count], up to 1e200 in size; NULL = 0 */
-  const double* stiffness;    /* [site_count] >= 0, relative to the mean diagonal of K; 0 = hard (exact); NULL = all
-                                 hard; clamped to 1e-12 to 1e12 */
-  const double* radii;        /* [site_count] >= 0, geodesic, in the unit of the mesh; 0 = a point; NULL = all points */
-  const uint32_t* corners;    /* [site_count][3] three vertices as given, of one face, or NULL: hf_hit has them. In a
-                                 face of more corners this places a site in a triangle of them */
+  uint32_t site_count;      /* >= 1 */
+  const uint32_t* vertices; /* [site_count] vertices as given, or NULL */
+  const hf_place* places;   /* [site_count], or NULL */
+  const double* points;    /* [site_count][3] points in space, at rest, in the unit and frame of the mesh, or NULL. Each
+                              stands for the nearest point of the surface, up to two boxes away */
+  const double* values;    /* [site_count][channel_count], up to 1e200 in size; NULL = 0 */
+  const double* stiffness; /* [site_count] >= 0, relative to the mean diagonal of K; 0 = hard (exact); NULL = all
+                              hard; clamped to 1e-12 to 1e12 */
+  const double* radii;     /* [site_count] >= 0, geodesic, in the unit of the mesh; 0 = a point; NULL = all points */
 } hf_sites_desc;
 
 /* Adds sites. out_sites: NULL, or uint32_t[site_count] for their numbers. A site keeps its number until it is
  * removed; later sites reuse free numbers. Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE,
- * HF_ERROR_INVALID_ARGUMENT (weights, stiffness, isolated vertex), HF_ERROR_UNSUPPORTED (a point in a triangle or a
+ * HF_ERROR_INVALID_ARGUMENT (barycentrics, stiffness, isolated vertex), HF_ERROR_UNSUPPORTED (places, points or a
  * disc on a graph), HF_ERROR_DUPLICATE (the vertex, or a welded copy, has a site of the same values),
  * HF_ERROR_CONFLICT (of other values, or the point depends linearly on hard sites), HF_ERROR_TOO_LARGE (site_limit, a
- * value). Thread safety: changes `solver`. Since 0.1. */
+ * value, a point two boxes or more away). Cost of points: a tree over the triangles for each call. Thread safety:
+ * changes `solver`. Since 0.1. */
 HF_API hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* out_sites);
 
 /* Adds one hard site at a vertex. values: double[channel_count], or NULL for 0. out_site: NULL, or receives the number

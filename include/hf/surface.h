@@ -379,6 +379,17 @@ HF_API hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statis
 HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, hf_progress progress, size_t capacity,
                                  void* out_bytes, size_t* out_size);
 
+/* ---- places ---- */
+
+/* One place on a surface: a vertex, or a point between three corners of a face. hf_hit has one, sites, pins, curves,
+ * handles and paths take it. Lists of places have three forms, of which you set one: `vertices` (4 bytes each),
+ * `places`, and `points` in space. */
+typedef struct hf_place {
+  uint32_t corners[3]; /* vertices of one face, as given; a corner of barycentric 0 is ignored and can be HF_NO_INDEX */
+  uint32_t reserved;   /* 0 */
+  double barycentrics[3]; /* weights of the corners, >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
+} hf_place;
+
 /* ---- picking ---- */
 
 /* Options of picking: posed positions, if the surface is not at rest, and which triangles count. */
@@ -394,15 +405,13 @@ typedef struct hf_pick_desc {
 /* hf_surface_cast_ray writes the first triangle that a ray hits here. */
 typedef struct hf_hit {
   uint32_t struct_size;
-  int32_t found;          /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
-  uint32_t triangle;      /* or face, as given */
-  uint32_t vertex;        /* its corner nearest to the hit, as given, of welded copies the first */
-  double barycentrics[3]; /* weights of `corners`, of sum 1: a site for hf_add_sites */
-  double position[3];     /* in the unit of the positions */
-  double distance;        /* from the origin, in lengths of `direction` */
-  uint32_t corners[3];    /* the triangle's vertices, as given, of welded copies the first. In a face of more corners
-                             three of them: the triangle of the face's cut that the ray hits */
-  uint32_t reserved;      /* 0 */
+  int32_t found;      /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
+  uint32_t triangle;  /* or face, as given */
+  uint32_t vertex;    /* its corner nearest to the hit, as given, of welded copies the first */
+  hf_place place;     /* corners of the triangle, of welded copies the first, and their weights. In a face of more
+                         corners three of them: the triangle of the face's cut that the ray hits */
+  double position[3]; /* in the unit of the positions */
+  double distance;    /* from the origin, in lengths of `direction` */
 } hf_hit;
 
 /* Finds what a mouse click hits: the first triangle on a ray. origin, direction: double[3] in the frame of the

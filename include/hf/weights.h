@@ -57,31 +57,31 @@ HF_API void hf_weights_destroy(hf_weights weights);
  * `weights`. Since 0.1. */
 HF_API hf_result hf_weights_set_joints(hf_weights weights, const hf_joints_desc* joints);
 
-/* Places with given weights. Set vertices, or triangles with barycentrics. Give every vertex of a painted region to
+/* Places with given weights. Set vertices, places or points. Give every vertex of a painted region to
  * keep its weights. */
 typedef struct hf_pins_desc {
   uint32_t struct_size;
-  uint32_t pin_count;         /* 0 removes all pins */
-  const uint32_t* vertices;   /* [pin_count] vertices as given, or NULL */
-  const uint32_t* triangles;  /* [pin_count] triangles as given, or NULL */
-  const double* barycentrics; /* [pin_count][3] with triangles, else NULL: weights of the corners, >= 0, of sum 1
-                                 within 1e-6 */
-  const double* radii;        /* [pin_count] of the geodesic disc around the place, in the unit of the mesh; NULL or 0:
-                                 the place alone */
-  uint32_t influence_count;   /* joints of each pin, 1 to 8 */
-  uint32_t reserved;          /* 0 */
-  const uint32_t* joints;     /* [pin_count][influence_count] joints */
-  const float* weights;       /* [pin_count][influence_count] >= 0, scaled to the sum 1 */
-  hf_progress progress;       /* NULL, or an object to poll and cancel through */
+  uint32_t pin_count;       /* 0 removes all pins */
+  const uint32_t* vertices; /* [pin_count] vertices as given, or NULL */
+  const hf_place* places;   /* [pin_count], or NULL */
+  const double* points;     /* [pin_count][3] points in space, at rest, in the unit and frame of the mesh, or NULL. Each
+                               stands for the nearest point of the surface, up to two boxes away */
+  const double* radii;      /* [pin_count] of the geodesic disc around the place, in the unit of the mesh; NULL or 0:
+                               the place alone */
+  uint32_t influence_count; /* joints of each pin, 1 to 8 */
+  uint32_t reserved;        /* 0 */
+  const uint32_t* joints;   /* [pin_count][influence_count] joints */
+  const float* weights;     /* [pin_count][influence_count] >= 0, scaled to the sum 1 */
+  hf_progress progress;     /* NULL, or an object to poll and cancel through */
 } hf_pins_desc;
 
 /* Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a disc.
  * Pins at the same places with other weights cost no path. Cost: one elimination path and a dense row for each place,
- * and a sweep for every 8 joints that change. Errors, with index = pin: HF_ERROR_OUT_OF_RANGE (vertex, triangle,
- * joint), HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a weight below 0, a sum of 0, a radius below 0, a vertex
- * without a triangle; joint_count), HF_ERROR_DUPLICATE (two pins share a vertex), HF_ERROR_CONFLICT (more than three
- * pins in one triangle), HF_ERROR_TOO_LARGE (more pins than vertices), HF_ERROR_CANCELLED. Thread safety: changes
- * `weights`. Since 0.1. */
+ * and a sweep for every 8 joints that change. Errors, with index = pin: HF_ERROR_OUT_OF_RANGE (vertex,
+ * joint), HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (barycentrics, a weight below 0, a sum of 0, a radius below 0,
+ * a vertex without a triangle; joint_count), HF_ERROR_DUPLICATE (two pins share a vertex), HF_ERROR_CONFLICT (more than
+ * three pins in one triangle), HF_ERROR_TOO_LARGE (more pins than vertices, a point two boxes or more away),
+ * HF_ERROR_CANCELLED. Thread safety: changes `weights`. Since 0.1. */
 HF_API hf_result hf_weights_set_pins(hf_weights weights, const hf_pins_desc* pins);
 
 /* Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0 unlocks.

@@ -27,8 +27,9 @@ CurveFile read_curve_file(const std::filesystem::path& file, const SurfaceMesh& 
     point.expect_only({"near", "vertex", "triangle", "barycentrics"});
     if (point.has("triangle")) {
       const int64_t count = static_cast<int64_t>(mesh.triangles.size() / 3);
-      curve.triangles.push_back(static_cast<uint32_t>(point.at("triangle").integer(0, count - 1)));
-      for (const double w : point.at("barycentrics").numbers(3)) curve.barycentrics.push_back(w);
+      const uint32_t* corners = &mesh.triangles[3 * static_cast<size_t>(point.at("triangle").integer(0, count - 1))];
+      const auto w = point.at("barycentrics").numbers(3);
+      curve.places.push_back({{corners[0], corners[1], corners[2]}, 0, {w[0], w[1], w[2]}});
     } else if (point.has("near")) {
       curve.vertices.push_back(nearest_vertex(mesh, point.at("near").numbers(3)));
     } else {
@@ -36,7 +37,7 @@ CurveFile read_curve_file(const std::filesystem::path& file, const SurfaceMesh& 
       curve.vertices.push_back(static_cast<uint32_t>(point.at("vertex").integer(0, count - 1)));
     }
   }
-  if (!curve.vertices.empty() && !curve.triangles.empty())
+  if (!curve.vertices.empty() && !curve.places.empty())
     list.fail("points must be triangles with barycentrics everywhere or nowhere");
   const std::string side = json.root().string_or("side", "smaller");
   if (side != "smaller" && side != "larger") json.root().at("side").fail("expected \"smaller\" or \"larger\"");
@@ -53,12 +54,9 @@ CurveFile read_curve_file(const std::filesystem::path& file, const SurfaceMesh& 
 
 void enclose(hf::Region& region, const CurveFile& curve, int32_t grow) {
   auto desc = hf::make<hf_curve_desc>();
-  desc.point_count = static_cast<uint32_t>(curve.vertices.size() + curve.triangles.size());
+  desc.point_count = static_cast<uint32_t>(curve.vertices.size() + curve.places.size());
   if (!curve.vertices.empty()) desc.vertices = curve.vertices.data();
-  if (!curve.triangles.empty()) {
-    desc.triangles = curve.triangles.data();
-    desc.barycentrics = curve.barycentrics.data();
-  }
+  if (!curve.places.empty()) desc.places = curve.places.data();
   desc.side = curve.side;
   desc.seed_vertex = curve.seed;
   desc.kind = curve.edges ? HF_CURVE_EDGES : HF_CURVE_STRAIGHT;

@@ -15,8 +15,8 @@
 namespace samples {
 
 struct CurveFile {
-  std::vector<uint32_t> vertices, triangles;  // one of the two
-  std::vector<double> barycentrics;
+  std::vector<uint32_t> vertices;
+  std::vector<hf_place> places;  // instead of vertices
   int32_t side = HF_SIDE_SMALLER;
   uint32_t seed = 0;
   int32_t grow = 0;

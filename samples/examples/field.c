@@ -27,11 +27,11 @@ int main(int argc, char** argv) {
 
   /* a third site in the middle of a triangle: soft, so it pulls without being exact */
   hf_sites_desc third = HF_INIT(hf_sites_desc);
-  const uint32_t triangle = mesh.triangle_count / 2;
-  const double weights[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3}, half = 0.5, stiffness = 0.1;
+  const uint32_t* corners = mesh.triangles + 3 * (size_t)(mesh.triangle_count / 2);
+  const hf_place middle = {{corners[0], corners[1], corners[2]}, 0, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+  const double half = 0.5, stiffness = 0.1;
   third.site_count = 1;
-  third.triangles = &triangle;
-  third.barycentrics = weights;
+  third.places = &middle;
   third.values = &half;
   third.stiffness = &stiffness;
   ok(hf_add_sites(solver, &third, NULL));

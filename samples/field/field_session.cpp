@@ -12,41 +12,40 @@
 namespace samples {
 namespace {
 
-// Places of a list, as the library takes them. triangles: corners of the file's triangles where the surface has faces.
+// Places of a list, as the library takes them. triangles: corners of the file's triangles.
 struct Batch {
   Batch(const std::vector<SiteArgument>& sites, bool with_values, const std::vector<uint32_t>& triangles) {
     desc.site_count = static_cast<uint32_t>(sites.size());
-    const bool points = !sites.empty() && !sites[0].place.is_vertex();
-    bool soft = false;
+    bool soft = false, at_vertices = true;
     for (const SiteArgument& site : sites) {
-      if (site.place.is_vertex() == points)
-        throw std::runtime_error("vertices and points in triangles are mixed in one edit; write two");
-      vertices.push_back(points ? site.place.triangle : site.place.vertex);
-      if (points && !triangles.empty()) {
-        if (site.place.triangle >= triangles.size() / 3)
-          throw std::runtime_error("there is no triangle " + std::to_string(site.place.triangle));
-        const uint32_t* corner = &triangles[3 * size_t(site.place.triangle)];
-        corners.insert(corners.end(), corner, corner + 3);
-      }
-      barycentrics.insert(barycentrics.end(), site.place.weights.begin(), site.place.weights.end());
+      at_vertices = at_vertices && site.place.is_vertex();
+      places.push_back(place_of(site.place, triangles));
+      vertices.push_back(places.back().corners[0]);
       values.insert(values.end(), site.values.begin(), site.values.end());
       stiffness.push_back(site.stiffness);
       soft = soft || site.stiffness > 0;
     }
-    (points ? desc.triangles : desc.vertices) = vertices.data();
-    if (!corners.empty()) {
-      desc.triangles = nullptr;
-      desc.corners = corners.data();
-    }
-    if (points) desc.barycentrics = barycentrics.data();
+    if (at_vertices)
+      desc.vertices = vertices.data();
+    else
+      desc.places = places.data();
     if (with_values) desc.values = values.data();
     if (with_values && soft) desc.stiffness = stiffness.data();
+  }
+  template <class Place>
+  static hf_place place_of(const Place& place, const std::vector<uint32_t>& triangles) {
+    if (place.is_vertex()) return {{place.vertex, place.vertex, place.vertex}, 0, {1, 0, 0}};
+    if (place.triangle >= triangles.size() / 3)
+      throw std::runtime_error("there is no triangle " + std::to_string(place.triangle));
+    const uint32_t* corner = &triangles[3 * size_t(place.triangle)];
+    return {{corner[0], corner[1], corner[2]}, 0, {place.weights[0], place.weights[1], place.weights[2]}};
   }
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
   hf_sites_desc desc = HF_INIT(hf_sites_desc);
-  std::vector<uint32_t> vertices, corners;
-  std::vector<double> barycentrics, values, stiffness;
+  std::vector<uint32_t> vertices;
+  std::vector<hf_place> places;
+  std::vector<double> values, stiffness;
 };
 
 hf_scalars scalars(const std::vector<double>& field) {
@@ -104,8 +103,8 @@ Session::Session(const SurfaceMesh& mesh, const FieldOptions& options)
     desc.face_sizes = mesh.face_sizes.data();
     desc.corner_count = static_cast<uint32_t>(mesh.face_vertices.size());
     desc.corners = mesh.face_vertices.data();
-    triangles_ = mesh.triangles;
   }
+  triangles_ = mesh.triangles;
   desc.operator_kind = options.operator_kind;
   desc.weld = options.weld;
   desc.thread_count = options.threads;

@@ -78,7 +78,7 @@ class Session {
   hf_direction direction_ = nullptr;  // of a direction field, with sites of its own
   uint32_t vertex_count_;
   size_t components_;
-  std::vector<uint32_t> triangles_;  // of the file, where the surface has faces; empty otherwise
+  std::vector<uint32_t> triangles_;  // of the file
   Numbers sites_;
   struct State {
     hf_solver solver;

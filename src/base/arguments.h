@@ -95,17 +95,4 @@ inline std::int32_t weights_per_vertex(std::uint32_t given) {
   return given == 8 ? 8 : 4;
 }
 
-// Refuses places that are named in no way or in two ways. Places in triangles or between corners need barycentrics.
-inline void check_places(const void* vertices, const void* triangles, const void* corners, const void* barycentrics) {
-  const char* const first = vertices ? "vertices" : "triangles";
-  const char* const second = vertices && triangles ? "triangles" : "corners";
-  if ((vertices != nullptr) + (triangles != nullptr) + (corners != nullptr) > 1)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s and %s are both set; set one", first, second);
-  if (!vertices && !triangles && !corners)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "vertices, triangles and corners are all NULL; set one");
-  if (!vertices && !barycentrics)
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "barycentrics is NULL, but %s is set",
-         triangles ? "triangles" : "corners");
-}
-
 }  // namespace hf_inner

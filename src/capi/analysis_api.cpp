@@ -44,16 +44,15 @@ void distance(hf_geodesics handle, std::uint32_t count, const std::uint32_t* ver
       [&](std::size_t v, double* values) { values[0] = field[v] < 0 ? -1 : scale * field[v]; });
 }
 
-void find_path(const GeodesicsObject& object, const hf_surface_point* from, const hf_surface_point* to,
-               hf_path* inout_path) {
+void find_path(const GeodesicsObject& object, const hf_place* from, const hf_place* to, hf_path* inout_path) {
   hf_path out = read_struct(inout_path, "inout_path");
   require_zero(out.reserved);
   const Geometry& shape = object.distances.geometry();
   Memory& memory = *shape.memory;
   SurfacePlace first, last;
   const SurfacePath path = object.distances.with_sides([&](const TriangleSides& sides) {
-    const PointOnSurface begin = read_surface_point(sides, from, "from", 0, memory);
-    const PointOnSurface end = read_surface_point(sides, to, "to", 1, memory);
+    const PointOnSurface begin = point_on_surface(sides, from, "from", 0, memory);
+    const PointOnSurface end = point_on_surface(sides, to, "to", 1, memory);
     first = begin.place;
     last = end.place;
     return with_progress(object.progress, [&] { return shortest_path(sides, begin.point, end.point, memory); });
@@ -76,8 +75,7 @@ void find_path(const GeodesicsObject& object, const hf_surface_point* from, cons
   }
 }
 
-void log_map(const GeodesicsObject& object, const hf_surface_point* centre, double radius, double* out_map,
-             double* out_frame) {
+void log_map(const GeodesicsObject& object, const hf_place* centre, double radius, double* out_map, double* out_frame) {
   require(out_map, "out_map");
   const Geometry& shape = object.distances.geometry();
   const double reach = read_map_radius(shape.mesh, radius);
@@ -85,7 +83,7 @@ void log_map(const GeodesicsObject& object, const hf_surface_point* centre, doub
   Workspace map(shape.workspaces, 2 * static_cast<std::size_t>(shape.mesh.vertex_count()));
   Vec3 frame[2];
   object.distances.with_sides([&](const TriangleSides& sides) {
-    const PointOnSurface from = read_surface_point(sides, centre, "centre", 0, *shape.memory);
+    const PointOnSurface from = point_on_surface(sides, centre, "centre", 0, *shape.memory);
     with_progress(object.progress, [&] { object.distances.log_map(sides, from.point, reach, map.data(), frame); });
     return 0;
   });
@@ -230,7 +228,7 @@ hf_result hf_geodesics_solve_f64(hf_geodesics geodesics, uint32_t source_count, 
                  [&] { distance(geodesics, source_count, sources, nullptr, out_distances, value_stride); });
 }
 
-hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_surface_point* from, const hf_surface_point* to,
+hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_place* from, const hf_place* to,
                                  hf_path* inout_path) {
   return guarded("hf_geodesics_find_path", [&] {
     const auto object = get<GeodesicsObject>(geodesics, "geodesics");
@@ -239,7 +237,7 @@ hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_surface_point*
   });
 }
 
-hf_result hf_geodesics_get_map(hf_geodesics geodesics, const hf_surface_point* centre, double radius, double* out_map,
+hf_result hf_geodesics_get_map(hf_geodesics geodesics, const hf_place* centre, double radius, double* out_map,
                                double* out_frame) {
   return guarded("hf_geodesics_get_map", [&] {
     const auto object = get<GeodesicsObject>(geodesics, "geodesics");

@@ -89,9 +89,8 @@ hf_result hf_add_sites(hf_solver solver, const hf_sites_desc* sites, uint32_t* o
 
 hf_result hf_solver_add_site(hf_solver solver, uint32_t vertex, const double* values, uint32_t* out_site) {
   return apply("hf_solver_add_site", solver, out_site, [&](FieldEdit& edit) {
-    edit.add.count = 1;
-    edit.add.vertices = &vertex;
-    edit.add_values = values;
+    edit.add = {1, &vertex, nullptr, nullptr};
+    edit.add_holds.values = values;
   });
 }
 

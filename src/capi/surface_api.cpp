@@ -155,8 +155,8 @@ hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, const do
     hit.found = found.triangle != HF_NO_INDEX;
     hit.triangle = found.triangle;
     hit.vertex = given_vertex(shape.mesh, found.vertex);
-    std::copy_n(found.weight, 3, hit.barycentrics);
-    for (int k = 0; k < 3; ++k) hit.corners[k] = given_vertex(shape.mesh, found.corner[k]);
+    std::copy_n(found.weight, 3, hit.place.barycentrics);
+    for (int k = 0; k < 3; ++k) hit.place.corners[k] = given_vertex(shape.mesh, found.corner[k]);
     if (hit.found) put(found.position, hit.position);
     hit.distance = found.distance;
     write_struct(out_hit, hit);

@@ -65,7 +65,7 @@ hf_result hf_weights_set_pins(hf_weights handle, const hf_pins_desc* given) {
   return change("hf_weights_set_pins", handle, [&](WeightsObject& object) {
     const hf_pins_desc desc = read_struct(given, "pins");
     Pins pins(*object.memory);
-    read_pins(desc, object.weights.surface().core->mesh, joint_count(object), pins);
+    read_pins(desc, object.weights.surface().core->mesh, joint_count(object), pins, *object.memory);
     with_progress(desc.progress, [&] { object.weights.set_pins(pins); });
   });
 }
@@ -91,7 +91,7 @@ hf_result hf_weights_get(hf_weights handle, hf_weights_out* inout) {
 }
 
 hf_result hf_weights_get_joints(hf_weights handle, uint32_t capacity, uint32_t* out_flags, uint32_t* out_vertex_counts,
-                               uint32_t* out_count) {
+                                uint32_t* out_count) {
   return guarded("hf_weights_get_joints", [&] {
     const auto object = get<WeightsObject>(handle, "weights");
     if (!out_flags && !out_vertex_counts) require(out_count, "out_flags, out_vertex_counts and out_count");

@@ -8,7 +8,6 @@
 #include "deform/constants.h"
 #include "deform/rest.h"
 #include "engine/rim.h"
-#include "mesh/places.h"
 
 namespace hf_inner {
 namespace {
@@ -107,18 +106,22 @@ std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int3
   return region;
 }
 
-Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Memory& memory) {
-  const Mesh& mesh = core.mesh;
-  const Topology& topology = core.topology;
+std::int32_t vertex_near(const Core& core, Vec3 point) noexcept {
   std::int32_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::int32_t v = 0; v < core.size(); ++v) {
-    const Vec3 d = mesh.positions[v] - point;
+    const Vec3 d = core.mesh.positions[v] - point;
     if (dot(d, d) < least) {
       least = dot(d, d);
       nearest = v;
     }
   }
+  return nearest;
+}
+
+Vector<std::int32_t> region_from(const Core& core, std::int32_t nearest, Vec3 point, double radius, Memory& memory) {
+  const Mesh& mesh = core.mesh;
+  const Topology& topology = core.topology;
   Vector<std::int32_t> region(&memory);
   Vector<std::uint8_t> seen(static_cast<std::size_t>(core.size()), 0, &memory);
   region.push_back(nearest);
@@ -148,21 +151,50 @@ bool is_spike(Span<const std::int32_t> region, double radius) noexcept {
   return region.size() == 1 && radius < least_radius;
 }
 
-void regions_near(const Core& core, Span<const double> points, Span<const double> radii, Vector<std::uint32_t>& start,
+namespace {
+
+// Where the region of a place begins.
+struct RegionCentre {
+  std::int32_t vertex;
+  Vec3 point;
+};
+
+RegionCentre centre_of(const Core& core, const Places& places, const PlaceReader& reader, std::uint32_t r) {
+  if (places.points) {
+    const Vec3 point = read_point_near(core.mesh, places.points + 3 * std::size_t{r}, "point", r);
+    return {vertex_near(core, point), point};
+  }
+  const SurfacePlace place = reader.read(r);
+  const auto corner = [&](int k) { return core.mesh.positions[place.vertex[k]]; };
+  Vec3 point = corner(0);
+  int nearest = 0;
+  if (!place.is_vertex()) point = place.weight[0] * point;
+  for (int k = 1; k < 3 && place.vertex[k] != Mesh::none; ++k) point = point + place.weight[k] * corner(k);
+  for (int k = 1; k < 3 && place.vertex[k] != Mesh::none; ++k)
+    nearest = norm(corner(k) - point) < norm(corner(nearest) - point) ? k : nearest;
+  return {place.vertex[nearest], point};
+}
+
+}  // namespace
+
+void regions_near(const Core& core, const Places& places, const double* radii, Vector<std::uint32_t>& start,
                   Vector<std::int32_t>& vertices) {
   start.push_back(0);
-  for (std::uint32_t r = 0; r < radii.size(); ++r) {
-    const Vec3 place = read_place(core.mesh, points.data() + 3 * std::size_t{r}, "point", r);
-    if (!std::isfinite(radii[r])) fail(HF_ERROR_NON_FINITE, r, "the radius of point %u is not finite", r);
+  Places surface = places;
+  surface.points = nullptr;  // of points, vertices count and not triangles
+  const PlaceReader reader(core.mesh, surface, *core.memory);
+  for (std::uint32_t r = 0; r < places.count; ++r) {
+    const RegionCentre centre = centre_of(core, places, reader, r);
+    if (!std::isfinite(radii[r])) fail(HF_ERROR_NON_FINITE, r, "the radius of place %u is not finite", r);
     if (radii[r] < 0)
-      fail(HF_ERROR_INVALID_ARGUMENT, r, "the radius of point %u is %g; it must not be negative", r, radii[r]);
+      fail(HF_ERROR_INVALID_ARGUMENT, r, "the radius of place %u is %g; it must not be negative", r, radii[r]);
     const double radius = radii[r] / core.mesh.scale;
-    const Vector<std::int32_t> region = region_near(core, place, radius, *core.memory);
+    const Vector<std::int32_t> region = region_from(core, centre.vertex, centre.point, radius, *core.memory);
     if (is_spike(region, radius))
       fail(HF_ERROR_INVALID_ARGUMENT, r,
-           "the radius of point %u is %g and holds one vertex, which pulls a spike. Make it larger (the next vertex is "
+           "the radius of place %u is %g and holds one vertex, which pulls a spike. Make it larger (the next vertex is "
            "%.3g away), or name the vertex in region_vertices",
-           r, radii[r], core.mesh.scale * neighbour_distance(core, region.front(), place));
+           r, radii[r], core.mesh.scale * neighbour_distance(core, region.front(), centre.point));
     vertices.insert(vertices.end(), region.begin(), region.end());
     start.push_back(static_cast<std::uint32_t>(vertices.size()));
   }

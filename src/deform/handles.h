@@ -14,6 +14,7 @@
 
 #include "deform/constants.h"
 #include "engine/site_solver.h"
+#include "mesh/place_reader.h"
 
 namespace hf_inner {
 
@@ -42,18 +43,26 @@ using Handles = Vector<Handle>;
 std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
                                           std::uint32_t rim_site_count, Memory& memory);
 
+// Returns the vertex nearest to a point, in the unit of the scaled mesh.
+std::int32_t vertex_near(const Core& core, Vec3 point) noexcept;
+
 // Returns the vertices within a radius of a point, in ascending order. Point and radius are in the unit of the scaled
-// mesh. The region starts at the vertex nearest to the point, which always belongs to it. It contains those vertices
-// that are edge-connected to that vertex inside the radius.
-Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Memory& memory);
+// mesh. The region starts at a vertex near the point, which always belongs to it. It contains those vertices that are
+// edge-connected to that vertex inside the radius.
+Vector<std::int32_t> region_from(const Core& core, std::int32_t nearest, Vec3 point, double radius, Memory& memory);
+// The same from the vertex nearest to the point.
+inline Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Memory& memory) {
+  return region_from(core, vertex_near(core, point), point, radius, memory);
+}
 
 // Whether a radius is so small that its region is one vertex, which pulls a spike. One vertex of a coarse mesh is none.
 bool is_spike(Span<const std::int32_t> region, double radius) noexcept;
 
-// Does the same as region_near for a list of points (xyz) and radii, in the unit of the mesh as given. Region r is
-// vertices[start[r] .. start[r + 1]). Throws as read_place (mesh/places.h) does, HF_ERROR_NON_FINITE, or
-// HF_ERROR_INVALID_ARGUMENT for a radius that is negative, or makes a spike; index: r.
-void regions_near(const Core& core, Span<const double> points, Span<const double> radii, Vector<std::uint32_t>& start,
+// Does the same as region_from for places and radii, in the unit of the mesh as given. A point in space stands for its
+// nearest vertex, any other place for the nearest of its corners. Region r is vertices[start[r] .. start[r + 1]).
+// Throws as PlaceReader does, HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a radius that is negative, or makes
+// a spike; index: r.
+void regions_near(const Core& core, const Places& places, const double* radii, Vector<std::uint32_t>& start,
                   Vector<std::int32_t>& vertices);
 
 // Lists which handle owns each vertex, and which handles have vertices in each component.

@@ -51,14 +51,13 @@ HandleInput read_handles(const Core& core, const hf_handles_desc& desc, Memory& 
   input.layer = desc.layer;
   input.kind.in_place = desc.in_place != 0;
   input.kind.free_turn = desc.free_rotation != 0;
-  input.by_points = desc.points || desc.radii;
-  if (input.by_points) {
+  input.by_places = desc.vertices || desc.places || desc.points || desc.radii;
+  if (input.by_places) {
     if (desc.region_counts || desc.region_vertices)
-      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "regions and points are both set; set one");
-    require(desc.points, "points");
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "regions and places are both set; set one");
+    const Places places(desc.handle_count, desc.vertices, desc.places, desc.points);
     require(desc.radii, "radii");
-    const std::size_t count = desc.handle_count;
-    regions_near(core, {desc.points, 3 * count}, {desc.radii, count}, input.start, input.vertices);
+    regions_near(core, places, desc.radii, input.start, input.vertices);
     return input;
   }
   require(desc.region_counts, "region_counts");
@@ -72,10 +71,10 @@ void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> 
   try {
     pose.add_handles(input.start, input.vertices, input.layer, out_numbers, input.kind);
   } catch (const Error& error) {
-    if (!input.by_points || error.code() != HF_ERROR_CONFLICT) throw;
+    if (!input.by_places || error.code() != HF_ERROR_CONFLICT) throw;
     const auto after = std::upper_bound(input.start.begin(), input.start.end(), error.index());
     const std::uint32_t r = static_cast<std::uint32_t>(after - input.start.begin() - 1);
-    fail(HF_ERROR_CONFLICT, r, "the region of point %u overlaps another handle; make its radius smaller", r);
+    fail(HF_ERROR_CONFLICT, r, "the region of place %u overlaps another handle; make its radius smaller", r);
   }
 }
 

@@ -11,7 +11,7 @@ struct HandleInput {
   explicit HandleInput(Memory* memory) : start(memory), vertices(memory) {}
   Vector<std::uint32_t> start;
   Vector<std::int32_t> vertices;  // inner; Mesh::none for an isolated one
-  bool by_points = false;         // the regions lie around points
+  bool by_places = false;         // the regions lie around places
   std::uint32_t layer = 0;
   HandleKind kind;
 };

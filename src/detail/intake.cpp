@@ -4,6 +4,7 @@
 
 #include "base/arguments.h"
 #include "engine/surface_intake.h"
+#include "mesh/place_reader.h"
 #include "mesh/vertex_lists.h"
 
 namespace hf_inner {
@@ -36,28 +37,18 @@ void read_curve(const Core& core, const hf_curve_desc& curve, RegionEditInput& i
   check_choice(curve.side, 3, "side");
   check_choice(curve.kind, 2, "kind");
   require_zero(curve.reserved);
-  if (curve.vertices && curve.barycentrics)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and barycentrics are both set; set one");
-  check_places(curve.vertices, curve.triangles, curve.corners, curve.barycentrics);
+  const Places places(curve.point_count, curve.vertices, curve.places, curve.points);
   if (curve.point_count < least_points)
     fail(HF_ERROR_EMPTY, curve.point_count, "a closed curve takes %u points or more; %u are given", least_points,
          curve.point_count);
   check_vertex_count(mesh, curve.point_count, "point_count");
   edit.kind = static_cast<CurveKind>(curve.kind);
+  const PlaceReader reader(mesh, places, *core.memory);
   for (std::uint32_t i = 0; i < curve.point_count; ++i) {
-    if (curve.vertices) {
-      input.points.push_back(at_vertex(usable_vertex(mesh, curve.vertices[i], i, "vertices")));
-      continue;
-    }
-    const std::size_t first = std::size_t{3} * i;
-    const double* const weights = curve.barycentrics + first;
-    const SurfacePlace place = curve.triangles ? place_in_triangle(mesh, curve.triangles[i], weights, i)
-                                               : place_between(mesh, curve.corners + first, weights, i);
-    CurvePoint point = at_vertex(Mesh::none);
+    const SurfacePlace place = reader.read(i);
+    CurvePoint point;
     std::copy_n(place.vertex, 3, point.corner);
     std::copy_n(place.weight, 3, point.weight);
-    const double sum = point.weight[0] + point.weight[1] + point.weight[2];
-    for (double& w : point.weight) w /= sum;
     if (edit.kind == CurveKind::straight && !is_on_triangle(mesh, core.geometry->unlinked().topology, point))
       fail(HF_ERROR_INVALID_ARGUMENT, i,
            "point %u lies between corners of no triangle; take one of them, or join the points along edges "

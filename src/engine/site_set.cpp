@@ -7,15 +7,24 @@
 #include "base/index.h"
 #include "engine/rim.h"
 #include "mesh/geodesic_disc.h"
-#include "mesh/places.h"
 
 namespace hf_inner {
 namespace {
 
-// A point whose weight at a corner exceeds 1 minus this number becomes that vertex. A larger number would move points
-// that the host placed near a corner. Half and double change no bit on eight shapes with needles, loose pieces and a
-// long ribbon.
-constexpr double corner_share = 1e-12;
+Site site_at(const Mesh& mesh, const SurfacePlace& place) noexcept {
+  Site site;
+  std::copy_n(place.vertex, 3, site.vertex);
+  std::copy_n(place.weight, 3, site.weight);
+  site.component = mesh.component[at(place.vertex[0])];
+  return site;
+}
+
+// The vertex that a place is: the number the caller gave, or that of the first copy. HF_NO_INDEX for other places.
+std::uint32_t vertex_given(const Mesh& mesh, const Places& places, std::uint32_t i, const Site& site) noexcept {
+  if (places.vertices) return places.vertices[i];
+  return site.is_vertex() ? given_vertex(mesh, site.vertex[0]) : HF_NO_INDEX;
+}
+
 // Range of the stiffness, in mean diagonals of K, as hf/solver.h documents. Beyond it the system loses digits.
 constexpr double least_stiffness = 1e-12, most_stiffness = 1e12;
 
@@ -44,23 +53,6 @@ void SiteSet::check_site(std::uint32_t position, std::uint32_t site) const {
   if (site >= slots_.size() || !slots_[site].is_site())
     fail(HF_ERROR_NOT_FOUND, position, "entry %u of the list: there is no site %u (removed already, or never added)",
          position, site);
-}
-
-Site SiteSet::locate(const Mesh& mesh, const Places& places, std::uint32_t i) const {
-  if (places.vertices) return Site::at_vertex(mesh, usable_vertex(mesh, places.vertices[i], i));
-  require_triangles(mesh, "a point in a triangle", i);
-  const double* weight = places.barycentrics + std::size_t{3} * i;
-  const SurfacePlace place = places.triangles ? place_in_triangle(mesh, places.triangles[i], weight, i)
-                                              : place_between(mesh, places.corners + std::size_t{3} * i, weight, i);
-  const double sum = weight[0] + weight[1] + weight[2];
-  Site site;
-  for (int k = 0; k < 3; ++k) {
-    site.vertex[k] = place.vertex[k];
-    site.weight[k] = weight[k] / sum;
-    if (site.weight[k] > 1 - corner_share) return Site::at_vertex(mesh, site.vertex[k]);  // a corner is a vertex site
-  }
-  site.component = mesh.component[at(site.vertex[0])];
-  return site;
 }
 
 const SiteSet::AtVertex* SiteSet::find_vertex(std::int32_t vertex) const noexcept {
@@ -202,14 +194,14 @@ void SiteSet::move(const Core& core, std::uint32_t count, const std::uint32_t* s
     slots_[sites[i]].given_vertex = HF_NO_INDEX - 1;  // the site has left its place and not arrived
   }
   Vector<double> values(at(channels_), core.memory.get());
+  const PlaceReader reader(core.mesh, to, *core.memory);
   for (std::uint32_t i = 0; i < count; ++i) {
     const Slot slot = slots_[sites[i]];
     if (slot.given_vertex != HF_NO_INDEX - 1)
       fail(HF_ERROR_NOT_FOUND, i, "entry %u of the list: site %u is named twice", i, sites[i]);
     std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(sites[i]) * channels_, channels_, values.begin());
-    place(core,
-          {i, to.vertices ? to.vertices[i] : HF_NO_INDEX, locate(core.mesh, to, i), slot.radius, slot.stiffness,
-           values.data()},
+    const Site site = site_at(core.mesh, reader.read(i));
+    place(core, {i, vertex_given(core.mesh, to, i, site), site, slot.radius, slot.stiffness, values.data()},
           static_cast<std::int32_t>(sites[i]), limit);
   }
 }
@@ -245,18 +237,19 @@ void SiteSet::set_values(std::uint32_t count, const std::uint32_t* sites, const 
   }
 }
 
-void SiteSet::add(const Core& core, const Places& places, const double* values, const double* stiffness,
-                  std::uint32_t limit, Vector<std::uint32_t>& out_sites) {
+void SiteSet::add(const Core& core, const Places& places, const Holds& holds, std::uint32_t limit,
+                  Vector<std::uint32_t>& out_sites) {
   if (places.count > limit || count_ + hidden_ > limit - places.count)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u sites and %u more; the site_limit is %u", count_ + hidden_, places.count,
          limit);
   out_sites.reserve(places.count);
+  const PlaceReader reader(core.mesh, places, *core.memory);
   for (std::uint32_t i = 0; i < places.count; ++i) {
     Arrival arrival;
     arrival.position = i;
-    arrival.site = locate(core.mesh, places, i);
-    arrival.given_vertex = places.vertices ? places.vertices[i] : HF_NO_INDEX;
-    arrival.stiffness = stiffness ? stiffness[i] : 0.0;
+    arrival.site = site_at(core.mesh, reader.read(i));
+    arrival.given_vertex = vertex_given(core.mesh, places, i, arrival.site);
+    arrival.stiffness = holds.stiffness ? holds.stiffness[i] : 0.0;
     if (!std::isfinite(arrival.stiffness))
       fail(HF_ERROR_NON_FINITE, i, "site %u of the batch: stiffness is not a finite number", i);
     if (arrival.stiffness < 0)
@@ -264,14 +257,14 @@ void SiteSet::add(const Core& core, const Places& places, const double* values, 
            "site %u of the batch: stiffness is %g; use 0 for a hard site or a number above 0", i, arrival.stiffness);
     if (arrival.stiffness > 0)
       arrival.stiffness = std::min(std::max(arrival.stiffness, least_stiffness), most_stiffness);
-    arrival.radius = places.radii ? places.radii[i] : 0.0;
+    arrival.radius = holds.radii ? holds.radii[i] : 0.0;
     if (!std::isfinite(arrival.radius))
       fail(HF_ERROR_NON_FINITE, i, "site %u of the batch: radius is not a finite number", i);
     if (arrival.radius > 0) require_triangles(core.mesh, "a disc", i);
     if (arrival.radius < 0)
       fail(HF_ERROR_INVALID_ARGUMENT, i, "site %u of the batch: radius is %g; use 0 for a point or a number above 0", i,
            arrival.radius);
-    arrival.values = values ? values + std::size_t{i} * at(channels_) : nullptr;
+    arrival.values = holds.values ? holds.values + std::size_t{i} * at(channels_) : nullptr;
     for (std::int32_t c = 0; arrival.values && c < channels_; ++c) check_value(arrival.values[c], i, c);
     const std::int32_t slot = free_slot();
     ++count_;

@@ -12,19 +12,9 @@
 
 #include "base/number_pool.h"
 #include "engine/site_solver.h"
+#include "mesh/place_reader.h"
 
 namespace hf_inner {
-
-// The places of a batch of sites in the caller's mesh: vertices, triangles with barycentric weights, or three vertices
-// with such weights.
-struct Places {
-  std::uint32_t count = 0;
-  const std::uint32_t* vertices = nullptr;
-  const std::uint32_t* triangles = nullptr;
-  const std::uint32_t* corners = nullptr;  // three per place
-  const double* barycentrics = nullptr;
-  const double* radii = nullptr;  // geodesic, in the unit of the mesh; null or 0: points
-};
 
 // Values of sites and targets may be at most this large. Larger values times weights of up to 1e12 could give fluxes
 // that are not finite.
@@ -71,8 +61,14 @@ class SiteSet {
   void remove(std::uint32_t count, const std::uint32_t* sites);
   void move(const Core& core, std::uint32_t count, const std::uint32_t* sites, const Places& to, std::uint32_t limit);
   void set_values(std::uint32_t count, const std::uint32_t* sites, const double* values);
+  // What new sites hold, by place. Each array may be null.
+  struct Holds {
+    const double* values = nullptr;     // null: 0
+    const double* stiffness = nullptr;  // null or 0: hard
+    const double* radii = nullptr;      // geodesic, in the unit of the mesh; null or 0: points
+  };
   // Appends the numbers of the new sites.
-  void add(const Core& core, const Places& places, const double* values, const double* stiffness, std::uint32_t limit,
+  void add(const Core& core, const Places& places, const Holds& holds, std::uint32_t limit,
            Vector<std::uint32_t>& out_sites);
 
  private:
@@ -87,7 +83,6 @@ class SiteSet {
     double radius, stiffness;
     const double* values;  // null: 0
   };
-  Site locate(const Mesh& mesh, const Places& places, std::uint32_t i) const;
   const AtVertex* find_vertex(std::int32_t vertex) const noexcept;
   void claim_vertex(const Arrival& arrival, std::int32_t vertex, std::int32_t slot);
   void release(std::int32_t slot) noexcept;

@@ -32,15 +32,7 @@ constexpr std::uint32_t default_sources = 40, most_sources = 1000;
 
 Places read_places(const hf_sites_desc& desc) {
   if (desc.site_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "site_count is 0");
-  check_places(desc.vertices, desc.triangles, desc.corners, desc.barycentrics);
-  Places places;
-  places.count = desc.site_count;
-  places.vertices = desc.vertices;
-  places.triangles = desc.triangles;
-  places.corners = desc.corners;
-  places.barycentrics = desc.barycentrics;
-  places.radii = desc.radii;
-  return places;
+  return {desc.site_count, desc.vertices, desc.places, desc.points};
 }
 
 void check_vertex_value(double value, std::uint32_t vertex, const char* name) {
@@ -70,8 +62,7 @@ SolverOptions read_solver_options(const hf_solver_desc& desc) {
 
 void read_addition(const hf_sites_desc& desc, FieldEdit& edit) {
   edit.add = read_places(desc);
-  edit.add_values = desc.values;
-  edit.add_stiffness = desc.stiffness;
+  edit.add_holds = {desc.values, desc.stiffness, desc.radii};
 }
 
 void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_desc& to, FieldEdit& edit) {
@@ -147,12 +138,10 @@ Vector<std::int32_t> read_source_vertices(const Mesh& mesh, std::uint32_t count,
   return inner;
 }
 
-PointOnSurface read_surface_point(const TriangleSides& sides, const hf_surface_point* given, const char* name,
-                                  std::uint32_t index, Memory& memory) {
+PointOnSurface point_on_surface(const TriangleSides& sides, const hf_place* given, const char* name,
+                                std::uint32_t index, Memory& memory) {
   require(given, name);
-  if (given->reserved != 0)
-    fail(HF_ERROR_INVALID_DESC, index, "%s: reserved is %u; it must be 0", name, given->reserved);
-  const SurfacePlace place = place_on_surface(sides.mesh, *given, index, name);
+  const SurfacePlace place = read_place(sides.mesh, *given, index, name);
   GeodesicPoint point(sides, place.vertex, place.weight, memory);
   if (!point.found()) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: its corners are not those of one triangle", name);
   return {place, std::move(point)};
@@ -167,8 +156,8 @@ double read_map_radius(const Mesh& mesh, double given) {
 double read_least_length(double given) {
   if (given != 0 && !(given > 0 && given <= most_least_length))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "least_length_share is %g; it is a share of the box diagonal above 0 and up to %g, or 0 for %g",
-         given, most_least_length, default_least_length);
+         "least_length_share is %g; it is a share of the box diagonal above 0 and up to %g, or 0 for %g", given,
+         most_least_length, default_least_length);
   return given > 0 ? given : default_least_length;
 }
 

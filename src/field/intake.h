@@ -63,8 +63,8 @@ struct PointOnSurface {
 };
 // index: the place of the point in the call; name: its name there. Throws HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC,
 // HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE or HF_ERROR_INVALID_ARGUMENT.
-PointOnSurface read_surface_point(const TriangleSides& sides, const hf_surface_point* given, const char* name,
-                                  std::uint32_t index, Memory& memory);
+PointOnSurface point_on_surface(const TriangleSides& sides, const hf_place* given, const char* name,
+                                std::uint32_t index, Memory& memory);
 
 // Returns the radius of a map in the inner unit. Throws HF_ERROR_INVALID_ARGUMENT.
 double read_map_radius(const Mesh& mesh, double given);

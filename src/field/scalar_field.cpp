@@ -75,7 +75,7 @@ void ScalarField::edit(const FieldEdit& edit, std::uint32_t* out_sites) {
   next.remove(edit.remove_count, edit.remove_sites);
   next.move(*core_, edit.move_count, edit.move_sites, edit.move_to, site_limit_);
   next.set_values(edit.set_count, edit.set_sites, edit.set_values);
-  next.add(*core_, edit.add, edit.add_values, edit.add_stiffness, site_limit_, numbers);
+  next.add(*core_, edit.add, edit.add_holds, site_limit_, numbers);
   const SiteDifference difference(sites_, next, memory());
   if (!adopt(next) && !difference.empty()) {
     try {

@@ -24,8 +24,7 @@ struct FieldEdit {
   const std::uint32_t* set_sites = nullptr;
   const double* set_values = nullptr;
   Places add;
-  const double* add_values = nullptr;
-  const double* add_stiffness = nullptr;
+  SiteSet::Holds add_holds;
 };
 
 class ScalarField {
@@ -71,7 +70,7 @@ class ScalarField {
  private:
   struct Prepared {
     Prepared(const SiteSet& set, std::shared_ptr<SiteSolver> solver, std::shared_ptr<const Screening> screen,
-           Memory& memory)
+             Memory& memory)
         : sites(set, memory), engine(std::move(solver)), screening(std::move(screen)) {}
     SiteSet sites;
     std::shared_ptr<SiteSolver> engine;
@@ -85,7 +84,7 @@ class ScalarField {
   SiteSet sites_;
   std::shared_ptr<SiteSolver> engine_;
   std::shared_ptr<const Screening> screening_;  // null: none
-  std::mutex guard_;  // guards sites_, engine_ and prepared_ while prepare_rebase runs
+  std::mutex guard_;                            // guards sites_, engine_ and prepared_ while prepare_rebase runs
   AtomicFlag preparing_{0};
   std::optional<Prepared> prepared_;  // a rebased engine and the sites it was made for
 };

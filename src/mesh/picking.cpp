@@ -21,9 +21,9 @@ std::uint32_t pieces_of(std::size_t count) { return static_cast<std::uint32_t>((
 
 // Gives the positions of welded vertices in the frame of the search. For a surface at rest this is the library's
 // centred and scaled frame. For a posed surface it is the caller's frame.
-class Places {
+class Frame {
  public:
-  explicit Places(const PickTarget& target) noexcept : mesh_(target.mesh), posed_(target.posed) {}
+  explicit Frame(const PickTarget& target) noexcept : mesh_(target.mesh), posed_(target.posed) {}
   Vec3 of(Index v) const noexcept {
     if (!posed_) return mesh_.positions[at(v)];
     const std::size_t row = at(mesh_.given_of_inner[at(v)]);
@@ -120,7 +120,7 @@ Vec3 read_direction(const double* direction) {
 
 RayHit cast_ray(const PickTarget& target, Vec3 origin, Vec3 direction, JobRunner& jobs, Memory& memory) {
   const Mesh& mesh = target.mesh;
-  const Places places(target);
+  const Frame places(target);
   const Shear shear(places.point_in(origin), places.direction_in(direction));
   const std::size_t triangles = at(mesh.triangle_count());
   // Numbers from `triangles` on stand for sides set aside. A mirrored one faces where its usable triangle does not.
@@ -170,7 +170,7 @@ RayHit cast_ray(const PickTarget& target, Vec3 origin, Vec3 direction, JobRunner
 
 NearestVertex nearest_vertex(const PickTarget& target, Vec3 point, JobRunner& jobs, Memory& memory) {
   const Mesh& mesh = target.mesh;
-  const Places places(target);
+  const Frame places(target);
   const Vec3 p = places.point_in(point);
   const std::size_t vertices = at(mesh.vertex_count());
   Vector<NearestVertex> found(pieces_of(vertices), &memory);

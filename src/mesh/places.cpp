@@ -22,79 +22,6 @@ std::int32_t usable_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t p
   return inner;
 }
 
-namespace {
-
-void check_weights(const double* weights, std::size_t position, const char* list = "the list") {
-  const std::uint32_t index = static_cast<std::uint32_t>(position);
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (!std::isfinite(weights[k]))
-      fail(HF_ERROR_NON_FINITE, index, "entry %zu of %s: barycentric weight %d is not a finite number", position, list,
-           k);
-    if (weights[k] < 0)
-      fail(HF_ERROR_INVALID_ARGUMENT, index,
-           "entry %zu of %s: barycentric weight %d is %g; weights must not be negative", position, list, k, weights[k]);
-    sum += weights[k];
-  }
-  if (!(std::fabs(sum - 1) <= weight_sum_error))
-    fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of %s: barycentric weights sum to %.9g; they must sum to 1",
-         position, list, sum);
-}
-
-}  // namespace
-
-SurfacePlace place_in_triangle(const Mesh& mesh, std::uint32_t triangle, const double* weights, std::size_t position) {
-  const std::uint32_t index = static_cast<std::uint32_t>(position);
-  const char* const noun = mesh.faces.empty() ? "triangle" : "face";
-  if (triangle >= mesh.triangle_of_given.size())
-    fail(HF_ERROR_OUT_OF_RANGE, index, "entry %zu of the list: %s %u, but there are %zu %ss", position, noun, triangle,
-         mesh.triangle_of_given.size(), noun);
-  if (!mesh.faces.empty() && mesh.faces.given_size[triangle] != 3)
-    fail(HF_ERROR_INVALID_ARGUMENT, index,
-         "entry %zu of the list: face %u has %u corners; name three of them in `corners`", position, triangle,
-         mesh.faces.given_size[triangle]);
-  const std::int32_t inner = mesh.triangle_of_given[triangle];
-  if (inner == Mesh::none)
-    fail(HF_ERROR_INVALID_ARGUMENT, index, "entry %zu of the list: %s %u has equal corners or no area; choose another",
-         position, noun, triangle);
-  check_weights(weights, position);
-  // The weights belong to the corners in the caller's order.
-  const auto entry = std::lower_bound(mesh.doubled.begin(), mesh.doubled.end(), static_cast<std::int32_t>(triangle),
-                                      [](const Mesh::Doubled& e, std::int32_t given) { return e.given < given; });
-  const bool aside = entry != mesh.doubled.end() && entry->given == static_cast<std::int32_t>(triangle);
-  const std::int32_t* v = aside ? entry->corner : mesh.triangle(inner);
-  return {{v[0], v[1], v[2]}, weights};
-}
-
-SurfacePlace place_between(const Mesh& mesh, const std::uint32_t* vertices, const double* weights,
-                           std::size_t position) {
-  const std::uint32_t index = static_cast<std::uint32_t>(position);
-  SurfacePlace place{{}, weights};
-  for (int k = 0; k < 3; ++k) place.vertex[k] = usable_vertex(mesh, vertices[k], position, "corners");
-  for (int k = 0; k < 3; ++k) {
-    const std::int32_t a = place.vertex[k], b = place.vertex[(k + 1) % 3];
-    if (a == b)
-      fail(HF_ERROR_INVALID_ARGUMENT, index,
-           "entry %zu of corners: vertices %u and %u are one; name three different ones", position, vertices[k],
-           vertices[(k + 1) % 3]);
-    if (mesh.component[static_cast<std::size_t>(a)] != mesh.component[static_cast<std::size_t>(b)])
-      fail(HF_ERROR_INVALID_ARGUMENT, index,
-           "entry %zu of corners: vertices %u and %u are in different components; name corners of one face", position,
-           vertices[k], vertices[(k + 1) % 3]);
-  }
-  check_weights(weights, position);
-  return place;
-}
-
-SurfacePlace place_on_surface(const Mesh& mesh, const hf_surface_point& point, std::size_t position, const char* name) {
-  check_weights(point.barycentrics, position, name);
-  SurfacePlace place{{Mesh::none, Mesh::none, Mesh::none}, point.barycentrics};
-  for (int k = 0; k < 3; ++k) {
-    if (place.weight[k] > 0) place.vertex[k] = usable_vertex(mesh, point.corners[k], position, name);
-  }
-  return place;
-}
-
 Vec3 position_of(const Mesh& mesh, const SurfacePlace& place) noexcept {
   Vec3 p;
   for (int k = 0; k < 3; ++k) {
@@ -131,7 +58,7 @@ Vec3 read_point(const double* p, const char* name) {
   return {p[0], p[1], p[2]};
 }
 
-Vec3 read_place(const Mesh& mesh, const double* p, const char* name, std::uint32_t i) {
+Vec3 read_point_near(const Mesh& mesh, const double* p, const char* name, std::uint32_t i) {
   if (!is_finite_point(p)) fail(HF_ERROR_NON_FINITE, i, "%s %u is not finite", name, i);
   const Vec3 place = mesh.to_inner({p[0], p[1], p[2]});
   if (const double away = norm(place); !(away <= farthest_point))

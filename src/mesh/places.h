@@ -2,7 +2,7 @@
 //
 // `position` is the place in the caller's list and becomes the index of the error; `list` names the list in the text.
 #pragma once
-#include "hf/analysis.h"
+#include "hf/surface.h"
 #include "mesh/mesh.h"
 
 namespace hf_inner {
@@ -13,29 +13,14 @@ std::int32_t inner_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t po
 // The inner vertex. Throws as inner_vertex, and HF_ERROR_INVALID_ARGUMENT for an isolated one.
 std::int32_t usable_vertex(const Mesh& mesh, std::uint32_t vertex, std::size_t position, const char* list = "the list");
 
-// Barycentric weights may sum to 1 within this. Three of single precision are off by at most 9e-8, so half and double
-// take them too; a larger bound would hide wrong ones. bad_sites_test reaches it with sums of 0.999 and 1.001.
-constexpr double weight_sum_error = 1e-6;
-
-// A point of the surface: three inner vertices of one component, and their weights.
+// A place on the surface: up to three inner vertices of one component and their weights, of sum 1. Unused corners are
+// Mesh::none and stand last.
 struct SurfacePlace {
-  std::int32_t vertex[3];
-  const double* weight;
+  std::int32_t vertex[3] = {Mesh::none, Mesh::none, Mesh::none};
+  double weight[3] = {0, 0, 0};
+  bool is_vertex() const noexcept { return vertex[1] == Mesh::none; }
+  static SurfacePlace at_vertex(std::int32_t v) noexcept { return {{v, Mesh::none, Mesh::none}, {1, 0, 0}}; }
 };
-
-// The point of a triangle as given, or of a face of three corners. Throws as require_triangles,
-// HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT (collapsed, or a face of more corners), and as the weights of its
-// corners ask: HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (below 0, or of another sum than 1).
-SurfacePlace place_in_triangle(const Mesh& mesh, std::uint32_t triangle, const double* weights, std::size_t position);
-
-// The point between three vertices as given. Throws as usable_vertex and place_in_triangle do, and
-// HF_ERROR_INVALID_ARGUMENT for vertices that are equal or in different components.
-SurfacePlace place_between(const Mesh& mesh, const std::uint32_t* vertices, const double* weights,
-                           std::size_t position);
-
-// A point of the caller. A corner of weight 0 may be any number; its vertex is Mesh::none. name: the point in the text
-// of errors. Throws as usable_vertex, and as the weights of place_in_triangle.
-SurfacePlace place_on_surface(const Mesh& mesh, const hf_surface_point& point, std::size_t position, const char* name);
 
 // The position of a place, in the unit of the caller.
 Vec3 position_of(const Mesh& mesh, const SurfacePlace& place) noexcept;
@@ -77,9 +62,9 @@ Vec3 read_point(const double* p, const char* name);
 // farther has another unit than the mesh. The surface ends half a diagonal from there; half and double take other
 // mistakes for meant.
 constexpr double farthest_point = 2;
-// Returns the inner place of such a point: xyz. name, i: the point in the text of errors. Throws HF_ERROR_NON_FINITE
-// or HF_ERROR_TOO_LARGE (index i).
-Vec3 read_place(const Mesh& mesh, const double* p, const char* name, std::uint32_t i);
+// Returns the inner place of such a point: xyz. name, i: the point in the text of errors. Throws HF_ERROR_NON_FINITE or
+// HF_ERROR_TOO_LARGE (index i).
+Vec3 read_point_near(const Mesh& mesh, const double* p, const char* name, std::uint32_t i);
 
 // A posed vertex, or where one shall go, lies up to this many box diagonals away. Farther, a double holds nothing of
 // the shape any more, and squares leave the range.

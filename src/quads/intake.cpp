@@ -76,15 +76,17 @@ void read_poles(const Core& core, const hf_quads_desc& desc, const FieldQuadOpti
   require(desc.irregular_points, "irregular_points");
   require(desc.irregular_valences, "irregular_valences");
   if (desc.irregular_count > most_poles)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "irregular_count is %u; it must be up to %u", desc.irregular_count, most_poles);
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "irregular_count is %u; it must be up to %u", desc.irregular_count,
+         most_poles);
   Vector<QuadPole>& poles = lists.poles;
   for (std::uint32_t i = 0; i < desc.irregular_count; ++i) {
     const double* point = desc.irregular_points + std::size_t{3} * i;
     if (!is_finite_point(point)) fail(HF_ERROR_NON_FINITE, i, "irregular_points[%u] is not finite", i);
     if (desc.irregular_valences[i] != 3 && desc.irregular_valences[i] != 5)
-      fail(HF_ERROR_INVALID_ARGUMENT, i, "irregular_valences[%u] is %u; it must be 3 or 5", i, desc.irregular_valences[i]);
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "irregular_valences[%u] is %u; it must be 3 or 5", i,
+           desc.irregular_valences[i]);
     QuadPole pole;
-    pole.place = read_place(core.mesh, point, "pole", i);
+    pole.place = read_point_near(core.mesh, point, "pole", i);
     pole.quads = static_cast<std::int32_t>(desc.irregular_valences[i]);
     if (desc.irregular_directions) {
       const double* direction = desc.irregular_directions + std::size_t{3} * i;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/arguments.h"
-#include "mesh/places.h"
+#include "mesh/place_reader.h"
 #include "weights/constants.h"
 
 namespace hf_inner {
@@ -23,19 +23,10 @@ void check_parents(const Bones& bones, Memory& memory) {
   }
 }
 
-Site read_place(const Mesh& mesh, const hf_pins_desc& desc, std::uint32_t i) {
-  if (desc.vertices) return Site::at_vertex(mesh, usable_vertex(mesh, desc.vertices[i], i, "vertices"));
-  const double* weights = desc.barycentrics + 3 * std::size_t{i};
-  const SurfacePlace place = place_in_triangle(mesh, desc.triangles[i], weights, i);
+Site pin_site(const Mesh& mesh, const SurfacePlace& place) noexcept {
   Site site;
-  int used = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (weights[k] > 0) {
-      site.vertex[used] = place.vertex[k];
-      site.weight[used++] = weights[k];
-    }
-  }
-  if (used == 1) site.weight[0] = 1;
+  std::copy_n(place.vertex, 3, site.vertex);
+  std::copy_n(place.weight, 3, site.weight);
   site.component = mesh.component[at(place.vertex[0])];
   return site;
 }
@@ -114,7 +105,8 @@ void read_bones(const hf_joints_desc& desc, Bones& bones, Memory& memory) {
     if (desc.axes) bones.axis.push_back(unit_vector(read_bone_point(desc.axes, b, "axes")));
     const std::uint32_t parent = desc.parents ? desc.parents[b] : HF_NO_INDEX;
     if (parent != HF_NO_INDEX && parent >= desc.joint_count)
-      fail(HF_ERROR_OUT_OF_RANGE, b, "the parent of joint %u is %u, but there are %u joints", b, parent, desc.joint_count);
+      fail(HF_ERROR_OUT_OF_RANGE, b, "the parent of joint %u is %u, but there are %u joints", b, parent,
+           desc.joint_count);
     bones.parent.push_back(parent == HF_NO_INDEX ? -1 : static_cast<Index>(parent));
     const std::int32_t deforms = desc.deforms ? desc.deforms[b] : 1;
     if (deforms != 0 && deforms != 1)
@@ -142,13 +134,10 @@ Vector<Index> read_sources(const hf_joints_desc& desc, std::uint32_t before, Mem
   return sources;
 }
 
-void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, Pins& pins) {
+void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, Pins& pins, Memory& memory) {
   require_zero(desc.reserved);
   if (desc.pin_count == 0) return;
-  if (desc.vertices && desc.triangles)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "vertices and triangles are both set; set one");
-  require_either(desc.vertices, desc.triangles, "vertices and triangles");
-  if (desc.triangles) require(desc.barycentrics, "barycentrics");
+  const Places places(desc.pin_count, desc.vertices, desc.places, desc.points);
   require(desc.joints, "joints");
   require(desc.weights, "weights");
   if (desc.influence_count < 1 || desc.influence_count > most_influences)
@@ -157,8 +146,9 @@ void read_pins(const hf_pins_desc& desc, const Mesh& mesh, std::uint32_t bones, 
   if (desc.pin_count > mesh.report.vertex_count)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "pin_count is %u; the mesh has %u vertices", desc.pin_count,
          mesh.report.vertex_count);
+  const PlaceReader reader(mesh, places, memory);
   for (std::uint32_t i = 0; i < desc.pin_count; ++i) {
-    pins.places.push_back(read_place(mesh, desc, i));
+    pins.places.push_back(pin_site(mesh, reader.read(i)));
     const double radius = desc.radii ? desc.radii[i] : 0.0;
     if (!std::isfinite(radius)) fail(HF_ERROR_NON_FINITE, i, "the radius of pin %u is not finite", i);
     if (radius < 0)

@@ -252,12 +252,12 @@ static void paths_and_maps_agree_with_distances(void** state) {
   static uint32_t edges[COUNT][2];
   const uint32_t source = 5;
   assert_ok(hf_geodesics_solve_f64(geodesics, 1, &source, distance, 0));
-  hf_surface_point from = {{5, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
+  hf_place from = {{5, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
   assert_ok(hf_geodesics_get_map(geodesics, &from, 0, &map[0][0], frame));
   assert_near(frame[0] * frame[3] + frame[1] * frame[4] + frame[2] * frame[5], 0, 1e-12);
   hf_path path = HF_INIT(hf_path);
   for (uint32_t v = 0; v < COUNT; v += 17) {
-    const hf_surface_point to = {{HF_NO_INDEX, v, HF_NO_INDEX}, 0, {0, 1, 0}};
+    const hf_place to = {{HF_NO_INDEX, v, HF_NO_INDEX}, 0, {0, 1, 0}};
     assert_near(hypot(map[v][0], map[v][1]), distance[v], 1e-9);
     path.point_capacity = 0;
     path.positions = NULL;
@@ -291,7 +291,7 @@ static void paths_and_maps_agree_with_distances(void** state) {
   }
 #define BAD_POINT(what, code, at, change)                                                          \
   do {                                                                                             \
-    hf_surface_point to = {{5, 6, HF_NO_INDEX}, 0, {0.5, 0.5, 0}};                                 \
+    hf_place to = {{5, 6, HF_NO_INDEX}, 0, {0.5, 0.5, 0}};                                         \
     change;                                                                                        \
     const hf_path before = path;                                                                   \
     BAD(what, code, at, hf_geodesics_find_path(geodesics, &from, &to, &path));                     \
@@ -317,7 +317,7 @@ static void paths_and_maps_agree_with_distances(void** state) {
   BAD("reserved set", HF_ERROR_INVALID_DESC, NO_INDEX, hf_geodesics_find_path(geodesics, &from, &from, &path));
   path.reserved = 0;
   path.point_capacity = 1;
-  const hf_surface_point far_end = {{COUNT - 1, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
+  const hf_place far_end = {{COUNT - 1, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
   BAD("no room", HF_ERROR_TOO_SMALL, NO_INDEX, hf_geodesics_find_path(geodesics, &from, &far_end, &path));
   hf_geodesics_destroy(geodesics);
   tube_destroy(&tube);

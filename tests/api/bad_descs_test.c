@@ -219,7 +219,7 @@ static hf_result critical_info(void* d) {
 }
 static void fill_path(void* d) { *(hf_path*)d = HF_INIT(hf_path); }
 static hf_result find_path(void* d) {
-  const hf_surface_point point = {{3, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
+  const hf_place point = {{3, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
   return hf_geodesics_find_path(scene.geodesics, &point, &point, d);
 }
 static void fill_geodesics(void* d) { *(hf_geodesics_desc*)d = HF_INIT(hf_geodesics_desc); }

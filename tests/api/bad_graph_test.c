@@ -249,16 +249,15 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("a transfer to a graph", 1, hf_transfer_create(scene.body, graph, NULL, &transfer));
   assert_true(!pose && !region && !direction && !geodesics && !quads && !flow && !transfer && !weights);
 
-  const uint32_t triangle = 0, vertex[2] = {5, 1}, site = 0;
-  const double weight[3] = {0.5, 0.25, 0.25}, radii[2] = {0, 0.5}, angle = 1;
+  const uint32_t vertex[2] = {5, 1}, site = 0;
+  const hf_place corners = {{0, 1, 2}, 0, {0.5, 0.25, 0.25}};
+  const double origin[3] = {0, 0, 0}, radii[2] = {0, 0.5}, angle = 1;
   hf_sites_desc in_triangle = HF_INIT(hf_sites_desc), disc = HF_INIT(hf_sites_desc);
   in_triangle.site_count = 1;
-  in_triangle.triangles = &triangle;
-  in_triangle.barycentrics = weight;
-  hf_sites_desc between = in_triangle; /* three vertices of one component, as of a triangle */
-  const uint32_t corners[3] = {0, 1, 2};
-  between.triangles = NULL;
-  between.corners = corners;
+  in_triangle.places = &corners;
+  hf_sites_desc in_space = HF_INIT(hf_sites_desc);
+  in_space.site_count = 1;
+  in_space.points = origin;
   disc.site_count = 2;
   disc.vertices = vertex;
   disc.radii = radii;
@@ -268,7 +267,7 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   edit.add = &disc;
   const double screening[VERTICES] = {1};
   NEEDS("a point in a triangle", 0, hf_add_sites(solver, &in_triangle, NULL));
-  NEEDS("a point between vertices", 0, hf_add_sites(solver, &between, NULL));
+  NEEDS("a point in space", 0, hf_add_sites(solver, &in_space, NULL));
   NEEDS("a disc", 1, hf_add_sites(solver, &disc, NULL));
   NEEDS("a disc in a batch", 1, hf_solver_edit_sites(solver, &edit, NULL));
   NEEDS("a move into a triangle", 0, hf_solver_move_sites(solver, 1, &site, &in_triangle));

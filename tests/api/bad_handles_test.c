@@ -167,7 +167,7 @@ static hf_result geodesics_distance_f64(void* h) {
   const uint32_t v = 3;
   return hf_geodesics_solve_f64(h, 1, &v, doubles, 0);
 }
-static const hf_surface_point first_vertex = {{0, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
+static const hf_place first_vertex = {{0, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
 static hf_result geodesics_path(void* h) {
   hf_path path = HF_INIT(hf_path);
   return hf_geodesics_find_path(h, &first_vertex, &first_vertex, &path);

@@ -24,13 +24,6 @@ static void regions_name_points_that_are_no_surface(void** state) {
   curve.side = HF_SIDE_SEED;
   curve.seed_vertex = CUT_ISOLATED;
   REFUSED("a seed in no triangle", HF_ERROR_INVALID_ARGUMENT, CUT_ISOLATED, hf_region_edit(region, &edit));
-  uint32_t triangles[3] = {0, 9, CUT_COLLAPSED};
-  const double corners[9] = {1, 0, 0, 1, 0, 0, 1, 0, 0};
-  curve = HF_INIT(hf_curve_desc);
-  curve.point_count = 3;
-  curve.triangles = triangles;
-  curve.barycentrics = corners;
-  REFUSED("a triangle of equal corners", HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   edit = HF_INIT(hf_region_edit_desc);
   edit.add_count = 4;
   edit.add_vertices = points;

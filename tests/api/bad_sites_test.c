@@ -1,11 +1,13 @@
 /* Bad input to hf/field.h: one thing wrong per row; the field, the sites and the outputs stay as they were. */
 #include "bad_scene.h"
+#include "support/place_in.h"
 
 static Scene scene;
 
 /* The good input of every call; a row spoils one thing. */
-static uint32_t places[3], corners[3], between[9], out_sites[3], numbers[4];
-static double weights[9], values[9], stiffness[3];
+static uint32_t places[3], out_sites[3], numbers[4];
+static hf_place spots[3];
+static double values[9], stiffness[3];
 static hf_sites_desc sites, to;
 static hf_edit_desc edit;
 static hf_sites_info info;
@@ -17,13 +19,10 @@ static double doubles[CUT_VERTICES];
 static void good_input(void) {
   const uint32_t free_vertices[3] = {6, 7, 8}, free_triangles[3] = {10, 11, 12};
   memcpy(places, free_vertices, sizeof places);
-  memcpy(corners, free_triangles, sizeof corners);
-  for (int i = 0; i < 9; ++i) between[i] = scene.cut.triangles[3 * free_triangles[0] + i];
-  for (int i = 0; i < 9; ++i) {
-    weights[i] = i % 3 == 0 ? 0.5 : 0.25;
-    values[i] = i + 10.0;
-  }
+  const double weights[3] = {0.5, 0.25, 0.25};
+  for (int i = 0; i < 9; ++i) values[i] = i + 10.0;
   for (int i = 0; i < 3; ++i) {
+    spots[i] = place_in(scene.cut.triangles, CUT_TRIANGLES, free_triangles[i], weights);
     stiffness[i] = i;
     out_sites[i] = 777;
     numbers[i] = scene.sites[i];
@@ -57,53 +56,41 @@ static int as_before(void) {
 #define EDIT(what, expected, index, change) \
   ROW(what, expected, index, change, hf_solver_edit_sites(scene.solver, &edit, out_sites))
 
-static void in_triangles(hf_sites_desc* d) {
+static void between_corners(hf_sites_desc* d) {
   d->vertices = NULL;
-  d->triangles = corners;
-  d->barycentrics = weights;
-}
-
-static void in_corners(hf_sites_desc* d) {
-  d->vertices = NULL;
-  d->corners = between;
-  d->barycentrics = weights;
+  d->places = spots;
 }
 
 static void adding_bad_sites_is_refused(void** state) {
   (void)state;
   scene_create(&scene);
   ADD("no site", HF_ERROR_EMPTY, NO_INDEX, sites.site_count = 0);
-  ADD("neither vertices nor triangles", HF_ERROR_NULL_POINTER, NO_INDEX, sites.vertices = NULL);
-  ADD("both vertices and triangles", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, sites.triangles = corners);
-  ADD("triangles without weights", HF_ERROR_NULL_POINTER, NO_INDEX, (in_triangles(&sites), sites.barycentrics = NULL));
+  ADD("no form of places", HF_ERROR_NULL_POINTER, NO_INDEX, sites.vertices = NULL);
+  ADD("both vertices and places", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, sites.places = spots);
+  ADD("both vertices and points", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, sites.points = values);
+  ADD("both places and points", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (between_corners(&sites), sites.points = values));
   ADD("vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 2, places[2] = CUT_VERTICES);
   ADD("vertex UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 0, places[0] = UINT32_MAX);
   ADD("vertex 2^31", HF_ERROR_OUT_OF_RANGE, 1, places[1] = 0x80000000u);
   ADD("isolated vertex", HF_ERROR_INVALID_ARGUMENT, 1, places[1] = CUT_ISOLATED);
-  ADD("triangle = triangle_count", HF_ERROR_OUT_OF_RANGE, 1, (in_triangles(&sites), corners[1] = CUT_TRIANGLES));
-  ADD("triangle UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 2, (in_triangles(&sites), corners[2] = UINT32_MAX));
-  ADD("collapsed triangle", HF_ERROR_INVALID_ARGUMENT, 0, (in_triangles(&sites), corners[0] = CUT_COLLAPSED));
-  ADD("weight NaN", HF_ERROR_NON_FINITE, 1, (in_triangles(&sites), weights[4] = (double)NAN));
-  ADD("weight infinite", HF_ERROR_NON_FINITE, 2, (in_triangles(&sites), weights[8] = HUGE_VAL));
-  ADD("weight negative", HF_ERROR_INVALID_ARGUMENT, 0, (in_triangles(&sites), weights[0] = 1.25, weights[1] = -0.5));
-  ADD("weights sum to 0.999", HF_ERROR_INVALID_ARGUMENT, 2, (in_triangles(&sites), weights[6] = 0.499));
-  ADD("weights sum to 1.001", HF_ERROR_INVALID_ARGUMENT, 1, (in_triangles(&sites), weights[3] = 0.501));
+  ADD("reserved set", HF_ERROR_INVALID_DESC, 2, (between_corners(&sites), spots[2].reserved = 1));
+  ADD("weight NaN", HF_ERROR_NON_FINITE, 1, (between_corners(&sites), spots[1].barycentrics[1] = (double)NAN));
+  ADD("weight infinite", HF_ERROR_NON_FINITE, 2, (between_corners(&sites), spots[2].barycentrics[2] = HUGE_VAL));
+  ADD("weight negative", HF_ERROR_INVALID_ARGUMENT, 0,
+      (between_corners(&sites), spots[0].barycentrics[0] = 1.25, spots[0].barycentrics[1] = -0.5));
+  ADD("weights sum to 0.999", HF_ERROR_INVALID_ARGUMENT, 2,
+      (between_corners(&sites), spots[2].barycentrics[0] = 0.499));
+  ADD("weights sum to 1.001", HF_ERROR_INVALID_ARGUMENT, 1,
+      (between_corners(&sites), spots[1].barycentrics[0] = 0.501));
   ADD("weights are all 0", HF_ERROR_INVALID_ARGUMENT, 0,
-      (in_triangles(&sites), weights[0] = weights[1] = weights[2] = 0));
-  ADD("both vertices and corners", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, sites.corners = between);
-  ADD("both triangles and corners", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
-      (in_triangles(&sites), sites.corners = between));
-  ADD("corners without weights", HF_ERROR_NULL_POINTER, NO_INDEX, (in_corners(&sites), sites.barycentrics = NULL));
-  ADD("corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 1, (in_corners(&sites), between[5] = CUT_VERTICES));
-  ADD("corner UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 2, (in_corners(&sites), between[6] = UINT32_MAX));
-  ADD("isolated corner", HF_ERROR_INVALID_ARGUMENT, 0, (in_corners(&sites), between[1] = CUT_ISOLATED));
-  ADD("the same corner twice", HF_ERROR_INVALID_ARGUMENT, 1, (in_corners(&sites), between[4] = between[3]));
-  ADD("copies of one corner", HF_ERROR_INVALID_ARGUMENT, 0,
-      (in_corners(&sites), between[0] = CUT_SEAM_LEFT, between[2] = CUT_SEAM_RIGHT));
-  ADD("corners of two components", HF_ERROR_INVALID_ARGUMENT, 2, (in_corners(&sites), between[8] = CUT_ISLAND));
-  ADD("corners with a negative weight", HF_ERROR_INVALID_ARGUMENT, 0,
-      (in_corners(&sites), weights[0] = 1.25, weights[1] = -0.5));
-  ADD("corners with a weight that is NaN", HF_ERROR_NON_FINITE, 1, (in_corners(&sites), weights[4] = (double)NAN));
+      (between_corners(&sites), memset(spots[0].barycentrics, 0, sizeof spots[0].barycentrics)));
+  ADD("corner = vertex_count", HF_ERROR_OUT_OF_RANGE, 1, (between_corners(&sites), spots[1].corners[2] = CUT_VERTICES));
+  ADD("corner UINT32_MAX", HF_ERROR_OUT_OF_RANGE, 2, (between_corners(&sites), spots[2].corners[0] = UINT32_MAX));
+  ADD("isolated corner", HF_ERROR_INVALID_ARGUMENT, 0, (between_corners(&sites), spots[0].corners[1] = CUT_ISOLATED));
+  ADD("corners of two components", HF_ERROR_INVALID_ARGUMENT, 2,
+      (between_corners(&sites), spots[2].corners[2] = CUT_ISLAND));
+  ADD("point NaN", HF_ERROR_NON_FINITE, 0, (sites.vertices = NULL, sites.points = values, values[1] = (double)NAN));
+  ADD("point far away", HF_ERROR_TOO_LARGE, 0, (sites.vertices = NULL, sites.points = values, values[2] = -1e6));
   ADD("value NaN", HF_ERROR_NON_FINITE, 1, values[1] = (double)NAN);
   ADD("value infinite", HF_ERROR_NON_FINITE, 0, values[0] = -HUGE_VAL);
   ADD("value beyond 1e200", HF_ERROR_TOO_LARGE, 1, values[1] = 1.01e200);
@@ -123,7 +110,7 @@ static void adding_bad_sites_is_refused(void** state) {
   ADD("both copies in one batch, other values", HF_ERROR_CONFLICT, 1,
       (places[0] = CUT_SEAM_LEFT + 5, places[1] = CUT_SEAM_RIGHT + 5));
   ADD("a corner of a triangle that has a site", HF_ERROR_CONFLICT, 0,
-      (in_triangles(&sites), corners[0] = 0, weights[0] = 1, weights[1] = weights[2] = 0));
+      (between_corners(&sites), spots[0] = (hf_place){{0, 1, 2}, 0, {1, 0, 0}}));
   ADD("site_limit", HF_ERROR_TOO_LARGE, NO_INDEX, sites.site_count = 100001);
   ADD("2^31 sites", HF_ERROR_TOO_LARGE, NO_INDEX, sites.site_count = 0x80000000u);
   ADD("2^32 - 1 sites", HF_ERROR_TOO_LARGE, NO_INDEX, sites.site_count = UINT32_MAX);
@@ -145,27 +132,28 @@ static void linearly_dependent_points_are_refused(void** state) {
   double before[CUT_VERTICES], after[CUT_VERTICES];
   assert_ok(hf_solver_solve_f64(solver, before, 0, NULL));
   GOOD();
-  in_triangles(&sites);
+  between_corners(&sites);
   sites.site_count = 1;
   sites.stiffness = NULL;
   check_row(__LINE__, "a point between three hard sites", "hf_add_sites", hf_add_sites(solver, &sites, NULL),
             HF_ERROR_CONFLICT, 0);
   sites.site_count = 2;
-  corners[0] = 20;
-  corners[1] = 10;
+  const double weights[3] = {0.5, 0.25, 0.25};
+  spots[0] = place_in(scene.cut.triangles, CUT_TRIANGLES, 20, weights);
+  spots[1] = place_in(scene.cut.triangles, CUT_TRIANGLES, 10, weights);
   check_row(__LINE__, "the second of a batch", "hf_add_sites", hf_add_sites(solver, &sites, NULL), HF_ERROR_CONFLICT,
             1);
   hf_sites_desc there = sites;
   there.values = NULL;
   there.site_count = 1;
-  there.triangles = corners + 1;
+  there.places = spots + 1;
   check_row(__LINE__, "a move to such a point", "hf_solver_move_sites",
             hf_solver_move_sites(solver, 1, scene.sites, &there), HF_ERROR_CONFLICT, 0);
   assert_ok(hf_solver_solve_f64(solver, after, 0, NULL));
   assert_true(same_bits(before, after, sizeof before));
   const double soft = 3;
   sites.site_count = 1;
-  corners[0] = 10;
+  spots[0] = spots[1];
   sites.stiffness = &soft; /* soft points are never dependent */
   assert_ok(hf_add_sites(solver, &sites, NULL));
   hf_solver_destroy(solver);
@@ -194,8 +182,8 @@ static void removing_moving_and_setting_bad_sites_is_refused(void** state) {
   MOVE("places empty", HF_ERROR_EMPTY, NO_INDEX, to.site_count = 0);
   MOVE("with values", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, to.values = values);
   MOVE("with stiffness", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, to.stiffness = stiffness);
-  MOVE("neither vertices nor triangles", HF_ERROR_NULL_POINTER, NO_INDEX, to.vertices = NULL);
-  MOVE("both vertices and triangles", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, to.triangles = corners);
+  MOVE("no form of places", HF_ERROR_NULL_POINTER, NO_INDEX, to.vertices = NULL);
+  MOVE("both vertices and places", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, to.places = spots);
   MOVE("no such number", HF_ERROR_NOT_FOUND, 1, numbers[1] = 17);
   MOVE("named twice", HF_ERROR_NOT_FOUND, 2, numbers[2] = numbers[1]);
   MOVE("vertex = vertex_count", HF_ERROR_OUT_OF_RANGE, 0, places[0] = CUT_VERTICES);
@@ -203,9 +191,8 @@ static void removing_moving_and_setting_bad_sites_is_refused(void** state) {
   MOVE("two to one place", HF_ERROR_CONFLICT, 1, places[1] = places[0]);
   MOVE("two to copies of one place", HF_ERROR_CONFLICT, 2,
        (places[0] = CUT_SEAM_LEFT + 10, places[2] = CUT_SEAM_RIGHT + 10));
-  MOVE("weight NaN", HF_ERROR_NON_FINITE, 0, (in_triangles(&to), weights[1] = (double)NAN));
-  MOVE("weights sum to 2", HF_ERROR_INVALID_ARGUMENT, 1, (in_triangles(&to), weights[3] = 1.5));
-  MOVE("collapsed triangle", HF_ERROR_INVALID_ARGUMENT, 2, (in_triangles(&to), corners[2] = CUT_COLLAPSED));
+  MOVE("weight NaN", HF_ERROR_NON_FINITE, 0, (between_corners(&to), spots[0].barycentrics[1] = (double)NAN));
+  MOVE("weights sum to 2", HF_ERROR_INVALID_ARGUMENT, 1, (between_corners(&to), spots[1].barycentrics[0] = 1.5));
   ROW("to the place of a site that stays", HF_ERROR_CONFLICT, 0, places[0] = CUT_RIGHT,
       hf_solver_move_sites(scene.solver, 1, numbers, (to.site_count = 1, &to)));
   ROW("2^31 of them", HF_ERROR_NOT_FOUND, 3, to.site_count = 0x80000000u,

@@ -1,6 +1,7 @@
 /* The certificate of a field: small where the field is right, on every engine and operator, and HF_ERROR_INACCURATE
  * where it is not: a factor whose numbers were changed behind the library's back. */
 #include "api_support.h"
+#include "support/place_in.h"
 
 enum { AROUND = 12, RINGS = 30, VERTICES = AROUND * RINGS };
 
@@ -58,7 +59,7 @@ static void points_soft_sites_discs_and_a_single_site_pass(void** state) {
   hf_certificate found = HF_INIT(hf_certificate);
   assert_ok(hf_solver_certify(solver, &found));
   assert_true(found.value_range == 0 && found.residual < 1e-12 && found.overshoot_checked == 1);
-  const uint32_t triangle = 400, vertices[2] = {100, 200};
+  const uint32_t vertices[2] = {100, 200};
   const double weights[3] = {0.2, 0.3, 0.5}, values[2] = {12346, 12350}, stiffness[2] = {1e3, 1e-3},
                radii[2] = {1.5, 0};
   hf_sites_desc sites = sites_at(2, vertices, values);
@@ -73,8 +74,8 @@ static void points_soft_sites_discs_and_a_single_site_pass(void** state) {
   assert_ok(hf_solver_certify(solver, &found));
   sites = HF_INIT(hf_sites_desc);
   sites.site_count = 1;
-  sites.triangles = &triangle;
-  sites.barycentrics = weights;
+  const hf_place inside = place_in(tube.triangles, tube.triangle_count, 400, weights);
+  sites.places = &inside;
   sites.values = values;
   assert_ok(hf_add_sites(solver, &sites, NULL));
   assert_ok(hf_solver_certify(solver, &found));

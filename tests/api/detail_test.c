@@ -1,6 +1,7 @@
 /* Regions and carried detail through the C ABI: bits at weight 0, edits without a factorisation, clones, lifetimes, and
  * every bad argument named. */
 #include "api_support.h"
+#include "support/place_in.h"
 
 enum { SIDE = 16, ROW = SIDE + 1, COUNT = ROW * ROW };
 
@@ -150,14 +151,13 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
   Surface sheet = surface_sheet(SIDE, SIDE);
   const hf_surface surface = surface_on(&sheet);
   const hf_region region = sheet_region(surface, &sheet, HF_BASE_MEMBRANE);
-  uint32_t triangles[4];
-  double weights[12];
+  hf_place places[4];
   for (uint32_t k = 0; k < 4; ++k) {
     for (uint32_t t = 0; t < sheet.triangle_count; ++t) {
       for (uint32_t c = 0; c < 3; ++c) {
         if (sheet.triangles[3 * t + c] != square[k]) continue;
-        triangles[k] = t;
-        for (uint32_t d = 0; d < 3; ++d) weights[3 * k + d] = d == c ? 0.5 : 0.25;
+        const double weights[3] = {c == 0 ? 0.5 : 0.25, c == 1 ? 0.5 : 0.25, c == 2 ? 0.5 : 0.25};
+        places[k] = place_in(sheet.triangles, sheet.triangle_count, t, weights);
       }
     }
   }
@@ -168,8 +168,7 @@ static void a_point_in_a_triangle_stands_for_its_nearest_corner(void** state) {
   assert_ok(hf_region_create(surface, &desc, &other));
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
   curve.point_count = 4;
-  curve.triangles = triangles;
-  curve.barycentrics = weights;
+  curve.places = places;
   curve.kind = HF_CURVE_EDGES;
   const hf_region_edit_desc edit = edit_of(&curve, 0);
   assert_ok(hf_region_edit(other, &edit));
@@ -227,12 +226,12 @@ static void a_straight_curve_cuts_through_triangles(void** state) {
   hf_error_get_detail(&detail);
   assert_int_equal(detail.index, 2);
   /* corners of no triangle: a straight curve has no place there, a curve along edges takes the nearest corner */
-  const uint32_t far[9] = {at(2, 2), at(3, 2), at(2, 9), at(9, 2), at(9, 3), at(8, 2), at(5, 9), at(6, 9), at(5, 10)};
-  const double nearest[9] = {0.4, 0.3, 0.3, 1, 0, 0, 1, 0, 0};
+  const hf_place far[3] = {{{at(2, 2), at(3, 2), at(2, 9)}, 0, {0.4, 0.3, 0.3}},
+                           {{at(9, 2), at(9, 3), at(8, 2)}, 0, {1, 0, 0}},
+                           {{at(5, 9), at(6, 9), at(5, 10)}, 0, {1, 0, 0}}};
   hf_curve_desc loose = HF_INIT(hf_curve_desc);
   loose.point_count = 3;
-  loose.corners = far;
-  loose.barycentrics = nearest;
+  loose.places = far;
   const hf_region_edit_desc loose_edit = edit_of(&loose, 0);
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_region_edit(region, &loose_edit));
   hf_error_get_detail(&detail);
@@ -439,22 +438,22 @@ static void bad_regions_are_named(void** state) {
   BAD(HF_ERROR_OUT_OF_RANGE, COUNT, hf_region_edit(region, &edit));
   curve.seed_vertex = at(3, 7);
   BAD(HF_ERROR_INVALID_ARGUMENT, at(3, 7), hf_region_edit(region, &edit));
-  uint32_t triangles[3] = {0, 100, 300};
-  double weights[9] = {1, 0, 0, 1, 0, 0, 1, 0, 0};
+  hf_place places[3] = {{{at(2, 2), at(3, 2), at(2, 3)}, 0, {1, 0, 0}},
+                        {{at(9, 2), at(9, 3), at(8, 2)}, 0, {1, 0, 0}},
+                        {{at(5, 9), at(6, 9), at(5, 8)}, 0, {1, 0, 0}}};
   curve = HF_INIT(hf_curve_desc);
   curve.point_count = 3;
-  curve.triangles = triangles;
   BAD(HF_ERROR_NULL_POINTER, NO_INDEX, hf_region_edit(region, &edit));
-  curve.barycentrics = weights;
-  triangles[1] = sheet.triangle_count;
+  curve.places = places;
+  places[1].corners[0] = COUNT;
   BAD(HF_ERROR_OUT_OF_RANGE, 1, hf_region_edit(region, &edit));
-  triangles[1] = 100;
-  weights[7] = 0.5;
+  places[1].corners[0] = at(9, 2);
+  places[2].barycentrics[1] = 0.5;
   BAD(HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
-  weights[7] = INFINITY;
+  places[2].barycentrics[1] = INFINITY;
   BAD(HF_ERROR_NON_FINITE, 2, hf_region_edit(region, &edit));
-  weights[6] = 2;
-  weights[7] = -1;
+  places[2].barycentrics[0] = 2;
+  places[2].barycentrics[1] = -1;
   BAD(HF_ERROR_INVALID_ARGUMENT, 2, hf_region_edit(region, &edit));
   curve.vertices = square;
   BAD(HF_ERROR_INVALID_ARGUMENT, NO_INDEX, hf_region_edit(region, &edit));

@@ -277,7 +277,8 @@ static void a_two_sided_sheet_is_one_sheet_with_opposite_normals_behind(void** s
         assert_int_equal(is_back(&doubled, hit.triangle), below);
         double place[3] = {0, 0, 0};
         for (int c = 0; c < 3; ++c) {
-          for (int k = 0; k < 3; ++k) place[k] += hit.barycentrics[c] * doubled.positions[3 * hit.corners[c] + k];
+          for (int k = 0; k < 3; ++k)
+            place[k] += hit.place.barycentrics[c] * doubled.positions[3 * hit.place.corners[c] + k];
         }
         assert_true(fabs(place[0] - from[0]) < 1e-12 && fabs(place[1] - from[1]) < 1e-12);
         assert_ok(hf_surface_cast_ray(surface, from, along, NULL, &hit));
@@ -295,37 +296,6 @@ static void a_two_sided_sheet_is_one_sheet_with_opposite_normals_behind(void** s
     hf_quads_destroy(quads);
     hf_surface_destroy(surface);
   }
-}
-
-static void a_site_in_a_doubled_triangle_lies_where_its_own_corners_say(void** state) {
-  (void)state;
-  make_ball(&doubled);
-  append_doubles(&doubled, 20, 2);
-  const hf_surface surface = surface_of(&doubled, corners[1], HF_OPERATOR_INTRINSIC_DELAUNAY);
-  for (uint32_t i = 0; i < 20; ++i) {
-    const uint32_t triangle = 1280 + i;
-    const double weights[3] = {0.5, 0.3, 0.2}, value = 1;
-    double* field[2];
-    for (int named = 0; named < 2; ++named) {
-      hf_solver solver = solver_on(surface);
-      add_site(solver, i ? 0 : 3000, 0);
-      hf_sites_desc site = HF_INIT(hf_sites_desc);
-      site.site_count = 1;
-      site.barycentrics = weights;
-      site.values = &value;
-      if (named)
-        site.triangles = &triangle;
-      else
-        site.corners = &corners[1][3 * triangle];
-      assert_ok(hf_add_sites(solver, &site, NULL));
-      field[named] = field_of(solver, 3 * doubled.triangle_count);
-      hf_solver_destroy(solver);
-    }
-    assert_true(same_bits(field[0], field[1], sizeof(double) * 3 * doubled.triangle_count));
-    free(field[0]);
-    free(field[1]);
-  }
-  hf_surface_destroy(surface);
 }
 
 /* A tube with a triangle more over three vertices of a line: neighbours, or from end to end. */
@@ -367,7 +337,6 @@ int main(void) {
       cmocka_unit_test(fields_poses_and_quads_are_those_of_the_mesh_without_doubles),
       cmocka_unit_test(every_operator_weighs_doubled_faces_once),
       cmocka_unit_test(a_two_sided_sheet_is_one_sheet_with_opposite_normals_behind),
-      cmocka_unit_test(a_site_in_a_doubled_triangle_lies_where_its_own_corners_say),
       cmocka_unit_test(a_triangle_over_a_line_that_joins_nothing_changes_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -223,26 +223,21 @@ static void a_hit_in_a_face_is_a_site(void** state) {
     assert_int_equal(hit.triangle, f);
     for (uint32_t c = 0; c < 3; ++c) {
       double p = 0;
-      for (uint32_t k = 0; k < 3; ++k) p += hit.barycentrics[k] * sheet.positions[3 * hit.corners[k] + c];
+      for (uint32_t k = 0; k < 3; ++k) p += hit.place.barycentrics[k] * sheet.positions[3 * hit.place.corners[k] + c];
       assert_true(fabs(p - hit.position[c]) < 1e-12);
     }
     hf_sites_desc site = HF_INIT(hf_sites_desc);
     const double value = 0.25 * f;
     uint32_t number = NO_INDEX;
     site.site_count = 1;
-    site.corners = hit.corners;
-    site.barycentrics = hit.barycentrics;
+    site.places = &hit.place;
     site.values = &value;
     assert_ok(hf_add_sites(solver, &site, &number));
     double* field = field_of(solver, POINTS);
     double there = 0;
-    for (uint32_t k = 0; k < 3; ++k) there += hit.barycentrics[k] * field[hit.corners[k]];
+    for (uint32_t k = 0; k < 3; ++k) there += hit.place.barycentrics[k] * field[hit.place.corners[k]];
     assert_true(fabs(there - value) < 1e-11);
     free(field);
-    /* the face alone does not say which triangle */
-    site.corners = NULL;
-    site.triangles = &f;
-    assert_code(HF_ERROR_INVALID_ARGUMENT, hf_add_sites(solver, &site, NULL));
   }
   hf_solver_destroy(solver);
   hf_surface_destroy(surface);

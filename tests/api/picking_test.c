@@ -47,7 +47,7 @@ static void assert_missed(hf_surface surface, const double* origin, const double
   const hf_hit hit = cast(surface, origin, direction, desc);
   hf_hit none = HF_INIT(hf_hit);
   none.triangle = none.vertex = NO_INDEX;
-  for (int k = 0; k < 3; ++k) none.corners[k] = NO_INDEX;
+  for (int k = 0; k < 3; ++k) none.place.corners[k] = NO_INDEX;
   assert_true(same_bits(&hit, &none, sizeof hit));
 }
 
@@ -59,12 +59,12 @@ static void assert_consistent(const hf_hit* hit, const float* positions, const u
   double sum = 0, least = HUGE_VAL, to_vertex = HUGE_VAL;
   for (int k = 0; k < 3; ++k) {
     double place = 0;
-    assert_int_equal(hit->corners[k], v[k]);
-    for (int c = 0; c < 3; ++c) place += hit->barycentrics[c] * (double)positions[3 * (size_t)v[c] + (size_t)k];
+    assert_int_equal(hit->place.corners[k], v[k]);
+    for (int c = 0; c < 3; ++c) place += hit->place.barycentrics[c] * (double)positions[3 * (size_t)v[c] + (size_t)k];
     assert_true(fabs(place - hit->position[k]) <= tolerance);
     assert_true(fabs(origin[k] + hit->distance * direction[k] - hit->position[k]) <= tolerance);
-    assert_true(hit->barycentrics[k] >= 0 && hit->barycentrics[k] <= 1);
-    sum += hit->barycentrics[k];
+    assert_true(hit->place.barycentrics[k] >= 0 && hit->place.barycentrics[k] <= 1);
+    sum += hit->place.barycentrics[k];
   }
   assert_true(fabs(sum - 1) <= 1e-12);
   for (int c = 0; c < 3; ++c) {
@@ -99,7 +99,7 @@ static void a_flat_sheet_is_hit_where_its_plane_is(void** state) {
     if (fabs(fx - fy) > 1e-9) assert_int_equal(hit.triangle, 2 * (row * COLUMNS + column) + (fx < fy));
     const double lower[3] = {1 - fx, fx - fy, fy}, upper[3] = {1 - fy, fx, fy - fx};
     for (int k = 0; k < 3; ++k) {
-      assert_true(fabs(hit.barycentrics[k] - (hit.triangle % 2 ? upper[k] : lower[k])) <= 1e-12);
+      assert_true(fabs(hit.place.barycentrics[k] - (hit.triangle % 2 ? upper[k] : lower[k])) <= 1e-12);
       assert_true(fabs(hit.position[k] - target[k]) <= 1e-12);
     }
     assert_true(fabs(hit.distance - height / step) <= 1e-11 * hit.distance);

@@ -101,8 +101,8 @@ static hf_result trace_isolines(Call* c) {
   return r;
 }
 static hf_result find_path(Call* c) {
-  const hf_surface_point from = {{0, 0, 0}, 0, {1, 0, 0}};
-  const hf_surface_point to = {{TUBE_VERTICES - 2, 0, 0}, 0, {1, 0, 0}};
+  const hf_place from = {{0, 0, 0}, 0, {1, 0, 0}};
+  const hf_place to = {{TUBE_VERTICES - 2, 0, 0}, 0, {1, 0, 0}};
   hf_path path = HF_INIT(hf_path);
   path.point_capacity = (uint32_t)c->capacity[0];
   path.point_edges = c->array[0];

@@ -1,6 +1,7 @@
 /* Refused calls that once left something behind, each in its smallest form. reliability_unchanged finds such calls at
  * random. */
 #include "api_support.h"
+#include "support/place_in.h"
 
 enum { AROUND = 8, RINGS = 9, COUNT = AROUND * RINGS };
 
@@ -62,11 +63,11 @@ static void a_refused_edit_counts_no_factorisation(void** state) {
   hf_solver solver = NULL;
   assert_ok(hf_create(surface, &desc, &solver));
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
-  const uint32_t triangle = 4;
   const double weights[3] = {0.25, 0.25, 0.5};
   sites.site_count = 1;
-  sites.triangles = &triangle;
-  sites.barycentrics = weights;
+  Surface tube = surface_tube(AROUND, RINGS);
+  const hf_place inside = place_in(tube.triangles, tube.triangle_count, 4, weights);
+  sites.places = &inside;
   assert_ok(hf_add_sites(solver, &sites, NULL));
   const uint32_t second = add_site(solver, 60, 1);
   hf_solver_statistics before = HF_INIT(hf_solver_statistics), now = HF_INIT(hf_solver_statistics);
@@ -80,6 +81,7 @@ static void a_refused_edit_counts_no_factorisation(void** state) {
   }
   assert_int_equal(now.factorisation_count, before.factorisation_count + 1);
   hf_solver_destroy(solver);
+  surface_free(&tube);
   hf_surface_destroy(surface);
 }
 

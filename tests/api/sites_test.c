@@ -1,5 +1,6 @@
 /* Sites under edit and the fields that follow, with every engine of the build. */
 #include "api_support.h"
+#include "support/place_in.h"
 
 enum { COLUMNS = 14, ROWS_ = 11, VERTICES = (COLUMNS + 1) * (ROWS_ + 1) };
 static Surface sheet;
@@ -109,8 +110,10 @@ static void sites_in_triangles_hold_at_their_point(void** state) {
     const double weights[6] = {0.2, 0.3, 0.5, 0.6, 0.4, 0.0}, values[2] = {4, -3};
     hf_sites_desc sites = HF_INIT(hf_sites_desc);
     sites.site_count = 2;
-    sites.triangles = triangles;
-    sites.barycentrics = weights;
+    hf_place places[2];
+    for (int s = 0; s < 2; ++s)
+      places[s] = place_in(sheet.triangles, sheet.triangle_count, triangles[s], weights + 3 * s);
+    sites.places = places;
     sites.values = values;
     uint32_t numbers[2], at[2];
     assert_ok(hf_add_sites(solver, &sites, numbers));

@@ -1,12 +1,14 @@
 /* Skin weights through the C ABI: sums, welded copies, pins, locks, moved joints, clones, and every bad argument named.
  */
 #include "bad_scene.h"
+#include "support/place_in.h"
 
 static Scene scene;
 static hf_joints_desc bones;
 static hf_pins_desc pins;
-static double heads[9], tails[9], radii[2], barycentrics[6];
-static uint32_t parents[3], sources[3], vertices[2], triangles[2], joints[4], locks[2];
+static double heads[9], tails[9], radii[2];
+static hf_place places[2];
+static uint32_t parents[3], sources[3], vertices[2], joints[4], locks[2];
 static int32_t deforms[3];
 static float weights[4], values[2 * TUBE_VERTICES];
 
@@ -25,15 +27,15 @@ static void good(void) {
   }
   vertices[0] = 30;
   vertices[1] = 60;
-  triangles[0] = 40;
-  triangles[1] = 90;
   locks[0] = 0;
   locks[1] = 2;
   for (int i = 0; i < 4; ++i) {
     joints[i] = (uint32_t)(i % 2);
     weights[i] = 0.5f;
   }
-  for (int i = 0; i < 6; ++i) barycentrics[i] = i % 3 == 0 ? 0.5 : 0.25;
+  const double shares[3] = {0.5, 0.25, 0.25};
+  places[0] = place_in(scene.tube.triangles, scene.tube.triangle_count, 40, shares);
+  places[1] = place_in(scene.tube.triangles, scene.tube.triangle_count, 90, shares);
   radii[0] = radii[1] = 0;
   for (size_t i = 0; i < COUNT_OF(values); ++i) values[i] = 0.25f;
   pins = HF_INIT(hf_pins_desc);
@@ -45,10 +47,9 @@ static void good(void) {
   pins.radii = radii;
 }
 
-static void in_triangles(void) {
+static void between_corners(void) {
   pins.vertices = NULL;
-  pins.triangles = triangles;
-  pins.barycentrics = barycentrics;
+  pins.places = places;
 }
 
 static hf_weights made;
@@ -100,9 +101,7 @@ static void bad_pins_and_locks_are_named(void** state) {
   (void)state;
   scene_create(&scene);
   ROW("no place", HF_ERROR_NULL_POINTER, NO_INDEX, pins.vertices = NULL, hf_weights_set_pins(scene.weights, &pins));
-  ROW("two kinds of places", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, pins.triangles = triangles,
-      hf_weights_set_pins(scene.weights, &pins));
-  ROW("no barycentrics", HF_ERROR_NULL_POINTER, NO_INDEX, (in_triangles(), pins.barycentrics = NULL),
+  ROW("two kinds of places", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, pins.places = places,
       hf_weights_set_pins(scene.weights, &pins));
   ROW("no joints", HF_ERROR_NULL_POINTER, NO_INDEX, pins.joints = NULL, hf_weights_set_pins(scene.weights, &pins));
   ROW("no weights", HF_ERROR_NULL_POINTER, NO_INDEX, pins.weights = NULL, hf_weights_set_pins(scene.weights, &pins));
@@ -115,11 +114,11 @@ static void bad_pins_and_locks_are_named(void** state) {
       hf_weights_set_pins(scene.weights, &pins));
   ROW("a vertex beyond", HF_ERROR_OUT_OF_RANGE, 1, vertices[1] = TUBE_VERTICES,
       hf_weights_set_pins(scene.weights, &pins));
-  ROW("a triangle beyond", HF_ERROR_OUT_OF_RANGE, 1, (in_triangles(), triangles[1] = UINT32_MAX),
+  ROW("a corner beyond", HF_ERROR_OUT_OF_RANGE, 1, (between_corners(), places[1].corners[2] = UINT32_MAX),
       hf_weights_set_pins(scene.weights, &pins));
-  ROW("a barycentric NaN", HF_ERROR_NON_FINITE, 1, (in_triangles(), barycentrics[4] = NAN),
+  ROW("a barycentric NaN", HF_ERROR_NON_FINITE, 1, (between_corners(), places[1].barycentrics[1] = NAN),
       hf_weights_set_pins(scene.weights, &pins));
-  ROW("barycentrics of another sum", HF_ERROR_INVALID_ARGUMENT, 0, (in_triangles(), barycentrics[0] = 1),
+  ROW("barycentrics of another sum", HF_ERROR_INVALID_ARGUMENT, 0, (between_corners(), places[0].barycentrics[0] = 1),
       hf_weights_set_pins(scene.weights, &pins));
   ROW("a joint beyond", HF_ERROR_OUT_OF_RANGE, 1, joints[2] = 3, hf_weights_set_pins(scene.weights, &pins));
   ROW("a weight NaN", HF_ERROR_NON_FINITE, 0, weights[1] = NAN, hf_weights_set_pins(scene.weights, &pins));
@@ -271,7 +270,7 @@ static void pins_and_locks_work_and_a_kept_clone_has_the_weights_of_then(void** 
   assert_ok(hf_weights_set_pins(w, &pins));
   assert_true(weight_at(w, vertices[0], joints[0]) == 0.75f && weight_at(w, vertices[0], joints[1]) == 0.25f);
   assert_ok(hf_weights_clone(w, &copy));
-  in_triangles();
+  between_corners();
   radii[1] = 1.5;
   assert_ok(hf_weights_set_pins(w, &pins));
   assert_true(weight_at(copy, vertices[0], joints[0]) == 0.75f);

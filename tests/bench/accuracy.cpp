@@ -17,6 +17,7 @@
 #include "bench/commands.h"
 #include "bench/peer_cholmod.h"
 #include "bench/svg_plot.h"
+#include "support/place_in.h"
 
 namespace bench {
 namespace {
@@ -64,15 +65,15 @@ json hard_sites(const Mesh& mesh, const Run& run, Report& report) {
   Sites(solver).edit(vertices, {});
   const std::vector<uint32_t> triangles = scattered_triangles(mesh, 100, taken);
   const double weights[3] = {0.2, 0.3, 0.5};
-  std::vector<double> barycentrics, values;
+  std::vector<hf_place> places;
+  std::vector<double> values;
   for (const uint32_t t : triangles) {
-    barycentrics.insert(barycentrics.end(), weights, weights + 3);
+    places.push_back(place_in(mesh.triangles.data(), mesh.triangle_count(), t, weights));
     values.push_back(value_of(t));
   }
   hf_sites_desc points = HF_INIT(hf_sites_desc);
   points.site_count = static_cast<uint32_t>(triangles.size());
-  points.triangles = triangles.data();
-  points.barycentrics = barycentrics.data();
+  points.places = places.data();
   points.values = values.data();
   check(hf_add_sites(solver.handle(), &points, nullptr));
   std::vector<double> u;

@@ -38,6 +38,14 @@ class Scene
         return value == null ? null : ((Items)value).Select(Number).ToArray();
     }
 
+    Place[] PlacesOf(Map step)
+    {
+        double[] list = Doubles(step, "places");
+        if (list == null) return null;
+        return Enumerable.Range(0, list.Length / 6).Select(i => new Place(
+            list.Skip(6 * i).Take(3).Select(x => (uint)x).ToArray(), list.Skip(6 * i + 3).Take(3).ToArray())).ToArray();
+    }
+
     Place PlaceOf(Map step, string key)
     {
         double[] list = Doubles(step, key);
@@ -214,8 +222,8 @@ class Scene
                 }
             case "clone": objects[name] = solver.Clone(); return null;
             case "dispose": on.Dispose(); return null;
-            case "add_sites": return solver.AddSites(vertices, Doubles(step, "values"), Numbers(Get(step, "triangles")),
-                Doubles(step, "barycentrics"), Doubles(step, "stiffness"), Doubles(step, "radii"));
+            case "add_sites": return solver.AddSites(vertices, Doubles(step, "values"), PlacesOf(step),
+                stiffness: Doubles(step, "stiffness"), radii: Doubles(step, "radii"));
             case "add_site": return new[] { step.ContainsKey("value")
                 ? solver.AddSite(Whole(step, "vertex"), new[] { Number(step["value"]) }) : solver.AddSite(Whole(step, "vertex")) };
             case "remove_sites": solver.RemoveSites(sites); return null;
@@ -245,7 +253,7 @@ class Scene
                     Hit hit = surface.CastRay(Doubles(step, "origin"), Doubles(step, "direction"),
                         Doubles(step, "positions"), frontOnly: front == 1);
                     if (hit == null) return new double[] { 0 };
-                    return new double[] { 1, hit.Triangle, hit.Vertex }.Concat(hit.Barycentrics).Concat(hit.Position)
+                    return new double[] { 1, hit.Triangle, hit.Vertex }.Concat(hit.Place.Barycentrics).Concat(hit.Position)
                         .Concat(new[] { hit.Distance }).ToArray();
                 }
             case "find_vertex":

@@ -29,7 +29,7 @@ static class Lifetime
         using (var held = new Solver(quad))
         {
             Hit hit = quad.CastRay(new[] { 0.3, 0.6, 1.0 }, new[] { 0.0, 0.0, -1.0 });
-            held.AddSites(null, new[] { 2.0 }, corners: hit.Corners, barycentrics: hit.Barycentrics);
+            held.AddSites(null, new[] { 2.0 }, places: new Place[] { hit });
             var field = new float[4];
             held.Solve(field);
             if (hit.Triangle != 0 || quad.Report.PolygonCount != 1 || Math.Abs(field[3] - 2) > 1e-6)

@@ -87,8 +87,7 @@ func run(step, objects, kept):
 			return [true, result, made]
 		"dispose": return [true, on.dispose(), on]
 		"add_sites": return [true, on.add_sites(list(step, "vertices", kept), list(step, "values", kept),
-			list(step, "stiffness", kept), list(step, "radii", kept), list(step, "triangles", kept), list(step, "barycentrics",
-			kept)), on]
+			list(step, "stiffness", kept), list(step, "radii", kept), list(step, "places", kept)), on]
 		"add_site": return [true, on.add_site(step.vertex, number(step.get("value", 0))), on]
 		"remove_sites": return [true, on.remove_sites(list(step, "sites", kept)), on]
 		"move_sites": return [true, on.move_sites(list(step, "sites", kept), list(step, "vertices", kept)), on]

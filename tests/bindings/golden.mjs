@@ -65,6 +65,8 @@ const bonesOf = (get, step) =>
 /** The weight of one joint at every vertex. */
 const placeOf = (list) =>
   list?.length === 6 ? { corners: list.slice(0, 3), barycentrics: list.slice(3) } : list?.[0];
+const placesOf = (list) =>
+  list && Array.from({ length: list.length / 6 }, (_, i) => placeOf(Array.from(list.slice(6 * i, 6 * i + 6))));
 const columnOf = (found, joint) =>
   Float64Array.from(found.origins, (_, v) => {
     let sum = 0;
@@ -127,8 +129,7 @@ function runStep(hf, step, meshes, objects, kept) {
         numbers: on.addSites(get('vertices'), get('values'), {
           stiffness: get('stiffness'),
           radii: get('radii'),
-          triangles: get('triangles'),
-          barycentrics: get('barycentrics'),
+          places: placesOf(get('places')),
         }),
       };
     case 'add_site':
@@ -180,7 +181,7 @@ function runStep(hf, step, meshes, objects, kept) {
       });
       return array(
         Float64Array.from(
-          hit ? [1, hit.triangle, hit.vertex, ...hit.barycentrics, ...hit.position, hit.distance] : [0],
+          hit ? [1, hit.triangle, hit.vertex, ...hit.place.barycentrics, ...hit.position, hit.distance] : [0],
         ),
       );
     }

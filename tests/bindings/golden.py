@@ -105,9 +105,10 @@ class Scene:
         elif do == "dispose":
             on.close()
         elif do == "add_sites":
-            return "numbers", on.add_sites(get("vertices"), get("values"), stiffness=get("stiffness"),
-                radii=get("radii"),
-                                           triangles=get("triangles"), barycentrics=get("barycentrics"))
+            flat = get("places")
+            places = None if flat is None else [(row[:3].astype(int), row[3:]) for row in np.reshape(flat, (-1, 6))]
+            return "numbers", on.add_sites(get("vertices"), get("values"), places=places, stiffness=get("stiffness"),
+                radii=get("radii"))
         elif do == "add_site":
             return "numbers", [on.add_site(step["vertex"], numbers(step.get("value", 0.0)))]
         elif do == "remove_sites":
@@ -139,7 +140,7 @@ class Scene:
         elif do == "cast_ray":
             hit = on.cast_ray(get("origin"), get("direction"), positions=get("positions"),
                 front_only=step.get("front_only", 0))
-            return "array", np.array([0.0] if hit is None else [1, hit.triangle, hit.vertex, *hit.barycentrics,
+            return "array", np.array([0.0] if hit is None else [1, hit.triangle, hit.vertex, *hit.place.barycentrics,
                 *hit.position, hit.distance])
         elif do == "find_vertex":
             return "array", np.array(on.find_vertex(get("point"), positions=get("positions")))

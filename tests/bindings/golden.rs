@@ -128,12 +128,12 @@ impl Scene<'_> {
         self.doubles(step, key)
             .map(|list| list.iter().map(|&v| v as u32).collect())
     }
-    fn place(&self, step: &Value, key: &str) -> hf::raw::hf_surface_point {
+    fn place(&self, step: &Value, key: &str) -> hf::raw::hf_place {
         let list = self.doubles(step, key).unwrap();
         if list.len() == 1 {
             return (list[0] as u32).into();
         }
-        hf::raw::hf_surface_point {
+        hf::raw::hf_place {
             corners: [list[0] as u32, list[1] as u32, list[2] as u32],
             barycentrics: [list[3], list[4], list[5]],
             ..Default::default()
@@ -227,17 +227,21 @@ impl Scene<'_> {
             self.doubles(step, "values"),
         );
         let (stiffness, radii) = (self.doubles(step, "stiffness"), self.doubles(step, "radii"));
-        let (triangles, barycentrics) = (
-            self.integers(step, "triangles"),
-            self.doubles(step, "barycentrics"),
-        );
+        let inside: Option<Vec<hf::raw::hf_place>> = self.doubles(step, "places").map(|list| {
+            list.chunks(6)
+                .map(|six| hf::raw::hf_place {
+                    corners: [six[0] as u32, six[1] as u32, six[2] as u32],
+                    barycentrics: [six[3], six[4], six[5]],
+                    ..Default::default()
+                })
+                .collect()
+        });
         let places = Sites {
             vertices: vertices.as_deref(),
             values: values.as_deref(),
             stiffness: stiffness.as_deref(),
             radii: radii.as_deref(),
-            triangles: triangles.as_deref(),
-            barycentrics: barycentrics.as_deref(),
+            places: inside.as_deref(),
             ..Default::default()
         };
         let sites = self.integers(step, "sites").unwrap_or_default();
@@ -387,7 +391,7 @@ impl Scene<'_> {
                 let hit = surface.cast_ray(&origin, &direction, &options)?;
                 return Ok(Answer::Array(hit.map_or(vec![0.0], |hit| {
                     let mut row = vec![1.0, f64::from(hit.triangle), f64::from(hit.vertex)];
-                    row.extend(hit.barycentrics);
+                    row.extend(hit.place.barycentrics);
                     row.extend(hit.position);
                     row.push(hit.distance);
                     row

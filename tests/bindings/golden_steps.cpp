@@ -19,14 +19,30 @@ const std::set<std::string> weight_steps = {
     "clone_weights", "skin_weights", "joint_flags", "helpers",   "weights_info",   "transfer_weights", "mirror"};
 
 // [vertex], or three corners and three barycentrics
-hf_surface_point place_of(const Json& step, const char* key) {
+hf_place place_of(const Json& step, const char* key) {
   const Json& list = step[key];
-  hf_surface_point point = {};
+  hf_place point = {};
   for (size_t k = 0; k < 3; ++k) {
     point.corners[k] = list[list.size() == 1 ? 0 : k].get<uint32_t>();
     point.barycentrics[k] = list.size() == 1 ? (k == 0 ? 1.0 : 0.0) : list[3 + k].get<double>();
   }
   return point;
+}
+
+// six numbers for each place: three corners, three barycentrics
+std::vector<hf_place> places_of(const Json& step) {
+  std::vector<hf_place> list;
+  if (!step.contains("places")) return list;
+  const Json& flat = step["places"];
+  for (size_t i = 0; i + 6 <= flat.size(); i += 6) {
+    hf_place place = {};
+    for (size_t k = 0; k < 3; ++k) {
+      place.corners[k] = flat[i + k].get<uint32_t>();
+      place.barycentrics[k] = number(flat[i + 3 + k]);
+    }
+    list.push_back(place);
+  }
+  return list;
 }
 }  // namespace
 
@@ -70,8 +86,7 @@ Result Scene::run(const Json& step) {
   Object& on = objects_[step["on"]];
   hf_solver solver = on.solver.get();
   const size_t n = on.vertex_count;
-  const auto sites = numbers(step, "sites"), vertices = numbers(step, "vertices"),
-             triangles = numbers(step, "triangles");
+  const auto sites = numbers(step, "sites"), vertices = numbers(step, "vertices");
   const auto places = [&](const std::optional<Numbers>& at) {
     auto desc = make<hf_sites_desc>();
     desc.site_count = count(at);
@@ -97,13 +112,13 @@ Result Scene::run(const Json& step) {
     made.solver = hf::Handle<hf_solver, hf_solver_destroy>(raw);
     made.vertex_count = n;
   } else if (what == "add_sites") {
-    const size_t k = count(vertices ? vertices : triangles);
-    const auto weights = doubles(step, "barycentrics", 3 * k), values = doubles(step, "values", k),
-               stiffness = doubles(step, "stiffness", k), radii = doubles(step, "radii", k);
-    auto desc = places(vertices ? vertices : triangles);
-    desc.vertices = data(vertices);
-    desc.triangles = data(triangles);
-    desc.barycentrics = data(weights);
+    const auto inside = places_of(step);
+    const size_t k = vertices ? count(vertices) : inside.size();
+    const auto values = doubles(step, "values", k), stiffness = doubles(step, "stiffness", k),
+               radii = doubles(step, "radii", k);
+    auto desc = places(vertices);
+    desc.site_count = static_cast<uint32_t>(k);
+    if (!inside.empty()) desc.places = inside.data();
     desc.values = data(values);
     desc.stiffness = data(stiffness);
     desc.radii = data(radii);
@@ -195,13 +210,13 @@ Result Scene::run(const Json& step) {
     result.array.emplace(n);
     check(hf_geodesics_solve_f64(on.geodesics.get(), count(sources), data(sources), result.array->data(), 0));
   } else if (what == "path" || what == "map") {
-    const hf_surface_point from = place_of(step, what == "path" ? "from" : "centre");
+    const hf_place from = place_of(step, what == "path" ? "from" : "centre");
     if (what == "map") {
       result.array.emplace(2 * n);
       const double radius = step.contains("radius") ? number(step["radius"]) : 0;
       check(hf_geodesics_get_map(on.geodesics.get(), &from, radius, result.array->data(), nullptr));
     } else {
-      const hf_surface_point to = place_of(step, "to");
+      const hf_place to = place_of(step, "to");
       auto path = make<hf_path>();
       check(hf_geodesics_find_path(on.geodesics.get(), &from, &to, &path));
       result.array.emplace(3 * size_t{path.point_count});

@@ -131,7 +131,7 @@ Result Scene::run_picking(const Json& step, const std::string& what, hf_surface 
   if (!hit.found) return result;
   result.array->push_back(hit.triangle);
   result.array->push_back(hit.vertex);
-  result.array->insert(result.array->end(), hit.barycentrics, hit.barycentrics + 3);
+  result.array->insert(result.array->end(), hit.place.barycentrics, hit.place.barycentrics + 3);
   result.array->insert(result.array->end(), hit.position, hit.position + 3);
   result.array->push_back(hit.distance);
   return result;

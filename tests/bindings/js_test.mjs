@@ -84,7 +84,7 @@ for (const rest of [{ starts: [0, 4] }, { sizes: [4] }, { starts: [0], sizes: [4
   const hit = quad.castRay([0.3, 0.6, 1], [0, 0, -1]);
   assert.equal(hit.triangle, 0);
   const held = new hf.Solver(quad);
-  held.addSites(null, [2], { corners: hit.corners, barycentrics: hit.barycentrics });
+  held.addSites(null, [2], { places: [hit] });
   assert.ok(held.solve().every((value) => Math.abs(value - 2) < 1e-6));
 }
 assert.throws(() => new hf.Surface(square, null, { faces: { corners: [0, 1, 2, 3] } }), hf.HfError);

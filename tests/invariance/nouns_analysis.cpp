@@ -111,8 +111,8 @@ Measured measure_heat(const Setting& s) { return distances(s, HF_GEODESICS_HEAT)
 namespace {
 
 // A point in the first triangle of a pick.
-hf_surface_point point_at(const Setting& s, std::size_t pick) {
-  hf_surface_point out{};
+hf_place point_at(const Setting& s, std::size_t pick) {
+  hf_place out{};
   std::uint32_t t = 0;
   const auto has = [&](std::uint32_t face, std::uint32_t v) {
     const auto& c = s.body.triangles[face];
@@ -129,7 +129,7 @@ Measured measure_paths(const Setting& s) {
   const Geodesics geodesics = geodesics_of(s, HF_GEODESICS_EXACT);
   std::vector<double> lengths;
   for (const std::size_t to : {2u, 5u, 8u}) {
-    const hf_surface_point a = point_at(s, 0), b = point_at(s, to);
+    const hf_place a = point_at(s, 0), b = point_at(s, to);
     hf_path path = HF_INIT(hf_path);
     ok(hf_geodesics_find_path(geodesics, &a, &b, &path));
     lengths.push_back(s.back_size(path.length));
@@ -141,7 +141,7 @@ Measured measure_paths(const Setting& s) {
 
 Measured measure_map(const Setting& s) {
   const Geodesics geodesics = geodesics_of(s, HF_GEODESICS_EXACT);
-  const hf_surface_point centre = point_at(s, 1);
+  const hf_place centre = point_at(s, 1);
   std::vector<double> map(2 * s.copy.points.size()), space(3 * s.copy.points.size());
   double frame[6];
   // a small disc: farther away the map tears where two paths meet

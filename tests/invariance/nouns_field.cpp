@@ -59,21 +59,19 @@ Measured measure_harmonic(const Setting& s) {
 Measured measure_places(const Setting& s) {
   Solver solver;
   ok(hf_create(s.surface(), nullptr, solver.out()));
-  std::uint32_t corners[9];
-  double weights[9];
+  hf_place places[3] = {};
   const auto count = static_cast<std::uint32_t>(s.body.triangles.size());
   // the triangles lie apart by their numbers; only those of the largest piece count
   std::uint32_t found = 0;
   for (std::uint32_t t = count / 7; t < count && found < 3; t += count / 7) {
     if (s.body.piece[s.body.triangles[t][0]] != s.body.piece[s.body.picks[0]]) continue;
-    s.point(t, {0.2, 0.3, 0.5}, corners + 3 * found, weights + 3 * found);
+    s.point(t, {0.2, 0.3, 0.5}, places[found].corners, places[found].barycentrics);
     ++found;
   }
   const double values[] = {0.1, 0.9, 0.4}, stiffness[] = {0, 3, 0.5};
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
   sites.site_count = found;
-  sites.corners = corners;
-  sites.barycentrics = weights;
+  sites.places = places;
   sites.values = values;
   sites.stiffness = stiffness;
   ok(hf_add_sites(solver, &sites, nullptr));

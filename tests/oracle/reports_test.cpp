@@ -21,10 +21,8 @@ hf::Geodesics geodesics(const hf::Surface& surface, int32_t method) {
   return hf::Geodesics(surface, desc);
 }
 
-hf_surface_point place(uint32_t a, uint32_t b, uint32_t c, double x, double y, double z) {
-  return {{a, b, c}, 0, {x, y, z}};
-}
-hf_surface_point place(uint32_t vertex) { return place(vertex, vertex, vertex, 1, 0, 0); }
+hf_place place(uint32_t a, uint32_t b, uint32_t c, double x, double y, double z) { return {{a, b, c}, 0, {x, y, z}}; }
+hf_place place(uint32_t vertex) { return place(vertex, vertex, vertex, 1, 0, 0); }
 
 double length_of(const std::vector<double>& path) {
   double out = 0;
@@ -46,7 +44,7 @@ TEST(Reports, AVertexOfAnotherPieceIsNotReached) {
     const std::vector<double> distance = tool.solve_f64({0});
     for (uint32_t v = 4; v < 8; ++v) EXPECT_EQ(distance[v], -1) << method;
     auto path = hf::make<hf_path>();
-    const hf_surface_point from = place(0), to = place(7);
+    const hf_place from = place(0), to = place(7);
     ASSERT_EQ(hf_geodesics_find_path(tool.get(), &from, &to, &path), HF_OK);
     EXPECT_EQ(path.point_count, 0u);
     EXPECT_EQ(path.length, -1);
@@ -95,7 +93,7 @@ TEST(Reports, PathsFromPointsOfBordersAndEdgesAreStraightBothWays) {
   const hf::Geodesics tool(surface);
   // triangles 0 1 3 and 0 3 2 of the unit square
   const struct {
-    hf_surface_point a, b;
+    hf_place a, b;
     double length;
   } cases[] = {{place(0, 1, 3, 0.5, 0.5, 0), place(0, 3, 2, 0.5, 0, 0.5), std::sqrt(0.5)},
                {place(0, 1, 3, 0.5, 0.5, 0), place(0, 1, 3, 0.25, 0.75, 0), 0.25},
@@ -134,8 +132,8 @@ TEST(Reports, TheMapOfAPointAnywhereInAPlaneIsThePlane) {
   const Shape shape = grid(6, 6);
   const hf::Surface surface = shape.surface();
   const hf::Geodesics tool(surface);
-  for (const hf_surface_point& o : {place(14, 15, 21, 0.5, 0.5, 0), place(14, 15, 21, 0.4, 0, 0.6),
-                                    place(14, 15, 21, 0.2, 0.3, 0.5), place(0), place(3), place(14)}) {
+  for (const hf_place& o : {place(14, 15, 21, 0.5, 0.5, 0), place(14, 15, 21, 0.4, 0, 0.6),
+                            place(14, 15, 21, 0.2, 0.3, 0.5), place(0), place(3), place(14)}) {
     const std::vector<double> map = std::get<0>(tool.map(o));
     for (uint32_t v = 0; v < 36; ++v) {
       for (uint32_t w = 0; w < v; ++w) {

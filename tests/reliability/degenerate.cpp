@@ -199,16 +199,16 @@ void play_distances(const Scene& scene, hf_geodesics geodesics, std::int32_t met
 void play_paths(const Scene& scene, hf_geodesics geodesics) {
   const double rounding = 1e-10 * scene.size;
   const double weights[][3] = {{1, 0, 0}, {0.5, 0.5, 0}, {0, 0.25, 0.75}, {0.25, 0, 0.75}, {0.5, 0.25, 0.25}};
-  std::vector<hf_surface_point> points;
+  std::vector<hf_place> points;
   for (std::uint32_t t = 0; t < scene.mesh.triangle_count(); t += 1 + scene.mesh.triangle_count() / 9) {
     for (const auto& weight : weights) {
-      hf_surface_point point{};
+      hf_place point{};
       std::copy_n(scene.mesh.triangles.data() + 3 * t, 3, point.corners);
       std::copy_n(weight, 3, point.barycentrics);
       points.push_back(point);
     }
   }
-  const auto length = [&](const hf_surface_point& a, const hf_surface_point& b) {
+  const auto length = [&](const hf_place& a, const hf_place& b) {
     hf_path path = HF_INIT(hf_path);
     std::vector<double> positions(3 * 1000);
     path.point_capacity = 1000;
@@ -223,7 +223,7 @@ void play_paths(const Scene& scene, hf_geodesics geodesics) {
     return path.length;
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const hf_surface_point &a = points[i], &b = points[(7 * i + 3) % points.size()];
+    const hf_place &a = points[i], &b = points[(7 * i + 3) % points.size()];
     const double there = length(a, b), back = length(b, a);
     check(std::fabs(there - back) <= rounding, "a path and the way back have different lengths");
     check(std::fabs(length(a, a)) <= rounding || there == -2, "a path to its own point has a length");

@@ -42,7 +42,7 @@ void pick(hf_surface surface, const FlatMesh& mesh, std::uint32_t vertex, double
   hold(hit.found == (hit.triangle != HF_NO_INDEX), "a hit without a triangle");
   if (!hit.found) return;
   hold(hit.triangle < mesh.triangle_count() && std::isfinite(hit.distance), "a hit is nowhere");
-  const double sum = hit.barycentrics[0] + hit.barycentrics[1] + hit.barycentrics[2];
+  const double sum = hit.place.barycentrics[0] + hit.place.barycentrics[1] + hit.place.barycentrics[2];
   hold(std::fabs(sum - 1) <= 1e-9, "barycentrics of a hit do not sum to 1");
 }
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "../support/place_in.h"
 #include "sequence_play.h"
 
 namespace sequences {
@@ -10,24 +11,21 @@ namespace {
 
 // Places in the form of hf_sites_desc. The desc borrows from this object.
 struct PlaceLists {
-  std::vector<std::uint32_t> vertices, triangles;
-  std::vector<double> weights;
+  std::vector<std::uint32_t> vertices;
+  std::vector<hf_place> inside;
   hf_sites_desc desc;
-  PlaceLists(const std::vector<Place>& places, const std::vector<double>* values,
+  PlaceLists(const Surface& surface, const std::vector<Place>& places, const std::vector<double>* values,
              const std::vector<double>* stiffness) {
     desc = HF_INIT(hf_sites_desc);
     desc.site_count = static_cast<std::uint32_t>(places.size());
     for (const Place& p : places) {
       vertices.push_back(p.vertex);
-      triangles.push_back(p.triangle);
-      weights.insert(weights.end(), p.weight, p.weight + 3);
+      inside.push_back(place_in(surface.triangles.data(), surface.triangle_count(), p.triangle, p.weight));
     }
     if (places.empty() || places[0].triangle == HF_NO_INDEX)
       desc.vertices = vertices.data();
-    else {
-      desc.triangles = triangles.data();
-      desc.barycentrics = weights.data();
-    }
+    else
+      desc.places = inside.data();
     if (values && !values->empty()) desc.values = values->data();
     if (stiffness && !stiffness->empty()) desc.stiffness = stiffness->data();
   }
@@ -38,7 +36,8 @@ struct PlaceLists {
 // how: 0 for hf_solver_edit_sites, otherwise the single call for the only part of the batch.
 void Player::edit_sites(const Edit& edit, unsigned how) {
   const hf_result expected = here().model.judge(edit);
-  const PlaceLists to(edit.move_to, nullptr, nullptr), add(edit.add, &edit.add_values, &edit.add_stiffness);
+  const PlaceLists to(*surface_, edit.move_to, nullptr, nullptr),
+      add(*surface_, edit.add, &edit.add_values, &edit.add_stiffness);
   const std::uint32_t untouched = 0xABCDEF01u;
   std::vector<std::uint32_t> numbers(edit.add.size(), untouched);
   const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };

@@ -26,9 +26,6 @@ hf_result Model::locate(const Place& place, Site& site) const {
     site.at_vertex = s.inner[place.vertex];
     site.row = {{site.at_vertex, 1.0}};
   } else {
-    if (place.triangle >= s.triangle_count()) return HF_ERROR_OUT_OF_RANGE;
-    const std::uint32_t* v = s.triangles.data() + std::size_t{3} * place.triangle;
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return HF_ERROR_INVALID_ARGUMENT;
     double sum = 0;
     for (const double w : place.weight) {
       if (!std::isfinite(w)) return HF_ERROR_NON_FINITE;
@@ -36,13 +33,30 @@ hf_result Model::locate(const Place& place, Site& site) const {
       sum += w;
     }
     if (!(std::fabs(sum - 1) <= 1e-6)) return HF_ERROR_INVALID_ARGUMENT;
+    if (place.triangle >= s.triangle_count()) return HF_ERROR_OUT_OF_RANGE;
+    const std::uint32_t* v = s.triangles.data() + std::size_t{3} * place.triangle;
     site.given_vertex = HF_NO_INDEX;
     site.at_vertex = -1;
     site.row.clear();
     for (int k = 0; k < 3; ++k) {
-      if (place.weight[k] > 0) site.row.emplace_back(s.inner[v[k]], place.weight[k]);
+      if (!(place.weight[k] > 0)) continue;
+      const int corner = s.inner[v[k]];
+      if (corner < 0) return HF_ERROR_INVALID_ARGUMENT;
+      const auto same =
+          std::find_if(site.row.begin(), site.row.end(), [&](const auto& e) { return e.first == corner; });
+      if (same == site.row.end())
+        site.row.emplace_back(corner, place.weight[k]);
+      else
+        same->second += place.weight[k];
     }
-    if (site.row.size() == 1) site.at_vertex = site.row[0].first;  // a corner is a vertex
+    for (const auto& entry : site.row) {
+      if (s.component[at(entry.first)] != s.component[at(site.row[0].first)]) return HF_ERROR_INVALID_ARGUMENT;
+    }
+    if (site.row.size() == 1) {  // a corner is a vertex, named by its first copy
+      site.at_vertex = site.row[0].first;
+      site.given_vertex =
+          static_cast<std::uint32_t>(std::find(s.inner.begin(), s.inner.end(), site.at_vertex) - s.inner.begin());
+    }
   }
   site.component = s.component[at(site.row[0].first)];
   return HF_OK;

@@ -65,7 +65,7 @@ void Player::pick() {
   for (std::size_t k = 0; k < 3; ++k) {
     double there = 0;
     for (std::size_t i = 0; i < 3; ++i)
-      there += hit.barycentrics[i] * corner(s.triangles[std::size_t{3} * hit.triangle + i], k);
+      there += hit.place.barycentrics[i] * corner(s.triangles[std::size_t{3} * hit.triangle + i], k);
     hold(std::fabs(there - hit.position[k]) <= 1e-6, "barycentrics and position of a hit differ");
     hold(std::fabs(origin[k] + hit.distance * along[k] - there) <= 1e-6, "a hit is off its ray");
   }

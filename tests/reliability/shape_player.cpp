@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "../support/place_in.h"
 #include "shape_play.h"
 
 namespace shapes {
@@ -162,7 +163,7 @@ bool Player::region() {
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   std::vector<std::uint32_t> places(3 + bytes_.take() % 4);
-  std::vector<double> weights;
+  std::vector<hf_place> inside;
   curve.point_count = static_cast<std::uint32_t>(places.size());
   curve.kind = how & 4 ? HF_CURVE_EDGES : HF_CURVE_STRAIGHT;
   curve.side = static_cast<int>(how / 8 % 3);
@@ -174,10 +175,11 @@ bool Player::region() {
     for (std::uint32_t& t : places) {
       t = bytes_.take() % static_cast<std::uint32_t>(mesh_.triangles.size() / 3);
       const unsigned w = bytes_.take(), i = w % 9, j = w / 9 % (9 - i);
-      weights.insert(weights.end(), {i / 8.0, j / 8.0, (8 - i - j) / 8.0});
+      const double weights[3] = {i / 8.0, j / 8.0, (8 - i - j) / 8.0};
+      inside.push_back(
+          place_in(mesh_.triangles.data(), static_cast<std::uint32_t>(mesh_.triangles.size() / 3), t, weights));
     }
-    curve.triangles = places.data();
-    curve.barycentrics = weights.data();
+    curve.places = inside.data();
   }
   edit.curve = &curve;
   const auto inside = [&](int list) {

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "../support/place_in.h"
 #include "headed_blocks.h"
 #include "stories.h"
 #include "support/peers.h"
@@ -130,11 +131,14 @@ void points_and_discs(Story& s, const Tube& tube, Allocator& memory) {
   on.operator_kind = HF_OPERATOR_CLAMPED;
   const hf_solver solver = made(s, on, desc);
   if (!solver) return;
-  const std::uint32_t triangles[2] = {10, 90}, places[2] = {36, 3};
+  const std::uint32_t places[2] = {36, 3};
   const double weights[6] = {0.25, 0.25, 0.5, 0.5, 0.25, 0.25}, stiffness[2] = {0, 40}, radii[2] = {1.2, 0};
   hf_sites_desc points = sites_at(2, nullptr, values), discs = sites_at(2, places, values + 4);
-  points.triangles = triangles;
-  points.barycentrics = weights;
+  const auto inside_of = [&](std::uint32_t t, const double* w) {
+    return place_in(tube.triangles.data(), static_cast<std::uint32_t>(tube.triangles.size() / 3), t, w);
+  };
+  const hf_place inside[2] = {inside_of(10, weights), inside_of(90, weights + 3)};
+  points.places = inside;
   points.stiffness = stiffness;
   discs.radii = radii;
   std::uint32_t numbers[2];
@@ -219,7 +223,7 @@ void shared(Story& s, const Tube& tube, Allocator& memory) {
   hf_hit hit = HF_INIT(hf_hit);
   s.call("hf_surface_cast_ray", [&] { return hf_surface_cast_ray(surface, origin, along, nullptr, &hit); });
   s.take(hit.triangle);
-  s.take(hit.barycentrics, 3);
+  s.take(hit.place.barycentrics, 3);
   s.take(hit.distance);
   std::uint32_t vertex = HF_NO_INDEX;
   s.call("hf_surface_find_vertex", [&] { return hf_surface_find_vertex(surface, origin, nullptr, &vertex, nullptr); });

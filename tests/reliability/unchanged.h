@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "../support/place_in.h"
 #include "hf/hf.h"
 
 namespace unchanged {

@@ -73,8 +73,8 @@ class Analysis final : public Subject {
     hf_geodesics_solve_f64(geodesics_, 1, &source, distance.data(), 0);
     return result;
   }
-  hf_surface_point point(Random& random) const {
-    hf_surface_point p = {};
+  hf_place point(Random& random) const {
+    hf_place p = {};
     const std::uint32_t triangle = random.below(world.shape->count()), i = random.below(5), j = random.below(5 - i);
     for (std::size_t k = 0; k < 3; ++k) p.corners[k] = world.shape->triangles[3 * triangle + k];
     if (random.one_in(12)) p.corners[random.below(3)] = random.index(world.shape->vertices());
@@ -114,7 +114,7 @@ struct AnalysisCalls {
   }
   static hf_result path(Subject& subject, Random& random) {
     Analysis& s = of(subject);
-    const hf_surface_point from = s.point(random), to = random.one_in(9) ? from : s.point(random);
+    const hf_place from = s.point(random), to = random.one_in(9) ? from : s.point(random);
     std::vector<double> positions(3 * 200);
     hf_path out = HF_INIT(hf_path);
     out.point_capacity = random.pick({0u, 2u, 200u, 200u});
@@ -124,7 +124,7 @@ struct AnalysisCalls {
   }
   static hf_result map(Subject& subject, Random& random) {
     Analysis& s = of(subject);
-    const hf_surface_point centre = s.point(random);
+    const hf_place centre = s.point(random);
     std::vector<double> plane(2 * s.world.shape->vertices(), 77.0), frame(6, 77.0);
     const double radius = random.pick({0.0, 1.5, 3.0, random.number()});
     const hf_result result = s.call_geodesics(
@@ -248,7 +248,7 @@ struct AnalysisCalls {
     const auto vertex = [&] { return random.index(s.world.shape->vertices()); };
     std::vector<hf_link> list(1 + random.below(3));
     for (hf_link& link : list) {
-      const hf_surface_point end = s.point(random);
+      const hf_place end = s.point(random);
       link = {};
       link.vertex = vertex();
       std::copy_n(end.corners, 3, link.corners);

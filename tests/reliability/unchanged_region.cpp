@@ -129,11 +129,13 @@ struct RegionCalls {
     const std::vector<std::uint32_t> gone = s.vertices(1 + random.below(4), random),
                                      come = s.vertices(1 + random.below(6), random),
                                      points = s.vertices(2 + random.below(5), random);
-    std::vector<std::uint32_t> triangles(points.size());
-    std::vector<double> weights(3 * points.size(), 0.0);
+    std::vector<hf_place> inside;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      triangles[i] = random.index(s.world.shape->count());
-      weights[3 * i + random.below(3)] = 1;
+      const Shape& shape = *s.world.shape;
+      const std::uint32_t triangle = random.index(shape.count());
+      double weights[3] = {0, 0, 0};
+      weights[random.below(3)] = 1;
+      inside.push_back(place_in(shape.triangles.data(), shape.count(), triangle, weights));
     }
     hf_curve_desc curve = HF_INIT(hf_curve_desc);
     curve.point_count = static_cast<std::uint32_t>(points.size());
@@ -141,10 +143,9 @@ struct RegionCalls {
     curve.kind = random.pick({0, 0, 1, 1, 2});
     curve.reserved = random.one_in(20);
     curve.seed_vertex = random.index(s.world.shape->vertices());
-    if (random.one_in(3)) {
-      curve.triangles = triangles.data();
-      curve.barycentrics = weights.data();
-    } else
+    if (random.one_in(3))
+      curve.places = inside.data();
+    else
       curve.vertices = points.data();
     hf_region_edit_desc desc = HF_INIT(hf_region_edit_desc);
     if (random.one_in(4)) desc.curve = random.spoiled(curve);

@@ -8,8 +8,9 @@
 namespace unchanged {
 
 struct Place {
-  std::uint32_t vertex = HF_NO_INDEX, triangle = HF_NO_INDEX;
-  double weights[3] = {0, 0, 0};
+  std::uint32_t vertex = HF_NO_INDEX;
+  bool inside = false;  // else at the vertex
+  hf_place place{};
 };
 using Places = std::map<std::uint32_t, Place>;  // by number
 
@@ -31,22 +32,20 @@ using SolverBranch = Clonable<hf_solver, hf_solver_destroy, SolverModel>;
 // Places in the form of hf_sites_desc, which borrows from this object.
 struct Lists {
   std::vector<Place> places;
-  std::vector<std::uint32_t> vertices, triangles;
-  std::vector<double> weights, values, stiffness, radii;
+  std::vector<std::uint32_t> vertices;
+  std::vector<hf_place> inside;
+  std::vector<double> values, stiffness, radii;
   hf_sites_desc desc = HF_INIT(hf_sites_desc);
   void finish() {
     for (const Place& p : places) {
       vertices.push_back(p.vertex);
-      triangles.push_back(p.triangle);
-      weights.insert(weights.end(), p.weights, p.weights + 3);
+      inside.push_back(p.place);
     }
     desc.site_count = static_cast<std::uint32_t>(places.size());
-    if (places.empty() || places[0].triangle == HF_NO_INDEX)
+    if (places.empty() || !places[0].inside)
       desc.vertices = vertices.data();
-    else {
-      desc.triangles = triangles.data();
-      desc.barycentrics = weights.data();
-    }
+    else
+      desc.places = inside.data();
     if (!values.empty()) desc.values = values.data();
     if (!stiffness.empty()) desc.stiffness = stiffness.data();
     if (!radii.empty()) desc.radii = radii.data();
@@ -158,12 +157,12 @@ class Solvers final : public Subject {
   Place place(Random& random, bool inside) const {
     Place p;
     if (!inside) return p.vertex = random.index(world.shape->vertices()), p;
-    p.triangle = random.index(world.shape->count());
+    const std::uint32_t triangle = random.index(world.shape->count());
     const std::uint32_t i = random.below(5), j = random.below(5 - i);
-    p.weights[0] = i / 4.0;
-    p.weights[1] = j / 4.0;
-    p.weights[2] = (4 - i - j) / 4.0;
-    if (random.one_in(30)) p.weights[random.below(3)] += random.pick({0.5, -1.0, 1e-3});
+    double weights[3] = {i / 4.0, j / 4.0, (4 - i - j) / 4.0};
+    if (random.one_in(30)) weights[random.below(3)] += random.pick({0.5, -1.0, 1e-3});
+    p.inside = true;
+    p.place = place_in(world.shape->triangles.data(), world.shape->count(), triangle, weights);
     return p;
   }
   std::uint32_t number(const SolverBranch& b, Random& random) const {

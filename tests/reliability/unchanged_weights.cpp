@@ -22,10 +22,7 @@ hf_pins_desc PinList::desc() const {
   out.influence_count = joint_count;
   out.radii = radii.data();
   if (!vertices.empty()) out.vertices = vertices.data();
-  if (!triangles.empty()) {
-    out.triangles = triangles.data();
-    out.barycentrics = barycentrics.data();
-  }
+  if (!places.empty()) out.places = places.data();
   out.joints = joints.data();
   out.weights = weights.data();
   return out;
@@ -178,9 +175,10 @@ PinList SkinWeights::pins(std::uint32_t count, std::uint32_t bones, Random& rand
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t a = random.below(5), b = random.below(5 - a);
     if (inside) {
-      list.triangles.push_back(random.index(world.shape->count()));
-      for (const std::uint32_t quarters : {a, b, 4 - a - b}) list.barycentrics.push_back(quarters / 4.0);
-      if (random.one_in(30)) list.barycentrics.back() += random.pick({0.5, -1.0});
+      const std::uint32_t triangle = random.index(world.shape->count());
+      double weights[3] = {a / 4.0, b / 4.0, (4 - a - b) / 4.0};
+      if (random.one_in(30)) weights[2] += random.pick({0.5, -1.0});
+      list.places.push_back(place_in(world.shape->triangles.data(), world.shape->count(), triangle, weights));
     } else {
       list.vertices.push_back(random.index(world.shape->vertices()));
     }

@@ -13,8 +13,9 @@ struct BoneList {
 };
 
 struct PinList {
-  std::vector<std::uint32_t> vertices, triangles, joints;  // vertices or triangles
-  std::vector<double> barycentrics, radii;
+  std::vector<std::uint32_t> vertices, joints;
+  std::vector<hf_place> places;  // instead of vertices
+  std::vector<double> radii;
   std::vector<float> weights;
   std::uint32_t joint_count = 1;
   std::uint32_t count() const { return static_cast<std::uint32_t>(radii.size()); }

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "../support/place_in.h"
 #include "../support/stick_man.h"
 #include "whole_api_run.h"
 
@@ -79,11 +80,11 @@ void Run::solver_and_sites() {
   sites = sites_at(2, 30, 10, 7);
   sites.radii = s.radii.data();
   call(hf_add_sites(solver, &sites, nullptr), "hf_add_sites, discs");
-  const std::uint32_t triangles[2] = {33, 400};
+  const hf_place inside[2] = {place_in(s.triangles.data(), s.triangle_count, 33, s.barycentrics.data()),
+                              place_in(s.triangles.data(), s.triangle_count, 400, s.barycentrics.data() + 3)};
   sites = sites_at(2, 1, 20);
   sites.vertices = nullptr;
-  sites.triangles = triangles;
-  sites.barycentrics = s.barycentrics.data();
+  sites.places = inside;
   call(hf_add_sites(solver, &sites, numbers.data() + 6), "hf_add_sites, points");
   take_field(solver);
   call(hf_solve(solver, floats.data(), 12, nullptr), "hf_solve");
@@ -307,8 +308,8 @@ void Run::analysis() {
   call(hf_geodesics_solve(geodesics, 1, sources, floats.data(), 12), "hf_geodesics_solve");
   take(distance.data(), n);
   take_floats();
-  const hf_surface_point from = {{3, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}},
-                         to = {{HF_NO_INDEX, 200, HF_NO_INDEX}, 0, {0, 1, 0}};
+  const hf_place from = {{3, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}},
+                 to = {{HF_NO_INDEX, 200, HF_NO_INDEX}, 0, {0, 1, 0}};
   hf_path path = desc<hf_path>();
   call(hf_geodesics_find_path(geodesics, &from, &to, &path), "hf_geodesics_find_path");
   Numbers map(2 * n), corners(3 * path.point_count);

@@ -183,7 +183,7 @@ TEST(Wrapper, reads_lines_points_distances_and_tips_of_a_strip) {
   const hf::Geodesics geodesics(surface);
   const auto distance = geodesics.solve_f64({0, 1});
   EXPECT_NEAR(distance[16], 8, 0.8);
-  hf_surface_point from{}, to{};
+  hf_place from{}, to{};
   to.corners[0] = 16;
   from.barycentrics[0] = to.barycentrics[0] = 1;
   EXPECT_GE(geodesics.find_path(from, to).length, 7.9);  // figures come with the arrays

@@ -436,7 +436,7 @@ namespace Hf
     }
 
     /// <summary>A spring from a vertex to a point of a triangle. Surface.Links writes it, LinksDesc reads it.</summary>
-    public sealed unsafe class Link
+    public sealed unsafe partial class Link
     {
         /// <summary>as given, of welded copies the first</summary>
         public uint Vertex;
@@ -475,7 +475,7 @@ namespace Hf
     }
 
     /// <summary>The options a surface was made with, defaults filled in.</summary>
-    public sealed unsafe class SurfaceInfo
+    public sealed unsafe partial class SurfaceInfo
     {
         /// <summary>as given</summary>
         public uint VertexCount;
@@ -530,7 +530,7 @@ namespace Hf
     /// <summary>Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are
     /// 0. Where faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces.
     /// Degenerate triangles, negative edges and the smallest angle are of the cut.</summary>
-    public sealed unsafe class SurfaceReport
+    public sealed unsafe partial class SurfaceReport
     {
         /// <summary>as given</summary>
         public uint VertexCount;
@@ -622,7 +622,7 @@ namespace Hf
     }
 
     /// <summary>How far linked pieces have opened, in the unit of the positions.</summary>
-    public sealed unsafe class GapsInfo
+    public sealed unsafe partial class GapsInfo
     {
         public uint LinkCount;
         /// <summary>95 of 100 links opened no more than this; 0 without links</summary>
@@ -642,7 +642,7 @@ namespace Hf
 
     /// <summary>Surface.Statistics writes sizes and times of a surface here. Times are in milliseconds. Bytes are doubles
     /// (exact to 2^53).</summary>
-    public sealed unsafe class SurfaceStatistics
+    public sealed unsafe partial class SurfaceStatistics
     {
         /// <summary>size of the factored matrix</summary>
         public uint UnknownCount;
@@ -689,36 +689,58 @@ namespace Hf
         }
     }
 
+    /// <summary>One place on a surface: a vertex, or a point between three corners of a face. Hit has one, sites, pins,
+    /// curves, handles and paths take it. Lists of places have three forms, of which you set one: `vertices` (4
+    /// bytes each), `places`, and `points` in space.</summary>
+    public sealed unsafe partial class Place
+    {
+        /// <summary>vertices of one face, as given; a corner of barycentric 0 is ignored and can be uint.MaxValue</summary>
+        public uint[] Corners = new uint[3];
+        /// <summary>weights of the corners, &gt;= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex</summary>
+        public double[] Barycentrics = new double[3];
+
+        internal Place(hf_place* raw)
+        {
+            for (int i = 0; i < 3; ++i) Corners[i] = raw->corners[i];
+            for (int i = 0; i < 3; ++i) Barycentrics[i] = raw->barycentrics[i];
+        }
+
+        public Place() { }
+
+        internal void Write(hf_place* raw)
+        {
+            Call.Fill(Corners, "Corners", 3, raw->corners);
+            Call.Fill(Barycentrics, "Barycentrics", 3, raw->barycentrics);
+        }
+    }
+
     /// <summary>Surface.CastRay writes the first triangle that a ray hits here.</summary>
-    public sealed unsafe class Hit
+    public sealed unsafe partial class Hit
     {
         /// <summary>or face, as given</summary>
         public uint Triangle;
         /// <summary>its corner nearest to the hit, as given, of welded copies the first</summary>
         public uint Vertex;
-        /// <summary>weights of `corners`, of sum 1: a site for Solver.AddSites</summary>
-        public double[] Barycentrics = new double[3];
+        /// <summary>corners of the triangle, of welded copies the first, and their weights. In a face of more corners three
+        /// of them: the triangle of the face's cut that the ray hits</summary>
+        public Place Place;
         /// <summary>in the unit of the positions</summary>
         public double[] Position = new double[3];
         /// <summary>from the origin, in lengths of `direction`</summary>
         public double Distance;
-        /// <summary>the triangle's vertices, as given, of welded copies the first. In a face of more corners three of them:
-        /// the triangle of the face's cut that the ray hits</summary>
-        public uint[] Corners = new uint[3];
 
         internal Hit(hf_hit* raw)
         {
             Triangle = raw->triangle;
             Vertex = raw->vertex;
-            for (int i = 0; i < 3; ++i) Barycentrics[i] = raw->barycentrics[i];
+            Place = new Place(&raw->place);
             for (int i = 0; i < 3; ++i) Position[i] = raw->position[i];
             Distance = raw->distance;
-            for (int i = 0; i < 3; ++i) Corners[i] = raw->corners[i];
         }
     }
 
     /// <summary>Solver.Info writes the options of a solver here, with defaults filled in, and the number of its sites.</summary>
-    public sealed unsafe class SolverInfo
+    public sealed unsafe partial class SolverInfo
     {
         /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
@@ -744,7 +766,7 @@ namespace Hf
     }
 
     /// <summary>The components that the sites of a solve did not reach.</summary>
-    public sealed unsafe class SolveInfo
+    public sealed unsafe partial class SolveInfo
     {
         /// <summary>components without a site</summary>
         public uint UnreachedComponentCount;
@@ -762,7 +784,7 @@ namespace Hf
     }
 
     /// <summary>Counts and errors of a preview.</summary>
-    public sealed unsafe class PreviewInfo
+    public sealed unsafe partial class PreviewInfo
     {
         /// <summary>1: solved in double, as Solver.Solve does</summary>
         public bool Exact;
@@ -796,7 +818,7 @@ namespace Hf
     /// <summary>The certificate says how accurate a field is. Each error is relative to the range of the site values of its
     /// component and channel, and of its targets where it is screened. Where all are equal, it is relative to their
     /// size. A value that is not finite counts as infinitely wrong.</summary>
-    public sealed unsafe class Certificate
+    public sealed unsafe partial class Certificate
     {
         /// <summary>1: the field must keep to the range of its sites: harmonic, intrinsic Delaunay or clamped operator, all
         ///     sites at vertices</summary>
@@ -835,7 +857,7 @@ namespace Hf
     }
 
     /// <summary>Counts, memory and cost estimates of a solver. Bytes are doubles (exact to 2^53).</summary>
-    public sealed unsafe class SolverStatistics
+    public sealed unsafe partial class SolverStatistics
     {
         public uint SiteCount;
         /// <summary>numeric factorisations this solver made; the surface's own is not counted</summary>
@@ -881,7 +903,7 @@ namespace Hf
         }
     }
 
-    public sealed unsafe class CriticalPoint
+    public sealed unsafe partial class CriticalPoint
     {
         /// <summary>as given, of welded copies the first</summary>
         public uint Vertex;
@@ -914,7 +936,7 @@ namespace Hf
         }
     }
 
-    public sealed unsafe class CriticalInfo
+    public sealed unsafe partial class CriticalInfo
     {
         /// <summary>minima + maxima + saddles</summary>
         public uint PointCount;
@@ -938,7 +960,7 @@ namespace Hf
         }
     }
 
-    public sealed unsafe class Extremity
+    public sealed unsafe partial class Extremity
     {
         /// <summary>as given, of welded copies the first</summary>
         public uint Vertex;
@@ -970,7 +992,7 @@ namespace Hf
 
     /// <summary>A singularity is a triangle, or a face, around which the field makes extra turns. They are counted in parts
     /// of 1 / degree of a full turn.</summary>
-    public sealed unsafe class Singularity
+    public sealed unsafe partial class Singularity
     {
         /// <summary>or face, as given</summary>
         public uint Triangle;
@@ -997,7 +1019,7 @@ namespace Hf
     }
 
     /// <summary>The options a direction field was made with, and counts of its constraints and of the work done so far.</summary>
-    public sealed unsafe class DirectionStatistics
+    public sealed unsafe partial class DirectionStatistics
     {
         public uint Degree;
         public uint SiteLimit;
@@ -1039,7 +1061,7 @@ namespace Hf
     }
 
     /// <summary>Pose.Info writes the options of a pose here, with defaults filled in, and the number of its handles.</summary>
-    public sealed unsafe class PoseInfo
+    public sealed unsafe partial class PoseInfo
     {
         /// <summary>DeformMode</summary>
         public DeformMode Mode;
@@ -1065,7 +1087,7 @@ namespace Hf
     }
 
     /// <summary>Pose.Handle writes the region of a handle here, its layer, and its motion in the last Pose.Deform.</summary>
-    public sealed unsafe class HandleInfo
+    public sealed unsafe partial class HandleInfo
     {
         /// <summary>of the region, welded copies counted once</summary>
         public uint VertexCount;
@@ -1100,7 +1122,7 @@ namespace Hf
     }
 
     /// <summary>Counts and times of a deform.</summary>
-    public sealed unsafe class DeformInfo
+    public sealed unsafe partial class DeformInfo
     {
         /// <summary>done</summary>
         public uint IterationCount;
@@ -1129,7 +1151,7 @@ namespace Hf
 
     /// <summary>One proposed handle. position and radius are those of HandlesDesc: the regions of all proposals are
     /// disjoint.</summary>
-    public sealed unsafe class HandleProposal
+    public sealed unsafe partial class HandleProposal
     {
         /// <summary>nearest to the position; as given, of welded copies the first</summary>
         public uint Vertex;
@@ -1176,7 +1198,7 @@ namespace Hf
     }
 
     /// <summary>Counts of a quad mesh.</summary>
-    public sealed unsafe class QuadsInfo
+    public sealed unsafe partial class QuadsInfo
     {
         public uint VertexCount;
         public uint FaceCount;
@@ -1195,7 +1217,7 @@ namespace Hf
     }
 
     /// <summary>Counts and areas of a region and of its last edit. Welded copies count as one vertex.</summary>
-    public sealed unsafe class RegionInfo
+    public sealed unsafe partial class RegionInfo
     {
         /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
@@ -1241,7 +1263,7 @@ namespace Hf
     }
 
     /// <summary>Figures of a retarget. Angles, stride and drop count all frames since the last reset.</summary>
-    public sealed unsafe class RetargetInfo
+    public sealed unsafe partial class RetargetInfo
     {
         public uint SourceJointCount;
         public uint TargetJointCount;
@@ -1283,7 +1305,7 @@ namespace Hf
 
     /// <summary>How a chain of the target follows the source. Angles lie between a bone of the target and the same bone of
     /// the source, in radians. They are 0 for a chain of one joint, and for a chain whose rest is not aligned.</summary>
-    public sealed unsafe class ChainMatch
+    public sealed unsafe partial class ChainMatch
     {
         /// <summary>Role</summary>
         public Role Role;
@@ -1319,7 +1341,7 @@ namespace Hf
 
     /// <summary>The findings about a character. Confidences are 0 to 1. Lengths are in the unit of the joints; a length is 0
     /// where the body has no such part. Lengths of legs belong to the hindmost pair that stands.</summary>
-    public sealed unsafe class SkeletonInfo
+    public sealed unsafe partial class SkeletonInfo
     {
         public uint JointCount;
         public uint ChainCount;
@@ -1363,7 +1385,7 @@ namespace Hf
     }
 
     /// <summary>The findings about a joint.</summary>
-    public sealed unsafe class JointInfo
+    public sealed unsafe partial class JointInfo
     {
         /// <summary>JointKind</summary>
         public JointKind Kind;
@@ -1398,7 +1420,7 @@ namespace Hf
     }
 
     /// <summary>Joints of one role and side, from root to tip.</summary>
-    public sealed unsafe class Chain
+    public sealed unsafe partial class Chain
     {
         /// <summary>Role</summary>
         public Role Role;
@@ -1440,7 +1462,7 @@ namespace Hf
         }
     }
 
-    public sealed unsafe class PairInfo
+    public sealed unsafe partial class PairInfo
     {
         public uint Flags;
         /// <summary>of the pair's fields, see HandleInfo</summary>
@@ -1472,7 +1494,7 @@ namespace Hf
     }
 
     /// <summary>Transfer.Info writes counts and the scale of a transfer here.</summary>
-    public sealed unsafe class TransferInfo
+    public sealed unsafe partial class TransferInfo
     {
         public uint PairCount;
         public uint ClusterCount;
@@ -1503,7 +1525,7 @@ namespace Hf
 
     /// <summary>What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and
     /// the result is continuous in each dial.</summary>
-    public sealed unsafe class TransferDials
+    public sealed unsafe partial class TransferDials
     {
         /// <summary>the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
         /// foot does not slide. The body travels as much farther</summary>
@@ -1537,7 +1559,7 @@ namespace Hf
     }
 
     /// <summary>Counts of the weights. Vertices are counted as given.</summary>
-    public sealed unsafe class WeightsInfo
+    public sealed unsafe partial class WeightsInfo
     {
         public uint VertexCount;
         public uint JointCount;
@@ -1593,7 +1615,7 @@ namespace Hf
     }
 
     /// <summary>Counts of transferred weights. Vertices of the target are counted as given.</summary>
-    public sealed unsafe class WeightsTransferInfo
+    public sealed unsafe partial class WeightsTransferInfo
     {
         public uint VertexCount;
         /// <summary>vertices by WeightsOrigin</summary>
@@ -1618,7 +1640,7 @@ namespace Hf
     }
 
     /// <summary>The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh.</summary>
-    public sealed unsafe class WeightsMirrorInfo
+    public sealed unsafe partial class WeightsMirrorInfo
     {
         public uint VertexCount;
         /// <summary>MirrorPlane</summary>
@@ -1878,30 +1900,26 @@ namespace Hf
         }
     }
 
-    /// <summary>Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the
-    /// less influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic
-    /// disc. A radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its
-    /// vertices. For harmonic fields the boundary vertices of a disc count towards site_limit; for bi-harmonic
-    /// fields all its vertices do.</summary>
+    /// <summary>Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point
+    /// site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below
+    /// the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic
+    /// fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.</summary>
     public sealed unsafe class SitesDesc
     {
         /// <summary>[siteCount] vertices as given, or null</summary>
         public uint[] Vertices;
         /// <summary>[siteCount x channelCount], up to 1e200 in size; null = 0</summary>
         public double[] Values;
-        /// <summary>[siteCount] triangles (or faces of three corners) as given, or null</summary>
-        public uint[] Triangles;
-        /// <summary>[siteCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1 within
-        /// 1e-6</summary>
-        public double[] Barycentrics;
+        /// <summary>[siteCount], or null</summary>
+        public Place[] Places;
+        /// <summary>[siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+        /// the nearest point of the surface, up to two boxes away</summary>
+        public double[] Points;
         /// <summary>[siteCount] &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
         /// 1e-12 to 1e12</summary>
         public double[] Stiffness;
         /// <summary>[siteCount] &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points</summary>
         public double[] Radii;
-        /// <summary>[siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more corners
-        /// this places a site in a triangle of them</summary>
-        public uint[] Corners;
 
         public static implicit operator SitesDesc(uint[] vertices)
         {
@@ -1913,33 +1931,32 @@ namespace Hf
             var desc = (hf_sites_desc*)c.New(sizeof(hf_sites_desc));
             desc->struct_size = (uint)sizeof(hf_sites_desc);
             desc->vertices = (IntPtr)c.Array(Vertices, "vertices", prefix + "site_count");
-            desc->triangles = (IntPtr)c.Array(Triangles, "triangles", prefix + "site_count");
-            desc->barycentrics = (IntPtr)c.Array(Barycentrics, "barycentrics", prefix + "site_count", "3");
+            var placesRows = (hf_place*)c.Given(Places, "places", sizeof(hf_place), prefix + "site_count");
+            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(placesRows + i);
+            desc->places = (IntPtr)placesRows;
+            desc->points = (IntPtr)c.Array(Points, "points", prefix + "site_count", "3");
             desc->values = (IntPtr)c.Array(Values, "values", prefix + "site_count", "channel_count");
             desc->stiffness = (IntPtr)c.Array(Stiffness, "stiffness", prefix + "site_count");
             desc->radii = (IntPtr)c.Array(Radii, "radii", prefix + "site_count");
-            desc->corners = (IntPtr)c.Array(Corners, "corners", prefix + "site_count", "3");
             desc->site_count = (uint)c.Count(prefix + "site_count", 1);
             return (IntPtr)desc;
         }
     }
 
-    /// <summary>Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are
-    /// the region, and any single vertex that these surround but for one edge. The rim is the vertices next to
-    /// them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along edges the
-    /// rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a
-    /// vertex at most 8 times.</summary>
+    /// <summary>Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The
+    /// vertices on its chosen side are the region, and any single vertex that these surround but for one edge. The
+    /// rim is the vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the
+    /// curve runs along edges the rim is the curve. A whole border of the surface is a curve too; it has only one
+    /// side. The curve passes a vertex at most 8 times.</summary>
     public sealed unsafe class CurveDesc
     {
         /// <summary>[pointCount] vertices as given, or null</summary>
         public uint[] Vertices;
-        /// <summary>[pointCount] triangles (or faces of three corners) as given, or null</summary>
-        public uint[] Triangles;
-        /// <summary>[pointCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of sum 1 within
-        /// 1e-6</summary>
-        public double[] Barycentrics;
-        /// <summary>[pointCount x 3] three vertices of one face, as Hit has them, or null</summary>
-        public uint[] Corners;
+        /// <summary>[pointCount], or null</summary>
+        public Place[] Places;
+        /// <summary>[pointCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+        /// the nearest point of the surface, up to two boxes away</summary>
+        public double[] Points;
         /// <summary>BodySide</summary>
         public Side Side;
         /// <summary>with Side.Seed</summary>
@@ -1960,9 +1977,10 @@ namespace Hf
             desc->seed_vertex = SeedVertex;
             desc->kind = (int)Kind;
             desc->vertices = (IntPtr)c.Array(Vertices, "vertices", prefix + "point_count");
-            desc->triangles = (IntPtr)c.Array(Triangles, "triangles", prefix + "point_count");
-            desc->barycentrics = (IntPtr)c.Array(Barycentrics, "barycentrics", prefix + "point_count", "3");
-            desc->corners = (IntPtr)c.Array(Corners, "corners", prefix + "point_count", "3");
+            var placesRows = (hf_place*)c.Given(Places, "places", sizeof(hf_place), prefix + "point_count");
+            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(placesRows + i);
+            desc->places = (IntPtr)placesRows;
+            desc->points = (IntPtr)c.Array(Points, "points", prefix + "point_count", "3");
             desc->point_count = (uint)c.Count(prefix + "point_count", 0);
             return (IntPtr)desc;
         }
@@ -2781,31 +2799,30 @@ namespace Hf
         ///
         /// vertices: [siteCount] vertices as given, or null
         /// values: [siteCount x channelCount], up to 1e200 in size; null = 0
-        /// triangles: [siteCount] triangles (or faces of three corners) as given, or null
-        /// barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of
-        ///     sum 1 within 1e-6
+        /// places: [siteCount], or null
+        /// points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each
+        ///     stands for the nearest point of the surface, up to two boxes away
         /// stiffness: [siteCount] &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
         ///     clamped to 1e-12 to 1e12
         /// radii: [siteCount] &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-        /// corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
-        ///     corners this places a site in a triangle of them
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
-        public uint[] AddSites(uint[] vertices = null, double[] values = null, uint[] triangles = null,
-                double[] barycentrics = null, double[] stiffness = null, double[] radii = null, uint[] corners = null)
+        public uint[] AddSites(uint[] vertices = null, double[] values = null, Place[] places = null,
+                double[] points = null, double[] stiffness = null, double[] radii = null)
         {
             using (var c = new Call(this))
             {
                 var descStruct = new hf_sites_desc { struct_size = (uint)sizeof(hf_sites_desc) };
                 hf_sites_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "site_count");
-                desc->triangles = (IntPtr)c.Array(triangles, "triangles", "site_count");
-                desc->barycentrics = (IntPtr)c.Array(barycentrics, "barycentrics", "site_count", "3");
+                var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "site_count");
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                desc->places = (IntPtr)placesRows;
+                desc->points = (IntPtr)c.Array(points, "points", "site_count", "3");
                 desc->values = (IntPtr)c.Array(values, "values", "site_count", "channel_count");
                 desc->stiffness = (IntPtr)c.Array(stiffness, "stiffness", "site_count");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "site_count");
-                desc->corners = (IntPtr)c.Array(corners, "corners", "site_count", "3");
                 desc->site_count = (uint)c.Count("site_count", 1);
                 var sites = new uint[c.Product("site_count")];
                 var sitesPlace = (uint*)c.Pin(sites);
@@ -2851,19 +2868,17 @@ namespace Hf
         /// sites: [siteCount].
         /// vertices: [siteCount] vertices as given, or null
         /// values: [siteCount x channelCount], up to 1e200 in size; null = 0
-        /// triangles: [siteCount] triangles (or faces of three corners) as given, or null
-        /// barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, &gt;= 0, of
-        ///     sum 1 within 1e-6
+        /// places: [siteCount], or null
+        /// points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each
+        ///     stands for the nearest point of the surface, up to two boxes away
         /// stiffness: [siteCount] &gt;= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard;
         ///     clamped to 1e-12 to 1e12
         /// radii: [siteCount] &gt;= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-        /// corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
-        ///     corners this places a site in a triangle of them
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
-        public void MoveSites(uint[] sites, uint[] vertices = null, double[] values = null, uint[] triangles = null,
-                double[] barycentrics = null, double[] stiffness = null, double[] radii = null, uint[] corners = null)
+        public void MoveSites(uint[] sites, uint[] vertices = null, double[] values = null, Place[] places = null,
+                double[] points = null, double[] stiffness = null, double[] radii = null)
         {
             using (var c = new Call(this))
             {
@@ -2871,12 +2886,13 @@ namespace Hf
                 var descStruct = new hf_sites_desc { struct_size = (uint)sizeof(hf_sites_desc) };
                 hf_sites_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "site_count");
-                desc->triangles = (IntPtr)c.Array(triangles, "triangles", "site_count");
-                desc->barycentrics = (IntPtr)c.Array(barycentrics, "barycentrics", "site_count", "3");
+                var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "site_count");
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                desc->places = (IntPtr)placesRows;
+                desc->points = (IntPtr)c.Array(points, "points", "site_count", "3");
                 desc->values = (IntPtr)c.Array(values, "values", "site_count", "channel_count");
                 desc->stiffness = (IntPtr)c.Array(stiffness, "stiffness", "site_count");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "site_count");
-                desc->corners = (IntPtr)c.Array(corners, "corners", "site_count", "3");
                 desc->site_count = (uint)c.Count("site_count", 1);
                 HfException.Check(Functions.hf_solver_move_sites(RawHandle, (uint)c.Count("site_count", 1), sites_,
                     desc));
@@ -4043,10 +4059,12 @@ namespace Hf
         /// 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for the
         /// higher layers.
         ///
-        /// regionVertices: lists of whole numbers: all regions one after the other; null: points are given
-        /// points: [handleCount x 3] at rest. The region is the vertex nearest to the point and what is edge-
-        ///     connected to it within the radius. null: regions are given
-        /// radii: [handleCount] of the regions of points, in the unit of the mesh; null: regions are given. A
+        /// regionVertices: lists of whole numbers: all regions one after the other; null: places are given
+        /// vertices: [handleCount] vertices as given, or null
+        /// places: [handleCount], or null
+        /// points: [handleCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. A point
+        ///     can lie inside the body, as a joint does: its nearest vertex counts
+        /// radii: [handleCount] of the regions of places, in the unit of the mesh; null: regions are given. A
         ///     radius below 1 % of the box makes regions of 2 vertices or more
         /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
         /// inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -4055,8 +4073,9 @@ namespace Hf
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
-        public uint[] AddHandles(uint[][] regionVertices = null, double[] points = null, double[] radii = null,
-                uint layer = 0, bool inPlace = false, bool freeRotation = false, Progress progress = null)
+        public uint[] AddHandles(uint[][] regionVertices = null, uint[] vertices = null, Place[] places = null,
+                double[] points = null, double[] radii = null, uint layer = 0, bool inPlace = false,
+                bool freeRotation = false, Progress progress = null)
         {
             using (var c = new Call(this))
             {
@@ -4065,6 +4084,10 @@ namespace Hf
                 hf_handles_desc* desc = &descStruct;
                 c.Lists(regionVertices, "regionVertices", "handle_count", out desc->region_counts,
                     out desc->region_vertices);
+                desc->vertices = (IntPtr)c.Array(vertices, "vertices", "handle_count");
+                var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "handle_count");
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                desc->places = (IntPtr)placesRows;
                 desc->points = (IntPtr)c.Array(points, "points", "handle_count", "3");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "handle_count");
                 desc->progress = c.Handle(progress);
@@ -6231,9 +6254,9 @@ namespace Hf
         /// of a disc. Pins at the same places with other weights cost no path.
         ///
         /// vertices: [pinCount] vertices as given, or null
-        /// triangles: [pinCount] triangles as given, or null
-        /// barycentrics: [pinCount x 3] with triangles, else null: weights of the corners, &gt;= 0, of sum 1 within
-        ///     1e-6
+        /// places: [pinCount], or null
+        /// points: [pinCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands
+        ///     for the nearest point of the surface, up to two boxes away
         /// radii: [pinCount] of the geodesic disc around the place, in the unit of the mesh; null or 0: the place
         ///     alone
         /// joints: [pinCount x influenceCount] joints
@@ -6242,7 +6265,7 @@ namespace Hf
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT,
         /// HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
-        public void SetPins(uint[] vertices = null, uint[] triangles = null, double[] barycentrics = null,
+        public void SetPins(uint[] vertices = null, Place[] places = null, double[] points = null,
                 double[] radii = null, uint[] joints = null, float[] weights = null, Progress progress = null)
         {
             using (var c = new Call(this))
@@ -6250,8 +6273,10 @@ namespace Hf
                 var descStruct = new hf_pins_desc { struct_size = (uint)sizeof(hf_pins_desc) };
                 hf_pins_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "pin_count");
-                desc->triangles = (IntPtr)c.Array(triangles, "triangles", "pin_count");
-                desc->barycentrics = (IntPtr)c.Array(barycentrics, "barycentrics", "pin_count", "3");
+                var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "pin_count");
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                desc->places = (IntPtr)placesRows;
+                desc->points = (IntPtr)c.Array(points, "points", "pin_count", "3");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "pin_count");
                 desc->joints = (IntPtr)c.Array(joints, "joints", "pin_count", "influence_count");
                 desc->weights = (IntPtr)c.Array(weights, "weights", "pin_count", "influence_count");

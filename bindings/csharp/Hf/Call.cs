@@ -25,12 +25,9 @@ namespace Hf
         public static implicit operator Indices(ushort[] values) { return values == null ? null : new Indices { Values = values }; }
     }
 
-    /// <summary>A place on a surface: a vertex, a hit, or three corners of a triangle and their barycentrics.</summary>
-    public sealed class Place
+    /// <summary>Places may be given as a vertex or as a hit.</summary>
+    public sealed unsafe partial class Place
     {
-        public readonly uint[] Corners;
-        public readonly double[] Barycentrics;
-
         public Place(uint[] corners, double[] barycentrics)
         {
             Corners = corners;
@@ -38,7 +35,7 @@ namespace Hf
         }
 
         public static implicit operator Place(uint vertex) { return new Place(new[] { vertex, vertex, vertex }, new[] { 1.0, 0, 0 }); }
-        public static implicit operator Place(Hit hit) { return hit == null ? null : new Place(hit.Corners, hit.Barycentrics); }
+        public static implicit operator Place(Hit hit) { return hit == null ? null : hit.Place; }
     }
 
     sealed unsafe class Call : IDisposable
@@ -252,10 +249,9 @@ namespace Hf
         public void* Place(Place place, string name)
         {
             if (place == null) throw new HfException(name + " is null", Constants.HF_ERROR_NULL_POINTER);
-            var point = (hf_surface_point*)New(sizeof(hf_surface_point));
-            Fill(place.Corners, name, 3, point->corners);
-            Fill(place.Barycentrics, name, 3, point->barycentrics);
-            return point;
+            var raw = (hf_place*)New(sizeof(hf_place));
+            place.Write(raw);
+            return raw;
         }
 
         /// <summary>The caller's array has the right length.</summary>

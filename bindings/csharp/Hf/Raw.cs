@@ -401,6 +401,14 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_place
+    {
+        public fixed uint corners[3];
+        public uint reserved;
+        public fixed double barycentrics[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_pick_desc
     {
         public uint struct_size;
@@ -418,11 +426,9 @@ namespace Hf.Native
         public int found;
         public uint triangle;
         public uint vertex;
-        public fixed double barycentrics[3];
+        public hf_place place;
         public fixed double position[3];
         public double distance;
-        public fixed uint corners[3];
-        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -458,12 +464,11 @@ namespace Hf.Native
         public uint struct_size;
         public uint site_count;
         public IntPtr vertices;
-        public IntPtr triangles;
-        public IntPtr barycentrics;
+        public IntPtr places;
+        public IntPtr points;
         public IntPtr values;
         public IntPtr stiffness;
         public IntPtr radii;
-        public IntPtr corners;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -613,14 +618,6 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct hf_surface_point
-    {
-        public fixed uint corners[3];
-        public uint reserved;
-        public fixed double barycentrics[3];
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_path
     {
         public uint struct_size;
@@ -724,6 +721,8 @@ namespace Hf.Native
         public uint handle_count;
         public IntPtr region_counts;
         public IntPtr region_vertices;
+        public IntPtr vertices;
+        public IntPtr places;
         public IntPtr points;
         public IntPtr radii;
         public uint layer;
@@ -917,11 +916,10 @@ namespace Hf.Native
         public uint struct_size;
         public uint point_count;
         public IntPtr vertices;
-        public IntPtr triangles;
-        public IntPtr barycentrics;
+        public IntPtr places;
+        public IntPtr points;
         public int side;
         public uint seed_vertex;
-        public IntPtr corners;
         public int kind;
         public uint reserved;
     }
@@ -1209,8 +1207,8 @@ namespace Hf.Native
         public uint struct_size;
         public uint pin_count;
         public IntPtr vertices;
-        public IntPtr triangles;
-        public IntPtr barycentrics;
+        public IntPtr places;
+        public IntPtr points;
         public IntPtr radii;
         public uint influence_count;
         public uint reserved;

@@ -47,11 +47,11 @@ Value distance(Surface& s, const Arguments& a) {
 }
 
 // A place is [vertex], or [three corners of a triangle, their three weights].
-hf_surface_point place_of(const Argument& argument, const char* name) {
+hf_place place_of(const Argument& argument, const char* name) {
   const Doubles& list = argument.list;
   if (list.size() != 1 && list.size() != 6)
     fail(std::string(name) + " must be [vertex], or three corners and three weights");
-  hf_surface_point point = {};
+  hf_place point = {};
   for (size_t k = 0; k < 3; ++k) {
     point.corners[k] = whole(list[list.size() == 1 ? 0 : k], name);
     point.barycentrics[k] = list.size() == 6 ? list[3 + k] : k == 0 ? 1.0 : 0.0;
@@ -61,7 +61,7 @@ hf_surface_point place_of(const Argument& argument, const char* name) {
 
 // find_path(from, to, method = 0): points of the shortest path between two places
 Value find_path(Surface& s, const Arguments& a) {
-  const hf_surface_point from = place_of(at(a, 0), "from"), to = place_of(at(a, 1), "to");
+  const hf_place from = place_of(at(a, 0), "from"), to = place_of(at(a, 1), "to");
   hf_geodesics geodesics = geodesics_of(s, at(a, 2));
   auto path = make<hf_path>();
   check(hf_geodesics_find_path(geodesics, &from, &to, &path));
@@ -74,7 +74,7 @@ Value find_path(Surface& s, const Arguments& a) {
 
 // map_around(centre, radius = 0, method = 0): the surface laid out in a plane, two coordinates per vertex
 Value map_around(Surface& s, const Arguments& a) {
-  const hf_surface_point centre = place_of(at(a, 0), "centre");
+  const hf_place centre = place_of(at(a, 0), "centre");
   hf_geodesics geodesics = geodesics_of(s, at(a, 2));
   Doubles map(2 * size_t{s.vertex_count} + 1);
   check(hf_geodesics_get_map(geodesics, &centre, at(a, 1).number, map.data(), nullptr));

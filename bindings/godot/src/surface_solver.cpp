@@ -9,6 +9,21 @@ hf_solver solver_of(Surface& s) {
 
 namespace {
 
+// Six numbers for each place: three corners of a triangle, three weights.
+std::vector<hf_place> places_of(const Argument& argument) {
+  const Doubles& list = argument.list;
+  if (list.size() % 6 != 0) fail("places must hold three corners and three weights each");
+  std::vector<hf_place> places(list.size() / 6);
+  for (size_t i = 0; i < list.size(); ++i) {
+    hf_place& place = places[i / 6];
+    if (i % 6 < 3)
+      place.corners[i % 6] = whole(list[i], "places");
+    else
+      place.barycentrics[i % 6 - 3] = list[i];
+  }
+  return places;
+}
+
 // solver_create(options = {}): replaces the solver; without it the first call makes one of defaults
 Value solver_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_solver_desc>();
@@ -20,17 +35,19 @@ Value solver_create(Surface& s, const Arguments& a) {
   return done();
 }
 
+// add_sites(vertices, values, stiffness = null, radii = null, places = null): a place is three corners and three
+// weights
 Value add_sites(Surface& s, const Arguments& a) {
-  const List vertices = integers(at(a, 0), "vertices"), triangles = integers(at(a, 4), "triangles");
-  const size_t count = (vertices.null ? triangles : vertices).count();
+  const List vertices = integers(at(a, 0), "vertices");
+  const std::vector<hf_place> places = places_of(at(a, 4));
+  const size_t count = vertices.null ? places.size() : vertices.count();
   auto desc = make<hf_sites_desc>();
   desc.site_count = static_cast<uint32_t>(count);
   desc.vertices = vertices.data();
-  desc.triangles = triangles.data();
+  desc.places = places.empty() ? nullptr : places.data();
   desc.values = doubles(at(a, 1), count, "values");
   desc.stiffness = doubles(at(a, 2), count, "stiffness");
   desc.radii = doubles(at(a, 3), count, "radii");
-  desc.barycentrics = doubles(at(a, 5), 3 * count, "barycentrics");
   Numbers made(count + 1);
   check(hf_add_sites(solver_of(s), &desc, made.data()));
   made.resize(count);
@@ -159,7 +176,7 @@ Value solver_info(Surface& s, const Arguments&) {
 const std::vector<Entry>& solver_methods() {
   static const std::vector<Entry> all = {
       {"solver_create", 0, 1, solver_create},
-      {"add_sites", 2, 6, add_sites},
+      {"add_sites", 2, 5, add_sites},
       {"add_site", 1, 2, add_site},
       {"remove_sites", 1, 1, remove_sites},
       {"move_sites", 2, 2, move_sites},

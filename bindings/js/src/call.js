@@ -184,14 +184,24 @@ export function callClass(backend) {
       return fill(this, prefix, Array.isArray(given) || ArrayBuffer.isView(given) ? { [first]: given } : given);
     }
 
-    /** A point of the surface: a vertex, or three corners of a triangle and their barycentrics. */
-    place(type, value, name) {
+    /** One place: a vertex, a hit, or three corners of a triangle and their barycentrics. */
+    place(value, name) {
       const { corners, barycentrics } = Number.isInteger(value)
         ? { corners: [value, value, value], barycentrics: [1, 0, 0] }
-        : (value ?? {});
+        : (value?.place ?? value ?? {});
       if (corners?.length !== 3 || barycentrics?.length !== 3)
-        fail(`${name} must be a vertex, or an object with three corners and three barycentrics`);
-      return make(type).set('corners', corners).set('barycentrics', barycentrics);
+        fail(`${name} must be a vertex, a hit, or an object with three corners and three barycentrics`);
+      return make('hf_place').set('corners', corners).set('barycentrics', barycentrics);
+    }
+
+    places(name, values, dims) {
+      if (values === null || values === undefined) return null;
+      if (!Array.isArray(values)) fail(`${name} must be a list of places`);
+      this.fit(values.length, name, dims);
+      const size = rowSize('hf_place');
+      const bytes = new Uint8Array(values.length * size);
+      values.forEach((value, i) => bytes.set(this.place(value, `${name}[${i}]`).bytes, i * size));
+      return read(bytes);
     }
 
     /** The caller's array, or a new one. */

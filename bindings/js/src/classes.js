@@ -95,17 +95,16 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const sitesDesc = (c, prefix, options) => {
-    const { vertices = null, values = null, triangles = null, barycentrics = null, stiffness = null, radii = null,
-            corners = null, ...more } = options;
+    const { vertices = null, values = null, places = null, points = null, stiffness = null, radii = null,
+            ...more } = options;
     none(more);
     const desc = c.struct('hf_sites_desc', {});
     c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'site_count']);
-    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'site_count']);
-    c.rows(desc, 'barycentrics', 'barycentrics', barycentrics, 'f8', [prefix + 'site_count', 3]);
+    desc.set('places', c.places('places', places, [prefix + 'site_count']));
+    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'site_count', 3]);
     c.rows(desc, 'values', 'values', values, 'f8', [prefix + 'site_count', 'channel_count']);
     c.rows(desc, 'stiffness', 'stiffness', stiffness, 'f8', [prefix + 'site_count']);
     c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'site_count']);
-    c.rows(desc, 'corners', 'corners', corners, 'u4', [prefix + 'site_count', 3]);
     c.counts(desc, { site_count: [prefix + 'site_count', 1] });
     return desc;
   };
@@ -162,11 +161,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const handlesDesc = (c, prefix, options) => {
-    const { regionVertices = null, points = null, radii = null, layer = 0, inPlace = false, freeRotation = false,
-            progress = null, ...more } = options;
+    const { regionVertices = null, vertices = null, places = null, points = null, radii = null, layer = 0,
+            inPlace = false, freeRotation = false, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_handles_desc', { layer, in_place: inPlace, free_rotation: freeRotation });
     c.ragged(desc, 'region_counts', 'region_vertices', 'regionVertices', regionVertices, prefix + 'handle_count');
+    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'handle_count']);
+    desc.set('places', c.places('places', places, [prefix + 'handle_count']));
     c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'handle_count', 3]);
     c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'handle_count']);
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
@@ -229,14 +230,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const curveDesc = (c, prefix, options) => {
-    const { vertices = null, triangles = null, barycentrics = null, corners = null, side = 0, seedVertex = 0, kind = 0,
-            ...more } = options;
+    const { vertices = null, places = null, points = null, side = 0, seedVertex = 0, kind = 0, ...more } = options;
     none(more);
     const desc = c.struct('hf_curve_desc', { side, seed_vertex: seedVertex, kind });
     c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'point_count']);
-    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'point_count']);
-    c.rows(desc, 'barycentrics', 'barycentrics', barycentrics, 'f8', [prefix + 'point_count', 3]);
-    c.rows(desc, 'corners', 'corners', corners, 'u4', [prefix + 'point_count', 3]);
+    desc.set('places', c.places('places', places, [prefix + 'point_count']));
+    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'point_count', 3]);
     c.counts(desc, { point_count: [prefix + 'point_count', 0] });
     return desc;
   };
@@ -379,13 +378,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const pinsDesc = (c, prefix, options) => {
-    const { vertices = null, triangles = null, barycentrics = null, radii = null, joints = null, weights = null,
-            progress = null, ...more } = options;
+    const { vertices = null, places = null, points = null, radii = null, joints = null, weights = null, progress = null,
+            ...more } = options;
     none(more);
     const desc = c.struct('hf_pins_desc', {});
     c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'pin_count']);
-    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'pin_count']);
-    c.rows(desc, 'barycentrics', 'barycentrics', barycentrics, 'f8', [prefix + 'pin_count', 3]);
+    desc.set('places', c.places('places', places, [prefix + 'pin_count']));
+    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'pin_count', 3]);
     c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'pin_count']);
     c.rows(desc, 'joints', 'joints', joints, 'u4', [prefix + 'pin_count', prefix + 'influence_count']);
     c.rows(desc, 'weights', 'weights', weights, 'f4', [prefix + 'pin_count', prefix + 'influence_count']);
@@ -865,10 +864,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const path = c.struct('hf_path', {});
       const found = c.grow(this, 'hf_geodesics_find_path', (room, made) => (c.into(path, room, made),
-              call('hf_geodesics_find_path', this._handle, c.place('hf_surface_point', from, 'from'),
-              c.place('hf_surface_point', to, 'to'), path)), () => ({ point_capacity: path.get('point_count') }),
-              { point_capacity: null }, { pointEdges: ['u4', ['point_capacity', 2]], parameters: ['f8',
-              ['point_capacity']], positions: ['f8', ['point_capacity', 3]] });
+              call('hf_geodesics_find_path', this._handle, c.place(from, 'from'), c.place(to, 'to'), path)),
+              () => ({ point_capacity: path.get('point_count') }), { point_capacity: null }, { pointEdges: ['u4',
+              ['point_capacity', 2]], parameters: ['f8', ['point_capacity']], positions: ['f8', ['point_capacity',
+              3]] });
       return { ...found, pointCount: path.get('point_count'), length: path.get('length') };
     }
 
@@ -876,8 +875,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const map = c.out(null, 'f8', ['vertex_count', 2]);
       const frame = c.out(null, 'f8', [6]);
-      call('hf_geodesics_get_map', this._handle, c.place('hf_surface_point', centre, 'centre'), radius, written(map),
-              written(frame));
+      call('hf_geodesics_get_map', this._handle, c.place(centre, 'centre'), radius, written(map), written(frame));
       return { map, frame };
     }
   }

@@ -13,8 +13,8 @@ export class HfError extends Error {
   functionName: string;
 }
 
-/** A vertex, or three corners of a triangle and their weights, such as a hit. */
-export type Place = number | { corners: Numbers; barycentrics: Numbers };
+/** A vertex, a hit, or three corners of a triangle and their weights. */
+export type PlaceGiven = number | { corners: Numbers; barycentrics: Numbers } | { place: Place };
 
 export interface Handle {
   readonly closed: boolean;
@@ -200,6 +200,18 @@ export interface SurfaceStatistics {
   linksMs: number;
 }
 
+/**
+ * One place on a surface: a vertex, or a point between three corners of a face. Hit has one, sites, pins, curves,
+ * handles and paths take it. Lists of places have three forms, of which you set one: `vertices` (4 bytes each),
+ * `places`, and `points` in space.
+ */
+export interface Place {
+  /** vertices of one face, as given; a corner of barycentric 0 is ignored and can be constants.HF_NO_INDEX */
+  corners: number[];
+  /** weights of the corners, >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
+  barycentrics: number[];
+}
+
 /** Surface.castRay writes the first triangle that a ray hits here. */
 export interface Hit {
   /** 1: a triangle was hit; 0: none, and all else is 0 or constants.HF_NO_INDEX */
@@ -208,17 +220,15 @@ export interface Hit {
   triangle: number;
   /** its corner nearest to the hit, as given, of welded copies the first */
   vertex: number;
-  /** weights of `corners`, of sum 1: a site for Solver.addSites */
-  barycentrics: number[];
+  /**
+   * corners of the triangle, of welded copies the first, and their weights. In a face of more corners three of
+   * them: the triangle of the face's cut that the ray hits
+   */
+  place: Place;
   /** in the unit of the positions */
   position: number[];
   /** from the origin, in lengths of `direction` */
   distance: number;
-  /**
-   * the triangle's vertices, as given, of welded copies the first. In a face of more corners three of them: the
-   * triangle of the face's cut that the ray hits
-   */
-  corners: number[];
 }
 
 /** Solver.info writes the options of a solver here, with defaults filled in, and the number of its sites. */
@@ -404,14 +414,6 @@ export interface CriticalInfo {
   indexSum: number;
   /** vertices - edges + triangles of the usable surface that has values */
   eulerCharacteristic: number;
-}
-
-/** A point of the surface in the form of Hit: three corners of a triangle and their weights. */
-export interface SurfacePoint {
-  /** as given; a corner of barycentric 0 is ignored and can be constants.HF_NO_INDEX */
-  corners: number[];
-  /** >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
-  barycentrics: number[];
 }
 
 /**
@@ -938,21 +940,22 @@ export interface WeightsMirrorInfo {
 }
 
 /**
- * Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
- * region, and any single vertex that these surround but for one edge. The rim is the vertices next to them, on or
- * beyond the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the
- * curve. A whole border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8
- * times.
+ * Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The
+ * vertices on its chosen side are the region, and any single vertex that these surround but for one edge. The rim
+ * is the vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the curve
+ * runs along edges the rim is the curve. A whole border of the surface is a curve too; it has only one side. The
+ * curve passes a vertex at most 8 times.
  */
 export interface CurveDescGiven {
   /** [pointCount] vertices as given, or null */
   vertices?: Rows | null;
-  /** [pointCount] triangles (or faces of three corners) as given, or null */
-  triangles?: Rows | null;
-  /** [pointCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1 within 1e-6 */
-  barycentrics?: Rows | null;
-  /** [pointCount x 3] three vertices of one face, as Hit has them, or null */
-  corners?: Rows | null;
+  /** [pointCount], or null */
+  places?: readonly PlaceGiven[] | null;
+  /**
+   * [pointCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for the
+   * nearest point of the surface, up to two boxes away
+   */
+  points?: Rows | null;
   /** HF_SIDE_* */
   side?: number;
   /** with HF_SIDE_SEED */
@@ -1001,21 +1004,23 @@ export interface LinksDescGiven {
 }
 
 /**
- * Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the
- * less influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic
- * disc. A radius below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices.
- * For harmonic fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its
- * vertices do.
+ * Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site
+ * has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh
+ * spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the
+ * boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
  */
 export interface SitesDescGiven {
   /** [siteCount] vertices as given, or null */
   vertices?: Rows | null;
   /** [siteCount x channelCount], up to 1e200 in size; null = 0 */
   values?: Rows | null;
-  /** [siteCount] triangles (or faces of three corners) as given, or null */
-  triangles?: Rows | null;
-  /** [siteCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1 within 1e-6 */
-  barycentrics?: Rows | null;
+  /** [siteCount], or null */
+  places?: readonly PlaceGiven[] | null;
+  /**
+   * [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for the
+   * nearest point of the surface, up to two boxes away
+   */
+  points?: Rows | null;
   /**
    * [siteCount] >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to 1e-12 to
    * 1e12
@@ -1023,11 +1028,6 @@ export interface SitesDescGiven {
   stiffness?: Rows | null;
   /** [siteCount] >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points */
   radii?: Rows | null;
-  /**
-   * [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more corners this
-   * places a site in a triangle of them
-   */
-  corners?: Rows | null;
 }
 
 /** The skin of a character: its surface in the pose of the inverse binds, and the joints of each vertex. */
@@ -1334,20 +1334,18 @@ export interface Solver extends Recorded {
    *
    * vertices: [siteCount] vertices as given, or null
    * values: [siteCount x channelCount], up to 1e200 in size; null = 0
-   * triangles: [siteCount] triangles (or faces of three corners) as given, or null
-   * barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1
-   *     within 1e-6
+   * places: [siteCount], or null
+   * points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+   *     the nearest point of the surface, up to two boxes away
    * stiffness: [siteCount] >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
    *     1e-12 to 1e12
    * radii: [siteCount] >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-   * corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
-   *     corners this places a site in a triangle of them
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
    * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   addSites(vertices?: Rows | null, values?: Rows | null,
-          options?: { triangles?: Rows | null; barycentrics?: Rows | null; stiffness?: Rows | null; radii?: Rows | null; corners?: Rows | null }): Uint32Array;
+          options?: { places?: readonly PlaceGiven[] | null; points?: Rows | null; stiffness?: Rows | null; radii?: Rows | null }): Uint32Array;
   /**
    * Adds one hard site at a vertex.
    *
@@ -1372,20 +1370,18 @@ export interface Solver extends Recorded {
    * sites: [siteCount].
    * vertices: [siteCount] vertices as given, or null
    * values: [siteCount x channelCount], up to 1e200 in size; null = 0
-   * triangles: [siteCount] triangles (or faces of three corners) as given, or null
-   * barycentrics: [siteCount x 3] with triangles or corners, else null: weights of the corners, >= 0, of sum 1
-   *     within 1e-6
+   * places: [siteCount], or null
+   * points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+   *     the nearest point of the surface, up to two boxes away
    * stiffness: [siteCount] >= 0, relative to the mean diagonal of K; 0 = hard (exact); null = all hard; clamped to
    *     1e-12 to 1e12
    * radii: [siteCount] >= 0, geodesic, in the unit of the mesh; 0 = a point; null = all points
-   * corners: [siteCount x 3] three vertices as given, of one face, or null: Hit has them. In a face of more
-   *     corners this places a site in a triangle of them
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
    * HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   moveSites(sites: Rows, vertices?: Rows | null, values?: Rows | null,
-          options?: { triangles?: Rows | null; barycentrics?: Rows | null; stiffness?: Rows | null; radii?: Rows | null; corners?: Rows | null }): void;
+          options?: { places?: readonly PlaceGiven[] | null; points?: Rows | null; stiffness?: Rows | null; radii?: Rows | null }): void;
   /**
    * Gives sites new values. The call costs nothing until the next solve.
    *
@@ -1572,7 +1568,7 @@ export interface Geodesics extends Handle {
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
    * HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
    */
-  findPath(from: Place, to: Place): Path;
+  findPath(from: PlaceGiven, to: PlaceGiven): Path;
   /**
    * Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each
    * vertex gets the length of its shortest path from the point, in the direction in which that path leaves the
@@ -1583,7 +1579,7 @@ export interface Geodesics extends Handle {
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
    * HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
    */
-  map(centre: Place, radius?: number): { map: Float64Array; frame: Float64Array };
+  map(centre: PlaceGiven, radius?: number): { map: Float64Array; frame: Float64Array };
 }
 export interface GeodesicsClass {
   new (surface: Surface, options?: { method?: number; smoothing?: number; progress?: Progress | null }): Geodesics;
@@ -1713,10 +1709,12 @@ export interface Pose extends Recorded {
    * HF_DEFORM_PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until
    * you move the handle. Handles of lower layers hold the surface in place for the higher layers.
    *
-   * regionVertices: lists of whole numbers: all regions one after the other; null: points are given
-   * points: [handleCount x 3] at rest. The region is the vertex nearest to the point and what is edge-connected to
-   *     it within the radius. null: regions are given
-   * radii: [handleCount] of the regions of points, in the unit of the mesh; null: regions are given. A radius
+   * regionVertices: lists of whole numbers: all regions one after the other; null: places are given
+   * vertices: [handleCount] vertices as given, or null
+   * places: [handleCount], or null
+   * points: [handleCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. A point can
+   *     lie inside the body, as a joint does: its nearest vertex counts
+   * radii: [handleCount] of the regions of places, in the unit of the mesh; null: regions are given. A radius
    *     below 1 % of the box makes regions of 2 vertices or more
    * layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
    * inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -1727,7 +1725,7 @@ export interface Pose extends Recorded {
    * HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   addHandles(regionVertices?: ReadonlyArray<Numbers> | null,
-          options?: { points?: Rows | null; radii?: Rows | null; layer?: number; inPlace?: boolean | number; freeRotation?: boolean | number; progress?: Progress | null }): Uint32Array;
+          options?: { vertices?: Rows | null; places?: readonly PlaceGiven[] | null; points?: Rows | null; radii?: Rows | null; layer?: number; inPlace?: boolean | number; freeRotation?: boolean | number; progress?: Progress | null }): Uint32Array;
   /**
    * Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
    * edge-connected to it within `radius` of the point.
@@ -2375,8 +2373,9 @@ export interface Weights extends Recorded {
    * disc. Pins at the same places with other weights cost no path.
    *
    * vertices: [pinCount] vertices as given, or null
-   * triangles: [pinCount] triangles as given, or null
-   * barycentrics: [pinCount x 3] with triangles, else null: weights of the corners, >= 0, of sum 1 within 1e-6
+   * places: [pinCount], or null
+   * points: [pinCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
+   *     the nearest point of the surface, up to two boxes away
    * radii: [pinCount] of the geodesic disc around the place, in the unit of the mesh; null or 0: the place alone
    * joints: [pinCount x influenceCount] joints
    * weights: [pinCount x influenceCount] >= 0, scaled to the sum 1
@@ -2386,7 +2385,7 @@ export interface Weights extends Recorded {
    * HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
   setPins(vertices?: Rows | null,
-          options?: { triangles?: Rows | null; barycentrics?: Rows | null; radii?: Rows | null; joints?: Rows | null; weights?: Rows | null; progress?: Progress | null }): void;
+          options?: { places?: readonly PlaceGiven[] | null; points?: Rows | null; radii?: Rows | null; joints?: Rows | null; weights?: Rows | null; progress?: Progress | null }): void;
   /**
    * Locks joints: their weights stay, and the other joints share the rest. Replaces all locks; lock_count 0
    * unlocks.

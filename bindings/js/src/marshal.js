@@ -153,6 +153,7 @@ export class Struct {
       return new TextDecoder().decode(text.slice(0, end < 0 ? count : end));
     }
     if (count) return Array.from({ length: count }, (_, i) => getters[kind](this.view, at + i * strides[kind]));
+    if (layouts[kind]) return rows(this.width, kind, this.bytes.subarray(at), 1)[0];
     return getters[kind](this.view, at);
   }
 
@@ -176,12 +177,12 @@ export class Struct {
     return this;
   }
 
-  /** The scalar fields as a plain object with camelCase names. */
+  /** The fields that are no pointers as a plain object with camelCase names. */
   toObject() {
     const result = {};
     for (const [shown, name] of fieldsOf(this.type)) {
       const kind = this.layout.fields[name][0];
-      if ((getters[kind] || kind === 'char') && name !== 'struct_size' && name !== 'reserved')
+      if ((getters[kind] || kind === 'char' || layouts[kind]) && name !== 'struct_size' && name !== 'reserved')
         result[shown] = this.get(name);
     }
     return result;

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _raw
 from ._library import ArrayLike, Call, Object, Recorded, address, call, handle_of, library, number, place, ref
-from ._library import Place
+from ._library import PlaceLike
 
 
 Link = _raw.hf_link
@@ -19,6 +19,7 @@ SurfaceInfo = _raw.hf_surface_info
 SurfaceReport = _raw.hf_surface_report
 GapsInfo = _raw.hf_gaps_info
 SurfaceStatistics = _raw.hf_surface_statistics
+Place = _raw.hf_place
 Hit = _raw.hf_hit
 SolverInfo = _raw.hf_solver_info
 SolveInfo = _raw.hf_solve_info
@@ -27,7 +28,6 @@ Certificate = _raw.hf_certificate
 SolverStatistics = _raw.hf_solver_statistics
 CriticalPoint = _raw.hf_critical_point
 CriticalInfo = _raw.hf_critical_info
-SurfacePoint = _raw.hf_surface_point
 Extremity = _raw.hf_extremity
 Singularity = _raw.hf_singularity
 DirectionStatistics = _raw.hf_direction_statistics
@@ -704,17 +704,15 @@ def _solver_desc(c: Call, prefix: str = '', *, field_kind: int = FieldKind.HARMO
 
 
 def _sites_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None,
-        triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
-        stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
-        corners: Optional[ArrayLike] = None) -> Any:
+        places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None,
+        stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None) -> Any:
     desc = c.struct(_raw.hf_sites_desc, {})
     c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'site_count',))
-    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'site_count',))
-    c.rows(desc, 'barycentrics', barycentrics, 'f8', (prefix + 'site_count', 3))
+    desc.places = c.places('places', places, (prefix + 'site_count',))
+    c.rows(desc, 'points', points, 'f8', (prefix + 'site_count', 3))
     c.rows(desc, 'values', values, 'f8', (prefix + 'site_count', 'channel_count'))
     c.rows(desc, 'stiffness', stiffness, 'f8', (prefix + 'site_count',))
     c.rows(desc, 'radii', radii, 'f8', (prefix + 'site_count',))
-    c.rows(desc, 'corners', corners, 'u4', (prefix + 'site_count', 3))
     c.counts(desc, site_count=(prefix + 'site_count', 1))
     return desc
 
@@ -766,10 +764,13 @@ def _pose_desc(c: Call, prefix: str = '', *, mode: int = DeformMode.SMOOTH, band
 
 
 def _handles_desc(c: Call, prefix: str = '', *, region_vertices: Optional[Sequence[ArrayLike]] = None,
+        vertices: Optional[ArrayLike] = None, places: Optional[Sequence[PlaceLike]] = None,
         points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False,
         free_rotation: bool = False, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_handles_desc, {'layer': layer, 'in_place': in_place, 'free_rotation': free_rotation})
     c.ragged(desc, 'region_counts', 'region_vertices', region_vertices, prefix + 'handle_count')
+    c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'handle_count',))
+    desc.places = c.places('places', places, (prefix + 'handle_count',))
     c.rows(desc, 'points', points, 'f8', (prefix + 'handle_count', 3))
     c.rows(desc, 'radii', radii, 'f8', (prefix + 'handle_count',))
     desc.progress = handle_of(progress, Progress, 'progress')
@@ -828,14 +829,12 @@ def _region_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = 
 
 
 def _curve_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
-        triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
-        corners: Optional[ArrayLike] = None, side: int = Side.SMALLER, seed_vertex: int = 0,
-        kind: int = CurveKind.STRAIGHT) -> Any:
+        places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None, side: int = Side.SMALLER,
+        seed_vertex: int = 0, kind: int = CurveKind.STRAIGHT) -> Any:
     desc = c.struct(_raw.hf_curve_desc, {'side': side, 'seed_vertex': seed_vertex, 'kind': kind})
     c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'point_count',))
-    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'point_count',))
-    c.rows(desc, 'barycentrics', barycentrics, 'f8', (prefix + 'point_count', 3))
-    c.rows(desc, 'corners', corners, 'u4', (prefix + 'point_count', 3))
+    desc.places = c.places('places', places, (prefix + 'point_count',))
+    c.rows(desc, 'points', points, 'f8', (prefix + 'point_count', 3))
     c.counts(desc, point_count=(prefix + 'point_count', 0))
     return desc
 
@@ -970,13 +969,13 @@ def _joints_desc(c: Call, prefix: str = '', *, heads: Optional[ArrayLike] = None
 
 
 def _pins_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
-        triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
+        places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None,
         radii: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_pins_desc, {})
     c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'pin_count',))
-    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'pin_count',))
-    c.rows(desc, 'barycentrics', barycentrics, 'f8', (prefix + 'pin_count', 3))
+    desc.places = c.places('places', places, (prefix + 'pin_count',))
+    c.rows(desc, 'points', points, 'f8', (prefix + 'pin_count', 3))
     c.rows(desc, 'radii', radii, 'f8', (prefix + 'pin_count',))
     c.rows(desc, 'joints', joints, 'u4', (prefix + 'pin_count', prefix + 'influence_count'))
     c.rows(desc, 'weights', weights, 'f4', (prefix + 'pin_count', prefix + 'influence_count'))
@@ -1532,28 +1531,25 @@ class Solver(Recorded):
         return info
 
     def add_sites(self, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
-            triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
-            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
-            corners: Optional[ArrayLike] = None) -> np.ndarray:
+            places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None,
+            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None) -> np.ndarray:
         """Adds sites.
 
         vertices: (site_count,) vertices as given, or None
         values: (site_count, channel_count), up to 1e200 in size; None = 0
-        triangles: (site_count,) triangles (or faces of three corners) as given, or None
-        barycentrics: (site_count, 3) with triangles or corners, else None: weights of the corners, >= 0, of sum 1
-            within 1e-6
+        places: (site_count,), or None
+        points: (site_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. Each stands for
+            the nearest point of the surface, up to two boxes away
         stiffness: (site_count,) >= 0, relative to the mean diagonal of K; 0 = hard (exact); None = all hard; clamped
             to 1e-12 to 1e12
         radii: (site_count,) >= 0, geodesic, in the unit of the mesh; 0 = a point; None = all points
-        corners: (site_count, 3) three vertices as given, of one face, or None: Hit has them. In a face of more
-            corners this places a site in a triangle of them
 
         Raises ConflictError, DuplicateError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
         UnsupportedError.
         """
         c = Call(self)
-        desc = _sites_desc(c, vertices=vertices, values=values, triangles=triangles, barycentrics=barycentrics,
-                stiffness=stiffness, radii=radii, corners=corners)
+        desc = _sites_desc(c, vertices=vertices, values=values, places=places, points=points, stiffness=stiffness,
+                radii=radii)
         sites, _ = c.out(None, 'u4', ('site_count',))
         call('hf_add_sites', self._handle, ref(desc), address(sites))
         return sites
@@ -1585,30 +1581,27 @@ class Solver(Recorded):
         call('hf_remove_sites', self._handle, c.n.setdefault('site_count', 1), sites_)
 
     def move_sites(self, sites: ArrayLike, vertices: Optional[ArrayLike] = None, values: Optional[ArrayLike] = None, *,
-            triangles: Optional[ArrayLike] = None, barycentrics: Optional[ArrayLike] = None,
-            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
-            corners: Optional[ArrayLike] = None) -> None:
+            places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None,
+            stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None) -> None:
         """Moves sites to new places. Each site keeps its number, value, stiffness and radius.
 
         sites: (site_count,).
         vertices: (site_count,) vertices as given, or None
         values: (site_count, channel_count), up to 1e200 in size; None = 0
-        triangles: (site_count,) triangles (or faces of three corners) as given, or None
-        barycentrics: (site_count, 3) with triangles or corners, else None: weights of the corners, >= 0, of sum 1
-            within 1e-6
+        places: (site_count,), or None
+        points: (site_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. Each stands for
+            the nearest point of the surface, up to two boxes away
         stiffness: (site_count,) >= 0, relative to the mean diagonal of K; 0 = hard (exact); None = all hard; clamped
             to 1e-12 to 1e12
         radii: (site_count,) >= 0, geodesic, in the unit of the mesh; 0 = a point; None = all points
-        corners: (site_count, 3) three vertices as given, of one face, or None: Hit has them. In a face of more
-            corners this places a site in a triangle of them
 
         Raises ConflictError, DuplicateError, InvalidArgumentError, NonFiniteError, NotFoundError, OutOfRangeError,
         TooLargeError, UnsupportedError.
         """
         c = Call(self)
         sites_ = c.array('sites', sites, 'u4', ('site_count',))
-        desc = _sites_desc(c, vertices=vertices, values=values, triangles=triangles, barycentrics=barycentrics,
-                stiffness=stiffness, radii=radii, corners=corners)
+        desc = _sites_desc(c, vertices=vertices, values=values, places=places, points=points, stiffness=stiffness,
+                radii=radii)
         call('hf_solver_move_sites', self._handle, c.n.setdefault('site_count', 1), sites_, ref(desc))
 
     def set_values(self, sites: ArrayLike, values: ArrayLike) -> None:
@@ -1877,7 +1870,7 @@ class Geodesics(Object):
                 c.n.setdefault('source_count', 1), sources_, address(out), stride)
         return out
 
-    def find_path(self, from_: Place, to: Place) -> Path:
+    def find_path(self, from_: PlaceLike, to: PlaceLike) -> Path:
         """Finds the shortest path between two points, exact up to rounding, whatever the method of the object. If
         several are as short, it writes one of them. The path is straight where its triangles are unfolded; it bends
         at vertices only.
@@ -1889,15 +1882,14 @@ class Geodesics(Object):
 
         def run(room: Any, made: Any) -> None:
             c.into(path, room, made)
-            call('hf_geodesics_find_path', self._handle, ref(place(_raw.hf_surface_point, from_)),
-                    ref(place(_raw.hf_surface_point, to)), ref(path))
+            call('hf_geodesics_find_path', self._handle, ref(place(from_, 'from')), ref(place(to, 'to')), ref(path))
 
         found = c.grow(self, 'hf_geodesics_find_path', run, lambda: {'point_capacity': path.point_count},
                 {'point_capacity': None}, {'point_edges': (np.uint32, ('point_capacity', 2)), 'parameters': (np.float64,
                 ('point_capacity',)), 'positions': (np.float64, ('point_capacity', 3))})
         return Path(length=path.length, **found)
 
-    def map(self, centre: Place, radius: float = 0.0) -> Tuple[np.ndarray, np.ndarray]:
+    def map(self, centre: PlaceLike, radius: float = 0.0) -> Tuple[np.ndarray, np.ndarray]:
         """Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each
         vertex gets the length of its shortest path from the point, in the direction in which that path leaves the
         point.
@@ -1909,7 +1901,7 @@ class Geodesics(Object):
         c = Call(self)
         map, _ = c.out(None, 'f8', ('vertex_count', 2))
         frame, _ = c.out(None, 'f8', (6,))
-        call('hf_geodesics_get_map', self._handle, ref(place(_raw.hf_surface_point, centre)), number(radius, 'radius',
+        call('hf_geodesics_get_map', self._handle, ref(place(centre, 'centre')), number(radius, 'radius',
                 ctypes.c_double), address(map), address(frame))
         return map, frame
 
@@ -2124,9 +2116,10 @@ class Pose(Recorded):
         call('hf_pose_get_info', self._handle, ref(info))
         return info
 
-    def add_handles(self, region_vertices: Optional[Sequence[ArrayLike]] = None, *, points: Optional[ArrayLike] = None,
-            radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False, free_rotation: bool = False,
-            progress: Optional[Progress] = None) -> np.ndarray:
+    def add_handles(self, region_vertices: Optional[Sequence[ArrayLike]] = None, *,
+            vertices: Optional[ArrayLike] = None, places: Optional[Sequence[PlaceLike]] = None,
+            points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, layer: int = 0,
+            in_place: bool = False, free_rotation: bool = False, progress: Optional[Progress] = None) -> np.ndarray:
         """Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a
         posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
         that its region has in the last pose (Pose.handle writes it), and the surface stays where it is (to 1e-6 of
@@ -2135,10 +2128,12 @@ class Pose(Recorded):
         DeformMode.PAPER places the handle only. On a higher layer the surface does not move (to 1e-9 of the box)
         until you move the handle. Handles of lower layers hold the surface in place for the higher layers.
 
-        region_vertices: lists of whole numbers: all regions one after the other; None: points are given
-        points: (handle_count, 3) at rest. The region is the vertex nearest to the point and what is edge-connected to
-            it within the radius. None: regions are given
-        radii: (handle_count,) of the regions of points, in the unit of the mesh; None: regions are given. A radius
+        region_vertices: lists of whole numbers: all regions one after the other; None: places are given
+        vertices: (handle_count,) vertices as given, or None
+        places: (handle_count,), or None
+        points: (handle_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. A point can
+            lie inside the body, as a joint does: its nearest vertex counts
+        radii: (handle_count,) of the regions of places, in the unit of the mesh; None: regions are given. A radius
             below 1 % of the box makes regions of 2 vertices or more
         layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
         in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -2148,8 +2143,8 @@ class Pose(Recorded):
         Raises ConflictError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, UnsupportedError.
         """
         c = Call(self)
-        desc = _handles_desc(c, region_vertices=region_vertices, points=points, radii=radii, layer=layer,
-                in_place=in_place, free_rotation=free_rotation, progress=progress)
+        desc = _handles_desc(c, region_vertices=region_vertices, vertices=vertices, places=places, points=points,
+                radii=radii, layer=layer, in_place=in_place, free_rotation=free_rotation, progress=progress)
         handles, _ = c.out(None, 'u4', ('handle_count',))
         call('hf_pose_add_handles', self._handle, ref(desc), address(handles))
         return handles
@@ -3208,16 +3203,16 @@ class Weights(Recorded):
                 progress=progress)
         call('hf_weights_set_joints', self._handle, ref(desc))
 
-    def set_pins(self, vertices: Optional[ArrayLike] = None, *, triangles: Optional[ArrayLike] = None,
-            barycentrics: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
-            joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
-            progress: Optional[Progress] = None) -> None:
+    def set_pins(self, vertices: Optional[ArrayLike] = None, *, places: Optional[Sequence[PlaceLike]] = None,
+            points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None,
+            weights: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> None:
         """Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
         disc. Pins at the same places with other weights cost no path.
 
         vertices: (pin_count,) vertices as given, or None
-        triangles: (pin_count,) triangles as given, or None
-        barycentrics: (pin_count, 3) with triangles, else None: weights of the corners, >= 0, of sum 1 within 1e-6
+        places: (pin_count,), or None
+        points: (pin_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. Each stands for
+            the nearest point of the surface, up to two boxes away
         radii: (pin_count,) of the geodesic disc around the place, in the unit of the mesh; None or 0: the place alone
         joints: (pin_count, influence_count) joints
         weights: (pin_count, influence_count) >= 0, scaled to the sum 1
@@ -3227,8 +3222,8 @@ class Weights(Recorded):
         TooLargeError.
         """
         c = Call(self)
-        desc = _pins_desc(c, vertices=vertices, triangles=triangles, barycentrics=barycentrics, radii=radii,
-                joints=joints, weights=weights, progress=progress)
+        desc = _pins_desc(c, vertices=vertices, places=places, points=points, radii=radii, joints=joints,
+                weights=weights, progress=progress)
         call('hf_weights_set_pins', self._handle, ref(desc))
 
     def set_locks(self, joints: ArrayLike, values: Optional[ArrayLike] = None) -> None:
@@ -3399,11 +3394,10 @@ __all__ = [
     'Engine', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo',
     'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo', 'JointKind',
     'Levels', 'Link', 'LinkMode', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag',
-    'PairInfo', 'Path', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh',
+    'PairInfo', 'Path', 'Place', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh',
     'Region', 'RegionInfo', 'RegionList', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion',
     'Route', 'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo',
-    'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo', 'SurfacePoint',
-    'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode',
-    'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo', 'WeightsOrigin', 'WeightsOut',
-    'WeightsTransferInfo', 'Weld'
+    'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo', 'SurfaceReport',
+    'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode', 'Transform', 'Weights',
+    'WeightsInfo', 'WeightsMirrorInfo', 'WeightsOrigin', 'WeightsOut', 'WeightsTransferInfo', 'Weld'
 ]

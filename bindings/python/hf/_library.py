@@ -160,16 +160,23 @@ def address(array: Optional[np.ndarray]) -> Optional[int]:
     return None if array is None or array.size == 0 else array.__array_interface__["data"][0]
 
 
-Place = Union[int, Tuple[Sequence[int], Sequence[float]]]
+PlaceLike = Union[int, Tuple[Sequence[int], Sequence[float]], _raw.hf_place, _raw.hf_hit]
 
 
-def place(kind: type, value: Place) -> Any:
-    """A point of the surface: a vertex, or the three vertices of a triangle and their weights."""
-    point = kind()
-    corners, weights = ((value,) * 3, (1.0, 0.0, 0.0)) if isinstance(value, (int, np.integer)) else value
-    point.corners[:] = [number(corner, "place") for corner in corners]  # type: ignore[attr-defined]
-    point.barycentrics[:] = [number(weight, "place", ctypes.c_double) for weight in weights]  # type: ignore[attr-defined]
-    return point
+def place(value: PlaceLike, name: str = "place") -> _raw.hf_place:
+    """One place: a vertex, a hit, or the three vertices of a triangle and their weights."""
+    if isinstance(value, _raw.hf_hit):
+        return value.place  # type: ignore[return-value]
+    if isinstance(value, _raw.hf_place):
+        return value
+    made: Any = _raw.hf_place()
+    try:
+        corners, weights = ((value,) * 3, (1.0, 0.0, 0.0)) if isinstance(value, (int, np.integer)) else value
+        made.corners[:] = [number(corner, name) for corner in corners]
+        made.barycentrics[:] = [number(weight, name, ctypes.c_double) for weight in weights]
+    except (TypeError, ValueError):
+        raise InvalidArgumentError(f"{name} must be a vertex, a hit, or three corners and three weights") from None
+    return made
 
 
 def ref(struct: Any) -> Any:
@@ -324,6 +331,15 @@ class Call:
         rows = np.ascontiguousarray(self._fit(values, name, dims))
         self.keep.append(rows)
         return address(rows)
+
+    def places(self, name: str, values: Optional[Sequence[PlaceLike]], dims: tuple) -> Optional[int]:
+        """Places in any form, or records of numpy.dtype(hf.constants.hf_place)."""
+        if values is None or isinstance(values, np.ndarray) and values.dtype == np.dtype(_raw.hf_place):
+            return self.written(name, values, _raw.hf_place, dims)
+        rows = np.zeros(len(values), _raw.hf_place)
+        for i, value in enumerate(values):
+            rows[i] = np.frombuffer(place(value, f"{name}[{i}]"), _raw.hf_place)[0]  # type: ignore[call-overload]
+        return self.written(name, rows, _raw.hf_place, dims)
 
     def text(self, values: Any) -> Optional[int]:
         """Lines in UTF-8: a string, or a list of one for each."""

@@ -606,6 +606,18 @@ class hf_surface_statistics(Struct):
     ]
 
 
+class hf_place(Struct):
+    """One place on a surface"""
+    corners: object
+    reserved: int
+    barycentrics: object
+    _fields_ = [
+        ("corners", c_uint32 * 3),
+        ("reserved", c_uint32),
+        ("barycentrics", c_double * 3),
+    ]
+
+
 class hf_pick_desc(Struct):
     """Options of picking"""
     struct_size: int
@@ -630,21 +642,17 @@ class hf_hit(Struct):
     found: int
     triangle: int
     vertex: int
-    barycentrics: object
+    place: object
     position: object
     distance: float
-    corners: object
-    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("found", c_int32),
         ("triangle", c_uint32),
         ("vertex", c_uint32),
-        ("barycentrics", c_double * 3),
+        ("place", hf_place),
         ("position", c_double * 3),
         ("distance", c_double),
-        ("corners", c_uint32 * 3),
-        ("reserved", c_uint32),
     ]
 
 
@@ -698,22 +706,20 @@ class hf_sites_desc(Struct):
     struct_size: int
     site_count: int
     vertices: int
-    triangles: int
-    barycentrics: int
+    places: int
+    points: int
     values: int
     stiffness: int
     radii: int
-    corners: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("site_count", c_uint32),
         ("vertices", c_void_p),
-        ("triangles", c_void_p),
-        ("barycentrics", c_void_p),
+        ("places", c_void_p),
+        ("points", c_void_p),
         ("values", c_void_p),
         ("stiffness", c_void_p),
         ("radii", c_void_p),
-        ("corners", c_void_p),
     ]
 
 
@@ -962,18 +968,6 @@ class hf_geodesics_desc(Struct):
     ]
 
 
-class hf_surface_point(Struct):
-    """A point of the surface in the form of hf_hit"""
-    corners: object
-    reserved: int
-    barycentrics: object
-    _fields_ = [
-        ("corners", c_uint32 * 3),
-        ("reserved", c_uint32),
-        ("barycentrics", c_double * 3),
-    ]
-
-
 class hf_path(Struct):
     """A path along the surface, from its first point to its last."""
     struct_size: int
@@ -1138,6 +1132,8 @@ class hf_handles_desc(Struct):
     handle_count: int
     region_counts: int
     region_vertices: int
+    vertices: int
+    places: int
     points: int
     radii: int
     layer: int
@@ -1150,6 +1146,8 @@ class hf_handles_desc(Struct):
         ("handle_count", c_uint32),
         ("region_counts", c_void_p),
         ("region_vertices", c_void_p),
+        ("vertices", c_void_p),
+        ("places", c_void_p),
         ("points", c_void_p),
         ("radii", c_void_p),
         ("layer", c_uint32),
@@ -1470,22 +1468,20 @@ class hf_curve_desc(Struct):
     struct_size: int
     point_count: int
     vertices: int
-    triangles: int
-    barycentrics: int
+    places: int
+    points: int
     side: int
     seed_vertex: int
-    corners: int
     kind: int
     reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("point_count", c_uint32),
         ("vertices", c_void_p),
-        ("triangles", c_void_p),
-        ("barycentrics", c_void_p),
+        ("places", c_void_p),
+        ("points", c_void_p),
         ("side", c_int32),
         ("seed_vertex", c_uint32),
-        ("corners", c_void_p),
         ("kind", c_int32),
         ("reserved", c_uint32),
     ]
@@ -1972,8 +1968,8 @@ class hf_pins_desc(Struct):
     struct_size: int
     pin_count: int
     vertices: int
-    triangles: int
-    barycentrics: int
+    places: int
+    points: int
     radii: int
     influence_count: int
     reserved: int
@@ -1984,8 +1980,8 @@ class hf_pins_desc(Struct):
         ("struct_size", c_uint32),
         ("pin_count", c_uint32),
         ("vertices", c_void_p),
-        ("triangles", c_void_p),
-        ("barycentrics", c_void_p),
+        ("places", c_void_p),
+        ("points", c_void_p),
         ("radii", c_void_p),
         ("influence_count", c_uint32),
         ("reserved", c_uint32),
@@ -2199,7 +2195,7 @@ class hf_weights_mirror_info(Struct):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_surface_point, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_place, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {

@@ -329,40 +329,37 @@ impl<'a> SolverOptions<'a> {
     }
 }
 
-/// Places and values of sites. Set vertices, or triangles or corners with barycentrics. The finer the mesh, the less
-/// influence a point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius
-/// below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields
-/// the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
+/// Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site has.
+/// Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh spacing
+/// still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary vertices of
+/// a disc count towards site_limit; for bi-harmonic fields all its vertices do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sites<'a> {
     /// `[site_count]` vertices as given, or `None`
     pub vertices: Option<&'a [u32]>,
     /// `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
     pub values: Option<&'a [f64]>,
-    /// `[site_count]` triangles (or faces of three corners) as given, or `None`
-    pub triangles: Option<&'a [u32]>,
-    /// `[site_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
-    pub barycentrics: Option<&'a [f64]>,
+    /// `[site_count]`, or `None`
+    pub places: Option<&'a [raw::hf_place]>,
+    /// `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for the
+    /// nearest point of the surface, up to two boxes away
+    pub points: Option<&'a [f64]>,
     /// `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped to 1e-12 to
     /// 1e12
     pub stiffness: Option<&'a [f64]>,
     /// `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
     pub radii: Option<&'a [f64]>,
-    /// `[site_count x 3]` three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face of more
-    /// corners this places a site in a triangle of them
-    pub corners: Option<&'a [u32]>,
 }
 impl<'a> Sites<'a> {
     #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_sites_desc> {
         let mut desc = raw::hf_sites_desc { ..Default::default() };
         desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}site_count")])?;
-        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}site_count")])?;
-        desc.barycentrics = c.array(self.barycentrics, "barycentrics", &[&format!("{prefix}site_count"), "3"])?;
+        desc.places = c.array(self.places, "places", &[&format!("{prefix}site_count")])?;
+        desc.points = c.array(self.points, "points", &[&format!("{prefix}site_count"), "3"])?;
         desc.values = c.array(self.values, "values", &[&format!("{prefix}site_count"), "channel_count"])?;
         desc.stiffness = c.array(self.stiffness, "stiffness", &[&format!("{prefix}site_count")])?;
         desc.radii = c.array(self.radii, "radii", &[&format!("{prefix}site_count")])?;
-        desc.corners = c.array(self.corners, "corners", &[&format!("{prefix}site_count"), "3"])?;
         desc.site_count = c.count(&format!("{prefix}site_count"), 1)?;
         Ok(desc)
     }
@@ -541,13 +538,19 @@ impl PoseOptions {
     }
 }
 
-/// The handles to add. Give their regions as vertex lists one after the other, or as points with radii.
+/// The handles to add. Give their regions as vertex lists one after the other, or as places with radii: set
+/// region_vertices, vertices, places or points. The region of a place is its nearest vertex and what is edge-connected to
+/// it within the radius.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HandlesOptions<'a> {
-    /// `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to it
-    /// within the radius. `None`: regions are given
+    /// `[handle_count]` vertices as given, or `None`
+    pub vertices: Option<&'a [u32]>,
+    /// `[handle_count]`, or `None`
+    pub places: Option<&'a [raw::hf_place]>,
+    /// `[handle_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. A point can lie
+    /// inside the body, as a joint does: its nearest vertex counts
     pub points: Option<&'a [f64]>,
-    /// `[handle_count]` of the regions of points, in the unit of the mesh; `None`: regions are given. A radius below 1 %
+    /// `[handle_count]` of the regions of places, in the unit of the mesh; `None`: regions are given. A radius below 1 %
     /// of the box makes regions of 2 vertices or more
     pub radii: Option<&'a [f64]>,
     /// 0 to HF_LAYER_COUNT - 1, for the whole batch
@@ -578,6 +581,8 @@ impl<'a> HandlesOptions<'a> {
             free_rotation: i32::from(self.free_rotation), ..Default::default() };
         (desc.region_counts, desc.region_vertices) = c.lists(region_vertices, "region_vertices",
             &[&format!("{prefix}handle_count")])?;
+        desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}handle_count")])?;
+        desc.places = c.array(self.places, "places", &[&format!("{prefix}handle_count")])?;
         desc.points = c.array(self.points, "points", &[&format!("{prefix}handle_count"), "3"])?;
         desc.radii = c.array(self.radii, "radii", &[&format!("{prefix}handle_count")])?;
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
@@ -774,20 +779,20 @@ impl<'a> RegionOptions<'a> {
     }
 }
 
-/// Describes a closed curve through at least 3 points, on the mesh at rest. The vertices on its chosen side are the
-/// region, and any single vertex that these surround but for one edge. The rim is the vertices next to them, on or beyond
-/// the curve: it follows the curve within an edge, and where the curve runs along edges the rim is the curve. A whole
-/// border of the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times.
+/// Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The vertices
+/// on its chosen side are the region, and any single vertex that these surround but for one edge. The rim is the vertices
+/// next to them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along edges the
+/// rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a vertex at
+/// most 8 times.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Curve<'a> {
     /// `[point_count]` vertices as given, or `None`
     pub vertices: Option<&'a [u32]>,
-    /// `[point_count]` triangles (or faces of three corners) as given, or `None`
-    pub triangles: Option<&'a [u32]>,
-    /// `[point_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
-    pub barycentrics: Option<&'a [f64]>,
-    /// `[point_count x 3]` three vertices of one face, as [`raw::hf_hit`] has them, or `None`
-    pub corners: Option<&'a [u32]>,
+    /// `[point_count]`, or `None`
+    pub places: Option<&'a [raw::hf_place]>,
+    /// `[point_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for the
+    /// nearest point of the surface, up to two boxes away
+    pub points: Option<&'a [f64]>,
     /// `HF_SIDE_*`
     pub side: i32,
     /// with [`raw::HF_SIDE_SEED`]
@@ -812,9 +817,8 @@ impl<'a> Curve<'a> {
         let mut desc = raw::hf_curve_desc { side: self.side, seed_vertex: self.seed_vertex, kind: self.kind,
             ..Default::default() };
         desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}point_count")])?;
-        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}point_count")])?;
-        desc.barycentrics = c.array(self.barycentrics, "barycentrics", &[&format!("{prefix}point_count"), "3"])?;
-        desc.corners = c.array(self.corners, "corners", &[&format!("{prefix}point_count"), "3"])?;
+        desc.places = c.array(self.places, "places", &[&format!("{prefix}point_count")])?;
+        desc.points = c.array(self.points, "points", &[&format!("{prefix}point_count"), "3"])?;
         desc.point_count = c.count(&format!("{prefix}point_count"), 0)?;
         Ok(desc)
     }
@@ -1212,14 +1216,14 @@ impl<'a> Joints<'a> {
     }
 }
 
-/// Places with given weights. Set vertices, or triangles with barycentrics. Give every vertex of a painted region to keep
-/// its weights.
+/// Places with given weights. Set vertices, places or points. Give every vertex of a painted region to keep its weights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pins<'a> {
-    /// `[pin_count]` triangles as given, or `None`
-    pub triangles: Option<&'a [u32]>,
-    /// `[pin_count x 3]` with triangles, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
-    pub barycentrics: Option<&'a [f64]>,
+    /// `[pin_count]`, or `None`
+    pub places: Option<&'a [raw::hf_place]>,
+    /// `[pin_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for the
+    /// nearest point of the surface, up to two boxes away
+    pub points: Option<&'a [f64]>,
     /// `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place alone
     pub radii: Option<&'a [f64]>,
     /// `[pin_count x influence_count]` joints
@@ -1234,8 +1238,8 @@ impl<'a> Pins<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str, vertices: Option<&[u32]>) -> Result<raw::hf_pins_desc> {
         let mut desc = raw::hf_pins_desc { ..Default::default() };
         desc.vertices = c.array(vertices, "vertices", &[&format!("{prefix}pin_count")])?;
-        desc.triangles = c.array(self.triangles, "triangles", &[&format!("{prefix}pin_count")])?;
-        desc.barycentrics = c.array(self.barycentrics, "barycentrics", &[&format!("{prefix}pin_count"), "3"])?;
+        desc.places = c.array(self.places, "places", &[&format!("{prefix}pin_count")])?;
+        desc.points = c.array(self.points, "points", &[&format!("{prefix}pin_count"), "3"])?;
         desc.radii = c.array(self.radii, "radii", &[&format!("{prefix}pin_count")])?;
         desc.joints = c.array(self.joints, "joints", &[&format!("{prefix}pin_count"),
             &format!("{prefix}influence_count")])?;
@@ -2072,14 +2076,12 @@ impl Solver {
     ///
     /// vertices: `[site_count]` vertices as given, or `None`
     /// values: `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
-    /// triangles: `[site_count]` triangles (or faces of three corners) as given, or `None`
-    /// barycentrics: `[site_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1
-    /// within 1e-6
+    /// places: `[site_count]`, or `None`
+    /// points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for
+    /// the nearest point of the surface, up to two boxes away
     /// stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped
     /// to 1e-12 to 1e12
     /// radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
-    /// corners: `[site_count x 3]` three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face
-    /// of more corners this places a site in a triangle of them
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
@@ -2131,14 +2133,12 @@ impl Solver {
     /// sites: `[site_count]`.
     /// vertices: `[site_count]` vertices as given, or `None`
     /// values: `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
-    /// triangles: `[site_count]` triangles (or faces of three corners) as given, or `None`
-    /// barycentrics: `[site_count x 3]` with triangles or corners, else `None`: weights of the corners, >= 0, of sum 1
-    /// within 1e-6
+    /// places: `[site_count]`, or `None`
+    /// points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for
+    /// the nearest point of the surface, up to two boxes away
     /// stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped
     /// to 1e-12 to 1e12
     /// radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
-    /// corners: `[site_count x 3]` three vertices as given, of one face, or `None`: [`raw::hf_hit`] has them. In a face
-    /// of more corners this places a site in a triangle of them
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`],
@@ -2558,7 +2558,7 @@ impl Geodesics {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn find_path(&self, from: &raw::hf_surface_point, to: &raw::hf_surface_point) -> Result<Path> {
+    pub fn find_path(&self, from: &raw::hf_place, to: &raw::hf_place) -> Result<Path> {
         let mut c = Call::new(&self.counts);
         let mut path = raw::hf_path { ..Default::default() };
         let mut room = Room::new(&[("point_capacity", None)]);
@@ -2595,7 +2595,7 @@ impl Geodesics {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
     #[allow(unused_mut, unused_variables, clippy::all)]
-    pub fn map(&self, centre: &raw::hf_surface_point, radius: f64) -> Result<(Vec<f64>, Vec<f64>)> {
+    pub fn map(&self, centre: &raw::hf_place, radius: f64) -> Result<(Vec<f64>, Vec<f64>)> {
         let mut c = Call::new(&self.counts);
         let mut map = vec![f64::default(); c.product(&["vertex_count", "2"])];
         let mut frame = vec![f64::default(); c.product(&["6"])];
@@ -2894,10 +2894,12 @@ impl Pose {
     /// the handle only. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle.
     /// Handles of lower layers hold the surface in place for the higher layers.
     ///
-    /// region_vertices: lists of whole numbers: all regions one after the other; `None`: points are given
-    /// points: `[handle_count x 3]` at rest. The region is the vertex nearest to the point and what is edge-connected to
-    /// it within the radius. `None`: regions are given
-    /// radii: `[handle_count]` of the regions of points, in the unit of the mesh; `None`: regions are given. A radius
+    /// region_vertices: lists of whole numbers: all regions one after the other; `None`: places are given
+    /// vertices: `[handle_count]` vertices as given, or `None`
+    /// places: `[handle_count]`, or `None`
+    /// points: `[handle_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. A point can
+    /// lie inside the body, as a joint does: its nearest vertex counts
+    /// radii: `[handle_count]` of the regions of places, in the unit of the mesh; `None`: regions are given. A radius
     /// below 1 % of the box makes regions of 2 vertices or more
     /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
     /// in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
@@ -4313,8 +4315,9 @@ impl Weights {
     /// disc. Pins at the same places with other weights cost no path.
     ///
     /// vertices: `[pin_count]` vertices as given, or `None`
-    /// triangles: `[pin_count]` triangles as given, or `None`
-    /// barycentrics: `[pin_count x 3]` with triangles, else `None`: weights of the corners, >= 0, of sum 1 within 1e-6
+    /// places: `[pin_count]`, or `None`
+    /// points: `[pin_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for
+    /// the nearest point of the surface, up to two boxes away
     /// radii: `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place alone
     /// joints: `[pin_count x influence_count]` joints
     /// weights: `[pin_count x influence_count]` >= 0, scaled to the sum 1

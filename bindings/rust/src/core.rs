@@ -160,14 +160,14 @@ fn exchange<T>(from: &mut Vec<T>, to: &mut Vec<T>, object: &mut T, nothing: &str
     Ok(())
 }
 
-impl From<u32> for raw::hf_surface_point {
+impl From<u32> for raw::hf_place {
     /// The place of a vertex.
     fn from(vertex: u32) -> Self {
-        raw::hf_surface_point { corners: [vertex; 3], barycentrics: [1.0, 0.0, 0.0], ..Default::default() }
+        raw::hf_place { corners: [vertex; 3], barycentrics: [1.0, 0.0, 0.0], ..Default::default() }
     }
 }
-impl From<&raw::hf_hit> for raw::hf_surface_point {
+impl From<&raw::hf_hit> for raw::hf_place {
     fn from(hit: &raw::hf_hit) -> Self {
-        raw::hf_surface_point { corners: hit.corners, barycentrics: hit.barycentrics, ..Default::default() }
+        hit.place
     }
 }

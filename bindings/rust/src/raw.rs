@@ -676,6 +676,21 @@ impl hf_surface_statistics {
     }
 }
 
+/// One place on a surface
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_place {
+    pub corners: [u32; 3],
+    pub reserved: u32,
+    pub barycentrics: [f64; 3],
+}
+impl Default for hf_place {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        unsafe { std::mem::zeroed() }
+    }
+}
+
 /// Options of picking
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -704,11 +719,9 @@ pub struct hf_hit {
     pub found: i32,
     pub triangle: u32,
     pub vertex: u32,
-    pub barycentrics: [f64; 3],
+    pub place: hf_place,
     pub position: [f64; 3],
     pub distance: f64,
-    pub corners: [u32; 3],
-    pub reserved: u32,
 }
 impl Default for hf_hit {
     fn default() -> Self {
@@ -787,12 +800,11 @@ pub struct hf_sites_desc {
     pub struct_size: u32,
     pub site_count: u32,
     pub vertices: *const u32,
-    pub triangles: *const u32,
-    pub barycentrics: *const f64,
+    pub places: *const hf_place,
+    pub points: *const f64,
     pub values: *const f64,
     pub stiffness: *const f64,
     pub radii: *const f64,
-    pub corners: *const u32,
 }
 impl Default for hf_sites_desc {
     fn default() -> Self {
@@ -1128,21 +1140,6 @@ impl Default for hf_geodesics_desc {
     }
 }
 
-/// A point of the surface in the form of hf_hit
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct hf_surface_point {
-    pub corners: [u32; 3],
-    pub reserved: u32,
-    pub barycentrics: [f64; 3],
-}
-impl Default for hf_surface_point {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
-}
-
 /// A path along the surface, from its first point to its last.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1351,6 +1348,8 @@ pub struct hf_handles_desc {
     pub handle_count: u32,
     pub region_counts: *const u32,
     pub region_vertices: *const u32,
+    pub vertices: *const u32,
+    pub places: *const hf_place,
     pub points: *const f64,
     pub radii: *const f64,
     pub layer: u32,
@@ -1699,11 +1698,10 @@ pub struct hf_curve_desc {
     pub struct_size: u32,
     pub point_count: u32,
     pub vertices: *const u32,
-    pub triangles: *const u32,
-    pub barycentrics: *const f64,
+    pub places: *const hf_place,
+    pub points: *const f64,
     pub side: i32,
     pub seed_vertex: u32,
-    pub corners: *const u32,
     pub kind: i32,
     pub reserved: u32,
 }
@@ -2288,8 +2286,8 @@ pub struct hf_pins_desc {
     pub struct_size: u32,
     pub pin_count: u32,
     pub vertices: *const u32,
-    pub triangles: *const u32,
-    pub barycentrics: *const f64,
+    pub places: *const hf_place,
+    pub points: *const f64,
     pub radii: *const f64,
     pub influence_count: u32,
     pub reserved: u32,
@@ -2603,8 +2601,8 @@ extern "C" {
     pub fn hf_geodesics_destroy(geodesics: hf_geodesics);
     pub fn hf_geodesics_solve(geodesics: hf_geodesics, source_count: u32, sources: *const u32, out_distances: *mut f32, value_stride: u32) -> i32;
     pub fn hf_geodesics_solve_f64(geodesics: hf_geodesics, source_count: u32, sources: *const u32, out_distances: *mut f64, value_stride: u32) -> i32;
-    pub fn hf_geodesics_find_path(geodesics: hf_geodesics, from: *const hf_surface_point, to: *const hf_surface_point, inout_path: *mut hf_path) -> i32;
-    pub fn hf_geodesics_get_map(geodesics: hf_geodesics, centre: *const hf_surface_point, radius: f64, out_map: *mut f64, out_frame: *mut f64) -> i32;
+    pub fn hf_geodesics_find_path(geodesics: hf_geodesics, from: *const hf_place, to: *const hf_place, inout_path: *mut hf_path) -> i32;
+    pub fn hf_geodesics_get_map(geodesics: hf_geodesics, centre: *const hf_place, radius: f64, out_map: *mut f64, out_frame: *mut f64) -> i32;
     pub fn hf_surface_find_extremities(surface: hf_surface, desc: *const hf_extremities_desc, capacity: u32, out_extremities: *mut hf_extremity, out_count: *mut u32) -> i32;
     pub fn hf_direction_create(surface: hf_surface, desc: *const hf_direction_desc, out_direction: *mut hf_direction) -> i32;
     pub fn hf_direction_clone(direction: hf_direction, out_direction: *mut hf_direction) -> i32;

@@ -9,10 +9,6 @@ export function fieldOf(body) {
   let held = new Map(); // id -> { number, corners, barycentrics, value, soft }
   const components = surface.components();
 
-  const place = (list) => ({
-    corners: list.flatMap((site) => site.corners),
-    barycentrics: list.flatMap((site) => site.barycentrics),
-  });
   const moved = (a, b) =>
     a.corners.some((x, k) => x !== b.corners[k]) || a.barycentrics.some((x, k) => x !== b.barycentrics[k]);
 
@@ -30,7 +26,7 @@ export function fieldOf(body) {
       solver.moveSites(
         travelled.map(({ id }) => held.get(id).number),
         null,
-        place(travelled),
+        { places: travelled },
       );
     const changed = kept.filter((site) => site.value !== held.get(site.id).value);
     if (changed.length)
@@ -45,7 +41,7 @@ export function fieldOf(body) {
       const numbers = solver.addSites(
         null,
         added.map(({ value }) => value),
-        { ...place(added), stiffness },
+        { places: added, stiffness },
       );
       added.forEach((site, i) => held.set(site.id, { ...site, number: numbers[i] }));
     }

@@ -231,19 +231,6 @@ TEST(Curve, APointStandsForTheCornerOfItsLargestWeight) {
     EXPECT_EQ(nearest_corner(CurvePoint{{4, 6, 9}, {weights[k][0], weights[k][1], weights[k][2]}}), corners[k]);
 }
 
-TEST(Curve, BadPointsAreRefusedWithTheirPosition) {
-  const Sheet sheet;
-  const Mesh& mesh = sheet.surface->core->mesh;
-  const auto refused = [&](hf_result code, std::uint32_t triangle, double a, double b, double c) {
-    const double weights[3] = {a, b, c};
-    expect_error(code, 5, [&] { place_in_triangle(mesh, triangle, weights, 5); });
-  };
-  refused(HF_ERROR_OUT_OF_RANGE, mesh.report.triangle_count, 1, 0, 0);
-  refused(HF_ERROR_NON_FINITE, 0, 1, std::nan(""), 0);
-  refused(HF_ERROR_INVALID_ARGUMENT, 0, 1.5, -0.5, 0);
-  refused(HF_ERROR_INVALID_ARGUMENT, 0, 0.5, 0.5, 1e-5);
-}
-
 TEST(Curve, PointsOfTwoComponentsAreRefused) {
   PlainMesh two = grid(4, 4);
   append(two, grid(4, 4), 10);

@@ -96,7 +96,7 @@ class EditScript {
       site.used = true;
       next[s] = site;
     }
-    for (const std::uint32_t s : batch.move) batch.places_of(next[s], batch.move_place, batch.move_weight);
+    for (const std::uint32_t s : batch.move) append(next[s], batch.move_vertex, batch.move_place);
     batch.moves_to_vertices = to_vertices;
     for (std::uint32_t s = 0; s < next.size(); ++s) {
       if (next[s].used) kept.push_back(s);
@@ -116,7 +116,7 @@ class EditScript {
       site.used = true;
       site.values = random_values();
       fresh.push_back(site);
-      batch.places_of(site, batch.add_place, batch.add_weight);
+      append(site, batch.add_vertex, batch.add_place);
       batch.add_stiffness.push_back(site.stiffness);
       batch.add_values.insert(batch.add_values.end(), site.values.begin(), site.values.end());
     }
@@ -159,12 +159,12 @@ class EditScript {
         batch.set_values.clear();
         batch.remove = {one};
         batch.move = {one};
-        batch.move_place = {vertices_[0]};
+        batch.move_vertex = {vertices_[0]};
         batch.moves_to_vertices = true;
         allowed = {HF_ERROR_NOT_FOUND};
         break;
       case 2:
-        batch.add_place = {core->mesh.report.vertex_count};
+        batch.add_vertex = {core->mesh.report.vertex_count};
         batch.adds_at_vertices = true;
         batch.add_stiffness = {0.0};
         batch.add_values = random_values();
@@ -175,7 +175,7 @@ class EditScript {
         const auto taken =
             std::find_if(sites.begin(), sites.end(), [](const ModelSite& s) { return s.used && s.at_vertex; });
         if (taken == sites.end()) return;
-        batch.add_place = {taken->given};
+        batch.add_vertex = {taken->given};
         batch.adds_at_vertices = true;
         batch.add_stiffness = {0.0};
         batch.add_values = random_values();
@@ -203,10 +203,9 @@ class EditScript {
       if (s.at_vertex) {
         site = hf_inner::Site::at_vertex(core->mesh, core->mesh.inner_of_given[s.given]);
       } else {
-        // a doubled triangle has its own order of corners
-        const hf_inner::SurfacePlace place = hf_inner::place_in_triangle(core->mesh, s.given, s.weight, 0);
+        const std::int32_t* corner = corners_of(s.given);
         for (int k = 0; k < 3; ++k) {
-          site.vertex[k] = place.vertex[k];
+          site.vertex[k] = corner[k];
           site.weight[k] = s.weight[k];
         }
         site.component = core->mesh.component[static_cast<std::size_t>(site.vertex[0])];
@@ -263,19 +262,18 @@ class EditScript {
  private:
   // A batch as FieldEdit wants it.
   struct Batch {
-    std::vector<std::uint32_t> remove, move, set, move_place, add_place;
-    std::vector<double> move_weight, add_weight, set_values, add_values, add_stiffness;
+    std::vector<std::uint32_t> remove, move, set, move_vertex, add_vertex;
+    std::vector<hf_place> move_place, add_place;
+    std::vector<double> set_values, add_values, add_stiffness;
     bool moves_to_vertices = true, adds_at_vertices = true;
-    static void places_of(const ModelSite& site, std::vector<std::uint32_t>& place, std::vector<double>& weight) {
-      place.push_back(site.given);
-      weight.insert(weight.end(), site.weight, site.weight + 3);
-    }
-    static hf_inner::Places places(const std::vector<std::uint32_t>& place, const std::vector<double>& weight,
-                                   bool vertex) {
+    static hf_inner::Places places(const std::vector<std::uint32_t>& vertex, const std::vector<hf_place>& place,
+                                   bool at_vertices) {
       hf_inner::Places p;
-      p.count = static_cast<std::uint32_t>(place.size());
-      (vertex ? p.vertices : p.triangles) = place.data();
-      p.barycentrics = weight.data();
+      p.count = static_cast<std::uint32_t>(vertex.size());
+      if (at_vertices)
+        p.vertices = vertex.data();
+      else
+        p.places = place.data();
       return p;
     }
     hf_inner::FieldEdit edit() const {
@@ -284,16 +282,31 @@ class EditScript {
       e.remove_sites = remove.data();
       e.move_count = static_cast<std::uint32_t>(move.size());
       e.move_sites = move.data();
-      e.move_to = places(move_place, move_weight, moves_to_vertices);
+      e.move_to = places(move_vertex, move_place, moves_to_vertices);
       e.set_count = static_cast<std::uint32_t>(set.size());
       e.set_sites = set.data();
       e.set_values = set_values.data();
-      e.add = places(add_place, add_weight, adds_at_vertices);
-      e.add_values = add_values.data();
-      e.add_stiffness = add_stiffness.data();
+      e.add = places(add_vertex, add_place, adds_at_vertices);
+      e.add_holds.values = add_values.data();
+      e.add_holds.stiffness = add_stiffness.data();
       return e;
     }
   };
+
+  // Corners of a triangle as given. A doubled one has those of the triangle that counts.
+  const std::int32_t* corners_of(std::uint32_t given) const {
+    return core->mesh.triangle(core->mesh.triangle_of_given[given]);
+  }
+  void append(const ModelSite& site, std::vector<std::uint32_t>& vertex, std::vector<hf_place>& place) const {
+    vertex.push_back(site.given);
+    if (site.at_vertex) return;
+    hf_place one{};
+    for (int k = 0; k < 3; ++k) {
+      one.corners[k] = hf_inner::given_vertex(core->mesh, corners_of(site.given)[k]);
+      one.barycentrics[k] = site.weight[k];
+    }
+    place.push_back(one);
+  }
 
   std::vector<double> random_values() {
     std::vector<double> values(m);
@@ -309,8 +322,7 @@ class EditScript {
         out[0] = core->mesh.inner_of_given[s.given];
         return 1;
       }
-      const hf_inner::SurfacePlace place = hf_inner::place_in_triangle(core->mesh, s.given, s.weight, 0);
-      for (int k = 0; k < 3; ++k) out[k] = place.vertex[k];
+      std::copy_n(corners_of(s.given), 3, out);
       return 3;
     };
     std::int32_t own[3], other[3];

@@ -316,7 +316,7 @@ TEST_P(HighValence, fields_are_those_of_long_double_and_certified) {
       hf_inner::FieldEdit edit;
       edit.add.count = static_cast<std::uint32_t>(sites.size());
       edit.add.vertices = sites.data();
-      edit.add_values = values.data();
+      edit.add_holds.values = values.data();
       std::vector<std::uint32_t> numbers(sites.size());
       field.edit(edit, numbers.data());
       std::vector<double> u(at(core->size()));
@@ -353,8 +353,8 @@ TEST(HighValenceDisc, holds_its_value) {
   hf_inner::FieldEdit edit;
   edit.add.count = 3;
   edit.add.vertices = vertices;
-  edit.add.radii = radii;
-  edit.add_values = values;
+  edit.add_holds.radii = radii;
+  edit.add_holds.values = values;
   std::uint32_t numbers[3];
   field.edit(edit, numbers);
   std::vector<double> u(at(core->size())), held;

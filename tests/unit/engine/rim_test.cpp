@@ -31,8 +31,8 @@ TEST(Rim, of_a_disc_keeps_its_inside_at_the_value_of_the_site) {
     hf_inner::FieldEdit edit;
     edit.add.count = 2;
     edit.add.vertices = vertices;
-    edit.add.radii = radii;
-    edit.add_values = values;
+    edit.add_holds.radii = radii;
+    edit.add_holds.values = values;
     field.edit(edit, nullptr);
     std::vector<double> u(static_cast<std::size_t>(core->size()));
     field.solve(u.data());

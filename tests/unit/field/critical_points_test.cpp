@@ -145,7 +145,7 @@ void add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertice
   hf_inner::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
   edit.add.vertices = vertices.data();
-  edit.add_values = values.data();
+  edit.add_holds.values = values.data();
   field.edit(edit, nullptr);
 }
 
@@ -231,8 +231,8 @@ std::vector<double> solve(const std::shared_ptr<const hf_inner::Core>& core, hf_
   const std::vector<double> soft(vertices.size(), stiffness);
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
   edit.add.vertices = vertices.data();
-  edit.add_values = values.data();
-  if (stiffness > 0) edit.add_stiffness = soft.data();
+  edit.add_holds.values = values.data();
+  if (stiffness > 0) edit.add_holds.stiffness = soft.data();
   field.edit(edit, nullptr);
   std::vector<double> u(static_cast<std::size_t>(core->size()));
   field.solve(u.data());

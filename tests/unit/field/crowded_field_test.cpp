@@ -11,6 +11,7 @@
 #include "field/scalar_field.h"
 #include "support/meshes.h"
 #include "support/oracle.h"
+#include "support/place_in.h"
 
 namespace {
 
@@ -46,16 +47,15 @@ struct Trial {
     const std::uint32_t vertex = random() % mesh.vertex_count(), triangle = random() % mesh.triangle_count();
     const double a = 0.02 + 0.94 * one(random), b = 0.02 + (0.96 - a) * one(random), point[3] = {a, b, 1 - a - b};
     const double value = 2 * one(random) - 1, stiffness = one(random) < 0.5 ? 0 : std::pow(10, 16 * one(random) - 8);
+    const hf_place place = place_in(mesh.triangles.data(), mesh.triangle_count(), triangle, point);
     hf_inner::FieldEdit edit;
     edit.add.count = 1;
-    edit.add_values = &value;
-    edit.add_stiffness = &stiffness;
+    edit.add_holds.values = &value;
+    edit.add_holds.stiffness = &stiffness;
     if (random() % 2)
       edit.add.vertices = &vertex;
-    else {
-      edit.add.triangles = &triangle;
-      edit.add.barycentrics = point;
-    }
+    else
+      edit.add.places = &place;
     std::uint32_t number = 0;
     try {
       field.edit(edit, &number);
@@ -162,14 +162,14 @@ TEST(CrowdedField, three_points_fix_their_triangle_under_any_screening) {
       continue;
     }
     if (h > 0) field.set_screening({strength, 3}, nullptr);
-    const std::uint32_t triangles[3] = {0, 0, 0};
     // the values are the weights of the first corner
-    const double spread[9] = {0.2, 0.7, 0.1, 0.5, 0.3, 0.2, 0.8, 0.1, 0.1}, values[3] = {0.2, 0.5, 0.8};
+    const double values[3] = {0.2, 0.5, 0.8};
+    const hf_place spread[3] = {
+        {{0, 1, 2}, 0, {0.2, 0.7, 0.1}}, {{0, 1, 2}, 0, {0.5, 0.3, 0.2}}, {{0, 1, 2}, 0, {0.8, 0.1, 0.1}}};
     hf_inner::FieldEdit edit;
     edit.add.count = 3;
-    edit.add.triangles = triangles;
-    edit.add.barycentrics = spread;
-    edit.add_values = values;
+    edit.add.places = spread;
+    edit.add_holds.values = values;
     std::uint32_t numbers[3];
     try {
       field.edit(edit, numbers);
@@ -199,7 +199,7 @@ TEST(CrowdedField, previews_say_their_error) {
       hf_inner::FieldEdit edit;
       edit.add.count = 4;
       edit.add.vertices = vertices;
-      edit.add_values = values;
+      edit.add_holds.values = values;
       std::uint32_t numbers[4];
       field.edit(edit, numbers);
       std::vector<double> exact(n), preview(n);

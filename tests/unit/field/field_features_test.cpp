@@ -25,8 +25,8 @@ void add(hf_inner::ScalarField& field, const std::vector<std::uint32_t>& vertice
   hf_inner::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
   edit.add.vertices = vertices.data();
-  edit.add_values = values.data();
-  if (!stiffness.empty()) edit.add_stiffness = stiffness.data();
+  edit.add_holds.values = values.data();
+  if (!stiffness.empty()) edit.add_holds.stiffness = stiffness.data();
   field.edit(edit, nullptr);
 }
 

@@ -27,9 +27,9 @@ struct Field {
     hf_inner::FieldEdit edit;
     edit.add.count = static_cast<std::uint32_t>(vertices.size());
     edit.add.vertices = vertices.data();
-    edit.add.radii = radii.data();
-    edit.add_values = values.data();
-    if (!stiffness.empty()) edit.add_stiffness = stiffness.data();
+    edit.add_holds.radii = radii.data();
+    edit.add_holds.values = values.data();
+    if (!stiffness.empty()) edit.add_holds.stiffness = stiffness.data();
     std::vector<std::uint32_t> numbers(vertices.size());
     field.edit(edit, numbers.data());
     return numbers;
@@ -213,7 +213,7 @@ TEST(FiniteRadius, refuses_overlaps_hidden_numbers_and_too_many_vertices) {
   hf_inner::FieldEdit edit;
   edit.add.count = 1;
   edit.add.vertices = &v;
-  edit.add.radii = &radius;
+  edit.add_holds.radii = &radius;
   EXPECT_EQ(code_of([&] { small.edit(edit, nullptr); }), HF_ERROR_TOO_LARGE);
 }
 

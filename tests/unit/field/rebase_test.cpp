@@ -19,7 +19,7 @@ std::vector<std::uint32_t> add(hf_inner::ScalarField& field, const std::vector<s
   hf_inner::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
   edit.add.vertices = vertices.data();
-  edit.add_values = values.data();
+  edit.add_holds.values = values.data();
   std::vector<std::uint32_t> numbers(vertices.size());
   field.edit(edit, numbers.data());
   return numbers;

@@ -18,7 +18,7 @@ hf_inner::FieldEdit adding(const std::vector<std::uint32_t>& vertices, const std
   hf_inner::FieldEdit edit;
   edit.add.count = static_cast<std::uint32_t>(vertices.size());
   edit.add.vertices = vertices.data();
-  edit.add_values = values.data();
+  edit.add_holds.values = values.data();
   return edit;
 }
 

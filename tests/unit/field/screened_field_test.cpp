@@ -50,8 +50,8 @@ struct Scene {
     std::vector<std::uint32_t> numbers(vertices.size());
     edit.add.count = static_cast<std::uint32_t>(vertices.size());
     edit.add.vertices = vertices.data();
-    edit.add_values = values.data();
-    edit.add_stiffness = stiffness.data();
+    edit.add_holds.values = values.data();
+    edit.add_holds.stiffness = stiffness.data();
     field.edit(edit, numbers.data());
   }
   std::vector<double> solve() const {
