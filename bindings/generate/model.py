@@ -10,6 +10,7 @@ derive(api) adds them to the description; every layer reads the same. Roles:
 
 import re
 
+MOST_FIELDS, WHY_MORE = 16, "More than 16 fields:"  # more than a reader takes in at once
 SUFFIXES = ("_f64", "_u16")  # the same array in another type
 
 class Problems(Exception):
@@ -75,6 +76,8 @@ def enums_of(api):
 
 def look_at_struct(api, struct, enums, problems):
     where, fields = struct["name"], struct["fields"]
+    if len(fields) > MOST_FIELDS and WHY_MORE not in struct["doc"]:
+        problems.append(f"{where}: {len(fields)} fields. Split it, or say in its comment why not: {WHY_MORE} ...")
     counted = set().union(*(symbols(f["dims"]) | symbols(sum(f["without"].values(), [])) for f in fields if f["const"]), set())
     twins(fields)
     for field in fields:

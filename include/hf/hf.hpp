@@ -81,6 +81,8 @@ struct Links {
 // HF_OPERATOR_UNIFORM the sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a cut of
 // the library. It does not depend on the order of the corners. Where this interface names a triangle, it names the face
 // then. Normals of poses are sums of the area vectors of faces.
+//
+// More than 16 fields: each array of the mesh has a count and a stride, each limit is a choice of its own.
 struct SurfaceOptions {
   // `[face_count]` first corner of each face. none: the faces follow one another. Without face_sizes `[face_count +
   // 1]`: the corners of face f end where those of f + 1 start
@@ -122,7 +124,8 @@ struct SurfaceOptions {
 };
 
 // A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
-// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of SurfaceOptions.
+// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of SurfaceOptions. More than 16
+// fields: they mirror SurfaceOptions.
 struct GraphOptions {
   // `[vertex_count]` M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none: all 1. A mass below 1e-4 of the
   // mean of its component counts as that
@@ -337,7 +340,8 @@ struct HandleProposalsOptions {
   hf_handle_proposals_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals.
+// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals. More than 16
+// fields: creases, guides and irregular vertices are lists with their counts.
 struct QuadsOptions {
   // `[crease_count x 2]` the two vertices of each edge, as given
   std::vector<uint32_t> crease_edges{};
@@ -677,7 +681,7 @@ struct Isolines {
 struct SitesInfo {
   // `[capacity]` numbers
   std::vector<uint32_t> sites;
-  // `[capacity]` the vertex given, HF_NO_INDEX for a point in a triangle
+  // `[capacity]` the vertex of the place, HF_NO_INDEX for a point in a triangle
   std::vector<uint32_t> vertices;
   // `[capacity]`
   std::vector<uint32_t> components;
@@ -862,11 +866,11 @@ class Surface {
   // graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
   // reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions, directions,
   // geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening,
-  // and sites in triangles or on discs.
+  // and sites at places, at points or on discs.
   //
   // A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
-  // median of their component are limited; hf_surface_report counts their vertices as changed. Bi-harmonic fields limit
-  // weights to 1e3 times the median.
+  // median of their component are limited; hf_mesh_statistics counts their vertices as changed. Bi-harmonic fields
+  // limit weights to 1e3 times the median.
   //
   // edges: `[edge_count x 2]` vertices, in any order. The weights of parallel edges are added up. Self loops are
   // ignored
@@ -913,6 +917,14 @@ class Surface {
     return report;
   }
 
+  // Writes the statistics of the mesh.
+  hf_mesh_statistics mesh_statistics() const {
+    Call c(counts_);
+    auto statistics = make<hf_mesh_statistics>();
+    check(hf_surface_get_mesh_statistics(get(), &statistics));
+    return statistics;
+  }
+
   // Writes the component of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Components are numbered
   // in the order of their lowest vertex numbers.
   std::vector<uint32_t> components() const {
@@ -927,6 +939,14 @@ class Surface {
     } while (!room.enough(c, {{"capacity", count}}));
     components.resize(c.product({"capacity"}));
     return components;
+  }
+
+  // Writes how the pieces of a surface are linked.
+  hf_links_info links_info() const {
+    Call c(counts_);
+    auto info = make<hf_links_info>();
+    check(hf_surface_get_links_info(get(), &info));
+    return info;
   }
 
   // Writes the links of a surface. You can edit them and give them back with HF_LINK_LIST. A list does not say which
@@ -2321,6 +2341,14 @@ class Pose {
     check(hf_pose_deform(get(), &desc, info));
   }
 
+  // Writes the statistics of a pose.
+  hf_pose_statistics statistics() const {
+    Call c(counts_);
+    auto statistics = make<hf_pose_statistics>();
+    check(hf_pose_get_statistics(get(), &statistics));
+    return statistics;
+  }
+
   // Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were added.
   // If the handles do not reach some vertices, a last joint that never moves holds those vertices. The weights of a
   // vertex are its 4 or 8 largest, scaled so that their sum is exactly 1 in single precision. Weights and pivots change
@@ -2684,6 +2712,14 @@ class Region {
     auto info = make<hf_region_info>();
     check(hf_region_get_info(get(), &info));
     return info;
+  }
+
+  // Writes the statistics of a region.
+  hf_region_statistics statistics() const {
+    Call c(counts_);
+    auto statistics = make<hf_region_statistics>();
+    check(hf_region_get_statistics(get(), &statistics));
+    return statistics;
   }
 
   // Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
@@ -3243,6 +3279,14 @@ class Transfer {
     return info;
   }
 
+  // Writes the statistics of a transfer.
+  hf_transfer_statistics statistics() const {
+    Call c(counts_);
+    auto statistics = make<hf_transfer_statistics>();
+    check(hf_transfer_get_statistics(get(), &statistics));
+    return statistics;
+  }
+
   // Sets the dials of a transfer for the next frames.
   //
   // stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
@@ -3573,6 +3617,14 @@ class Weights {
     return info;
   }
 
+  // Writes the statistics.
+  hf_weights_statistics statistics() const {
+    Call c(counts_);
+    auto statistics = make<hf_weights_statistics>();
+    check(hf_weights_get_statistics(get(), &statistics));
+    return statistics;
+  }
+
   // Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and sets
   // deforms to 0.
   //
@@ -3653,11 +3705,13 @@ class Weights {
   // influence_count: joints of each vertex in the result: 4 or 8; 0: 4
   // progress: an object to poll and cancel through
   // info: filled in when given
+  // statistics: filled in when given
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL, HF_ERROR_UNSUPPORTED.
   static std::tuple<WeightsOut, std::vector<uint32_t>, std::vector<uint32_t>> mirror(const Surface& surface,
-      const WeightsMirrorOptions& options = {}, hf_weights_mirror_info* info = nullptr) {
+      const WeightsMirrorOptions& options = {}, hf_weights_mirror_info* info = nullptr,
+      hf_weights_mirror_statistics* statistics = nullptr) {
     Call c;
     c.parent("surface", surface.known_counts());
     const hf_weights_mirror_desc desc = options.fill(c, "");
@@ -3676,7 +3730,8 @@ class Weights {
       weights_.joints = room.at(found.joints);
       weights_.weights = room.at(found.weights);
       weights_.origins = room.at(found.origins);
-      room.code = hf_weights_mirror(surface.get(), &desc, &weights_, partners_.data(), pairings.data(), info);
+      room.code = hf_weights_mirror(surface.get(), &desc, &weights_, partners_.data(), pairings.data(), info,
+          statistics);
     } while (!room.enough(c, {{"vertex_capacity", weights_.vertex_count}, {"vertex_count", weights_.vertex_count},
         {"influence_count", weights_.influence_count}}));
     found.influence_count = weights_.influence_count;

@@ -194,15 +194,13 @@ HF_API hf_result hf_pose_get_field(hf_pose pose, uint32_t handle, float* out_val
 
 /* ---- posing ---- */
 
-/* Counts and times of a deform. */
+/* What a deform did. */
 typedef struct hf_deform_info {
   uint32_t struct_size;
-  uint32_t iteration_count; /* done */
-  uint32_t cluster_count;
+  uint32_t iteration_count;        /* done */
   uint32_t unreached_vertex_count; /* in components without a handle; they stay at rest */
+  uint32_t reserved;               /* 0 */
   double last_change;              /* largest change of a rotation in the last iteration */
-  double solve_ms, blend_ms, normal_ms;
-  double refine_ms;
 } hf_deform_info;
 
 /* Solves the pose and writes every vertex. out_positions: float[vertex_count][3], packed, in the unit and frame of the
@@ -242,6 +240,19 @@ typedef struct hf_deform_desc {
  * handle), HF_ERROR_OUT_OF_RANGE (the range), HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE (for floats). Thread
  * safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_info* out_info);
+
+/* Size of a pose and times of its last deform, in milliseconds; 0 before the first. */
+typedef struct hf_pose_statistics {
+  uint32_t struct_size;
+  uint32_t cluster_count;
+  double solve_ms;
+  double blend_ms;
+  double normal_ms;
+  double refine_ms;
+} hf_pose_statistics;
+
+/* Writes the statistics of a pose. Thread safety: reads `pose`. Since 0.1. */
+HF_API hf_result hf_pose_get_statistics(hf_pose pose, hf_pose_statistics* out_statistics);
 
 /* ---- skins ---- */
 

@@ -12,7 +12,8 @@ extern "C" {
 
 typedef struct hf_quads_object* hf_quads;
 
-/* Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals. */
+/* Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals. More than 16
+ * fields: creases, guides and irregular vertices are lists with their counts. */
 typedef struct hf_quads_desc {
   uint32_t struct_size;
   uint32_t face_count;  /* wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts */

@@ -110,13 +110,24 @@ typedef struct hf_region_edit_desc {
  * safety: changes `region`. Since 0.1. */
 HF_API hf_result hf_region_edit(hf_region region, const hf_region_edit_desc* edit);
 
-/* Counts and areas of a region and of its last edit. Welded copies count as one vertex. */
+/* Counts and areas of a region. Welded copies count as one vertex. */
 typedef struct hf_region_info {
   uint32_t struct_size;
-  int32_t field_kind;      /* HF_FIELD_* */
-  uint32_t vertex_count;   /* of the region, without its rim */
-  uint32_t rim_count;      /* vertices next to the region */
-  uint32_t site_count;     /* vertices that fix the base: the rim, for thin plates two rows or more */
+  int32_t field_kind;    /* HF_FIELD_* */
+  uint32_t vertex_count; /* of the region, without its rim */
+  uint32_t rim_count;    /* vertices next to the region */
+  uint32_t site_count;   /* vertices that fix the base: the rim, for thin plates two rows or more */
+  uint32_t reserved;     /* 0 */
+  double area;           /* of the triangles with a corner in the region, on the surface, in units^2 */
+  double base_area;      /* the same on the base */
+} hf_region_info;
+
+/* Writes the info of a region. Thread safety: reads `region`. Since 0.1. */
+HF_API hf_result hf_region_get_info(hf_region region, hf_region_info* out_info);
+
+/* Work of the last edit of a region, and of all its edits. */
+typedef struct hf_region_statistics {
+  uint32_t struct_size;
   uint32_t inserted_count; /* sites of the last edit ... */
   uint32_t removed_count;
   uint32_t kept_count;
@@ -124,12 +135,10 @@ typedef struct hf_region_info {
   uint32_t path_solve_count;    /* sparse solves for added sites, over all edits */
   uint32_t last_route;          /* HF_ROUTE_* of the last edit */
   int32_t whole_sweep;          /* 1: the last base took a sweep through the whole factor */
-  double area;                  /* of the triangles with a corner in the region, on the surface, in units^2 */
-  double base_area;             /* the same on the base */
-} hf_region_info;
+} hf_region_statistics;
 
-/* Writes the info of a region. Thread safety: reads `region`. Since 0.1. */
-HF_API hf_result hf_region_get_info(hf_region region, hf_region_info* out_info);
+/* Writes the statistics of a region. Thread safety: reads `region`. Since 0.1. */
+HF_API hf_result hf_region_get_statistics(hf_region region, hf_region_statistics* out_statistics);
 
 /* Lists of vertices of a region. */
 enum hf_region_list {

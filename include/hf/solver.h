@@ -152,7 +152,7 @@ typedef struct hf_sites_info {
   uint32_t count;       /* out: number of sites */
   uint32_t reserved;    /* 0 */
   uint32_t* sites;      /* [capacity] numbers */
-  uint32_t* vertices;   /* [capacity] the vertex given, HF_NO_INDEX for a point in a triangle */
+  uint32_t* vertices;   /* [capacity] the vertex of the place, HF_NO_INDEX for a point in a triangle */
   uint32_t* components; /* [capacity] */
   double* values;       /* [capacity][channel_count] */
   double* stiffness;    /* [capacity] 0 = hard */
@@ -296,7 +296,7 @@ typedef struct hf_certificate {
   double site_error; /* out: largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
   double overshoot;  /* out: how far the field leaves the range of its sites; 0 when not checked */
   uint32_t worst_vertex;         /* out: as given, where the largest of the three is */
-  uint32_t changed_vertex_count; /* out: welded vertices with a weight that a rule set (hf_surface_report). On a mesh,
+  uint32_t changed_vertex_count; /* out: welded vertices with a weight that a rule set (hf_mesh_statistics). On a mesh,
                                     and for bi-harmonic fields, the errors hold for the weights used; on a graph for
                                     your own, within 1e30 of their median */
   double error_estimate; /* out: how far a value may be from the exact field: a bound by K alone where no weight is

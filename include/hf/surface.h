@@ -114,7 +114,9 @@ typedef struct hf_links_desc {
  * docs/studies/polygons.md compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian,
  * HF_OPERATOR_UNIFORM the sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a cut of
  * the library. It does not depend on the order of the corners. Where this interface names a triangle, it names the face
- * then. Normals of poses are sums of the area vectors of faces. */
+ * then. Normals of poses are sums of the area vectors of faces.
+ *
+ * More than 16 fields: each array of the mesh has a count and a stride, each limit is a choice of its own. */
 typedef struct hf_surface_desc {
   uint32_t struct_size;
   uint32_t vertex_count;         /* >= 1 */
@@ -176,7 +178,8 @@ typedef struct hf_surface_desc {
 HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
 
 /* A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
- * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of hf_surface_desc. */
+ * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of hf_surface_desc.
+ * More than 16 fields: they mirror hf_surface_desc. */
 typedef struct hf_graph_desc {
   uint32_t struct_size;
   uint32_t vertex_count;  /* >= 1, also without masses */
@@ -205,11 +208,11 @@ typedef struct hf_graph_desc {
 /* Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the graph.
  * Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and reports
  * work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions, directions, geodesics,
- * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening, and sites in
- * triangles or on discs.
+ * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening, and sites at
+ * places, at points or on discs.
  *
  * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
- * median of their component are limited; hf_surface_report counts their vertices as changed. Bi-harmonic fields limit
+ * median of their component are limited; hf_mesh_statistics counts their vertices as changed. Bi-harmonic fields limit
  * weights to 1e3 times the median. out_surface: receives NULL at the start of the call and the new surface on success.
  * Cost: that of the factor; a graph of a volume has a larger one than a mesh of as many vertices. Errors:
  * HF_ERROR_INVALID_ARGUMENT (index = edge or vertex: a negative weight, a mass), HF_ERROR_EMPTY (no vertex, no edge, or
@@ -223,7 +226,7 @@ HF_API hf_result hf_surface_create_graph(const hf_graph_desc* desc, hf_surface* 
  * safety: any thread. Since 0.1. */
 HF_API void hf_surface_destroy(hf_surface surface);
 
-/* The options a surface was made with, defaults filled in. */
+/* The options a surface was made with, defaults filled in. More than 16 fields: they mirror hf_surface_desc. */
 typedef struct hf_surface_info {
   uint32_t struct_size;
   uint32_t vertex_count;   /* as given */
@@ -248,8 +251,8 @@ typedef struct hf_surface_info {
 HF_API hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 
 /* Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are 0. Where
- * faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces. Degenerate triangles,
- * negative edges and the smallest angle are of the cut. */
+ * faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces. Degenerate triangles are
+ * of the cut. */
 typedef struct hf_surface_report {
   uint32_t struct_size;
   uint32_t vertex_count;              /* as given */
@@ -265,30 +268,32 @@ typedef struct hf_surface_report {
   uint32_t non_manifold_edge_count;   /* edges of three or more triangles */
   uint32_t flipped_edge_count;        /* edges that two triangles run through in the same direction */
   uint32_t boundary_edge_count;
-  uint32_t negative_edge_count;  /* edges of negative cotangent weight, before any clamping */
-  uint32_t reserved;             /* 0 */
-  double smallest_angle;         /* radians, over the usable triangles */
-  double bounding_box_diagonal;  /* in the unit of the positions, without isolated vertices */
-  uint32_t changed_vertex_count; /* welded vertices with a weight that is not the mesh's, in the operator of field_kind:
-                                    of triangles too thin for it, or cut to the digits that there are. A certificate
-                                    holds for the weights used; near such vertices the field may be another's */
-  uint32_t first_changed_vertex; /* the first of them, as given; HF_NO_INDEX without one */
-  uint32_t piece_count;          /* edge-connected pieces, linked or not */
-  uint32_t link_count;           /* hf_surface_get_links writes them */
-  uint32_t light_piece_count;
-  uint32_t lone_piece_count; /* pieces without a link, if there are several */
-  double longest_tree_link;  /* of the tree over the pieces, in the unit of the positions */
-  uint32_t face_count;       /* as given; 0 where triangles were given */
-  uint32_t polygon_count;    /* faces of more than three corners */
-  uint32_t non_planar_count; /* polygons with a corner farther than 1 % of their diameter from their mean plane */
-  uint32_t largest_face;     /* corners of the largest face */
   uint32_t inside_out_count; /* closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The
                                 inner wall of a hollow body is one too. Fields do not change; what uses normals does */
   uint32_t first_inside_out_vertex; /* the first vertex of one, as given; HF_NO_INDEX without one */
+  double bounding_box_diagonal;     /* in the unit of the positions, without isolated vertices */
 } hf_surface_report;
 
 /* Writes the report of the mesh. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_report);
+
+/* What a developer reads about a mesh: its faces, and the weights of its operator. */
+typedef struct hf_mesh_statistics {
+  uint32_t struct_size;
+  uint32_t polygon_count;        /* faces of more than three corners */
+  uint32_t non_planar_count;     /* polygons with a corner farther than 1 % of their diameter from their mean plane */
+  uint32_t largest_face;         /* corners of the largest face; 0 where triangles were given */
+  uint32_t negative_edge_count;  /* edges of the cut of negative cotangent weight, before any clamping */
+  uint32_t changed_vertex_count; /* welded vertices with a weight that is not the mesh's, in the operator of field_kind:
+                                    of triangles too thin for it, or cut to the digits that there are. A certificate
+                                    holds for the weights used; near such vertices the field may be another's */
+  uint32_t first_changed_vertex; /* the first of them, as given; HF_NO_INDEX without one */
+  uint32_t reserved;             /* 0 */
+  double smallest_angle;         /* radians, over the usable triangles of the cut */
+} hf_mesh_statistics;
+
+/* Writes the statistics of the mesh. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_mesh_statistics(hf_surface surface, hf_mesh_statistics* out_statistics);
 
 /* Writes the component of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Components are numbered in
  * the order of their lowest vertex numbers. out_components: NULL, or uint32_t[capacity]. out_count: NULL, or receives
@@ -297,6 +302,20 @@ HF_API hf_result hf_surface_get_components(hf_surface surface, uint32_t capacity
                                            uint32_t* out_count);
 
 /* ---- links ---- */
+
+/* How the pieces of a mesh are linked. */
+typedef struct hf_links_info {
+  uint32_t struct_size;
+  uint32_t piece_count; /* edge-connected pieces, linked or not */
+  uint32_t link_count;  /* hf_surface_get_links writes them */
+  uint32_t light_piece_count;
+  uint32_t lone_piece_count; /* pieces without a link, if there are several */
+  uint32_t reserved;         /* 0 */
+  double longest_tree_link;  /* of the tree over the pieces, in the unit of the positions */
+} hf_links_info;
+
+/* Writes how the pieces of a surface are linked. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_links_info(hf_surface surface, hf_links_info* out_info);
 
 /* Writes the links of a surface. You can edit them and give them back with HF_LINK_LIST. A list does not say which
  * pieces are light: name them in light_vertices, as hf_surface_get_pieces marks them. Then the list alone gives the

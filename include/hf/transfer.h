@@ -127,16 +127,24 @@ typedef struct hf_transfer_info {
   uint32_t struct_size;
   uint32_t pair_count;
   uint32_t cluster_count;
-  uint32_t aligned_count;              /* pairs whose rest alignment is applied */
-  uint32_t crossed_count;              /* pairs that change sides, see hf_pair_info */
-  int32_t scale_found;                 /* 1: from the legs or the boxes; 0: given in the desc */
-  uint32_t source_factorisation_count; /* numeric factorisations by edits of pairs; 0 unless they are very many */
-  uint32_t target_factorisation_count;
-  double scale; /* lengths of the target over those of the source, both in the units of their meshes */
+  uint32_t aligned_count; /* pairs whose rest alignment is applied */
+  uint32_t crossed_count; /* pairs that change sides, see hf_pair_info */
+  int32_t scale_found;    /* 1: from the legs or the boxes; 0: given in the desc */
+  double scale;           /* lengths of the target over those of the source, both in the units of their meshes */
 } hf_transfer_info;
 /* Writes the info of the whole transfer. The first call after a change of pairs solves fields, as hf_transfer_get_pair
  * does. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_info(hf_transfer transfer, hf_transfer_info* out_info);
+
+/* Work of a transfer. */
+typedef struct hf_transfer_statistics {
+  uint32_t struct_size;
+  uint32_t source_factorisation_count; /* numeric factorisations by edits of pairs; 0 unless they are very many */
+  uint32_t target_factorisation_count;
+} hf_transfer_statistics;
+
+/* Writes the statistics of a transfer. Thread safety: reads `transfer`. Since 0.1. */
+HF_API hf_result hf_transfer_get_statistics(hf_transfer transfer, hf_transfer_statistics* out_statistics);
 
 /* What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the
  * result is continuous in each dial. */

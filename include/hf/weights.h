@@ -149,6 +149,14 @@ typedef struct hf_weights_info {
   uint32_t nearest_count;
   uint32_t rigid_count;
   uint32_t isolated_count;
+} hf_weights_info;
+
+/* Writes the info. Thread safety: reads `weights`. Since 0.1. */
+HF_API hf_result hf_weights_get_info(hf_weights weights, hf_weights_info* out_info);
+
+/* What a developer reads about weights: pieces that were guessed, joints that deserve a look, work done. */
+typedef struct hf_weights_statistics {
+  uint32_t struct_size;
   uint32_t nearest_piece_count; /* pieces without information */
   uint32_t rigid_piece_count;   /* small ones of them */
   int32_t blind;                /* 1: a piece sees none of its nearest joints and asks for them unseen */
@@ -159,11 +167,10 @@ typedef struct hf_weights_info {
   uint32_t helper_count;
   uint32_t factorisation_count; /* numeric factorisations since the object was made */
   uint32_t path_solve_count;    /* elimination paths of pins since then */
-  uint32_t reserved;            /* 0 */
-} hf_weights_info;
+} hf_weights_statistics;
 
-/* Writes the info. Thread safety: reads `weights`. Since 0.1. */
-HF_API hf_result hf_weights_get_info(hf_weights weights, hf_weights_info* out_info);
+/* Writes the statistics. Thread safety: reads `weights`. Since 0.1. */
+HF_API hf_result hf_weights_get_statistics(hf_weights weights, hf_weights_statistics* out_statistics);
 
 /* Bits that say why a joint looks like a helper: a root, a target or a control that moves no skin. */
 enum hf_helper_reason {
@@ -266,7 +273,7 @@ typedef struct hf_weights_mirror_desc {
   hf_progress progress;     /* NULL, or an object to poll and cancel through */
 } hf_weights_mirror_desc;
 
-/* The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh. */
+/* The findings of a mirror. Vertices are counted as given. */
 typedef struct hf_weights_mirror_info {
   uint32_t struct_size;
   uint32_t vertex_count;
@@ -282,28 +289,34 @@ typedef struct hf_weights_mirror_info {
   uint32_t nearest_count;
   uint32_t rigid_count;
   uint32_t isolated_count;
+  double point[3]; /* of the plane */
+  double normal[3];
+} hf_weights_mirror_info;
+
+/* How far a surface and its joints are from their reflections. Lengths are in the unit of the mesh. */
+typedef struct hf_weights_mirror_statistics {
+  uint32_t struct_size;
   uint32_t worst_joint;  /* the joint farthest off, HF_NO_INDEX: none has a partner */
   uint32_t worst_vertex; /* the vertex farthest off, HF_NO_INDEX: none was mirrored */
-  double point[3];       /* of the plane */
-  double normal[3];
-  double joint_off; /* mean distance of reflected joints from their partners */
+  uint32_t reserved;     /* 0 */
+  double joint_off;      /* mean distance of reflected joints from their partners */
   double worst_joint_off;
   double vertex_off; /* mean distance of reflected vertices from the surface */
   double worst_vertex_off;
-} hf_weights_mirror_info;
+} hf_weights_mirror_statistics;
 
 /* Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the nearest
  * point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field fills in the
  * rest. The plane comes from joints with partners, else from the surface. A found normal has a positive largest
  * component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x. inout_weights: as in hf_weights_get. out_partners:
  * uint32_t[joint_count] partners, or NULL. out_pairings: uint32_t[joint_count] HF_MIRROR_JOINT_*, or NULL. out_info:
- * NULL, or receives what was found. Errors: as hf_weights_transfer, HF_ERROR_EMPTY (no joint; no weight on the side
- * that gives), HF_ERROR_OUT_OF_RANGE (a partner, index = joint; a joint, index = vertex), HF_ERROR_INVALID_ARGUMENT
- * (names with another count of lines; a partner that has another partner, index = joint; a normal of length 0). Thread
- * safety: reads `surface`. Since 0.1. */
+ * NULL, or receives what was found. out_statistics: NULL, or receives how far all is off. Errors: as
+ * hf_weights_transfer, HF_ERROR_EMPTY (no joint; no weight on the side that gives), HF_ERROR_OUT_OF_RANGE (a partner,
+ * index = joint; a joint, index = vertex), HF_ERROR_INVALID_ARGUMENT (names with another count of lines; a partner that
+ * has another partner, index = joint; a normal of length 0). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_weights_mirror(hf_surface surface, const hf_weights_mirror_desc* desc,
                                    hf_weights_out* inout_weights, uint32_t* out_partners, uint32_t* out_pairings,
-                                   hf_weights_mirror_info* out_info);
+                                   hf_weights_mirror_info* out_info, hf_weights_mirror_statistics* out_statistics);
 
 #ifdef __cplusplus
 }

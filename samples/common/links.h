@@ -25,18 +25,18 @@ struct ModelLinks {
 
 // "66 pieces, joined by 824 links (8 light pieces; 2 stay apart)"; empty for a surface of one piece.
 inline std::string links_sentence(hf_surface surface) {
-  hf_surface_report report = HF_INIT(hf_surface_report);
-  if (hf_surface_get_report(surface, &report) != HF_OK || report.piece_count < 2) return {};
+  hf_links_info info = HF_INIT(hf_links_info);
+  if (hf_surface_get_links_info(surface, &info) != HF_OK || info.piece_count < 2) return {};
   const auto number = [](uint32_t count, const char* what) {
     return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
   };
-  std::string out = number(report.piece_count, "piece");
-  if (report.link_count == 0) return out + ", not linked: fields and poses end where a piece ends";
-  out += ", joined by " + number(report.link_count, "link");
+  std::string out = number(info.piece_count, "piece");
+  if (info.link_count == 0) return out + ", not linked: fields and poses end where a piece ends";
+  out += ", joined by " + number(info.link_count, "link");
   std::string more;
-  if (report.light_piece_count > 0) more = number(report.light_piece_count, "light piece");
-  if (report.lone_piece_count > 0)
-    more += (more.empty() ? "" : "; ") + std::to_string(report.lone_piece_count) + " too far from the others to join";
+  if (info.light_piece_count > 0) more = number(info.light_piece_count, "light piece");
+  if (info.lone_piece_count > 0)
+    more += (more.empty() ? "" : "; ") + std::to_string(info.lone_piece_count) + " too far from the others to join";
   return more.empty() ? out : out + " (" + more + ")";
 }
 

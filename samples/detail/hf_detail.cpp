@@ -121,6 +121,7 @@ struct Subject {
   }
   void print(const char* what) const {
     const hf_region_info info = region.info();
+    const hf_region_statistics work = region.statistics();
     std::printf("%-10s  %zu vertices, %zu triangles; factored in %.3f s\n", what, mesh.positions.size(),
                 mesh.triangles.size() / 3, create_seconds);
     std::printf("region      %u vertices, rim %u, sites %u; %s of area %.6g over %.6g, made in %.3f s\n",
@@ -129,7 +130,7 @@ struct Subject {
                 edit_seconds);
     if (grow_seconds >= 0)
       std::printf("grown       %u sites inserted, %u removed, %u kept in %.3f s; %u factorisations\n",
-                  info.inserted_count, info.removed_count, info.kept_count, grow_seconds, info.factorisation_count);
+                  work.inserted_count, work.removed_count, work.kept_count, grow_seconds, work.factorisation_count);
   }
   double create_seconds = 0, edit_seconds = 0, grow_seconds = -1;  // first: set while the surface is made
   SurfaceMesh mesh;

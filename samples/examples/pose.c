@@ -24,7 +24,9 @@ int main(int argc, char** argv) {
   ok(hf_pose_set_transform(pose, at_hip, &turned));
   hf_deform_info info = HF_INIT(hf_deform_info);
   ok(hf_deform(pose, posed, &info));
-  printf("%u clusters, solved in %.2f ms, vertices in %.2f ms\n", info.cluster_count, info.solve_ms, info.blend_ms);
+  hf_pose_statistics work = HF_INIT(hf_pose_statistics);
+  ok(hf_pose_get_statistics(pose, &work));
+  printf("%u clusters, solved in %.2f ms, vertices in %.2f ms\n", work.cluster_count, work.solve_ms, work.blend_ms);
   mesh_save(&mesh, posed, "pose.obj");
 
   /* a finer handle in the middle: nothing moves when it comes, then it bulges */

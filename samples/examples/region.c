@@ -44,7 +44,9 @@ int main(int argc, char** argv) {
   ok(hf_region_clone(region, &before));
   ok(hf_region_edit(region, &grow)); /* sites on the rim come and go; nothing is factorised */
   ok(hf_region_get_info(region, &info));
-  printf("%u vertices, rim of %u, %u factorisations\n", info.vertex_count, info.rim_count, info.factorisation_count);
+  hf_region_statistics work = HF_INIT(hf_region_statistics);
+  ok(hf_region_get_statistics(region, &work));
+  printf("%u vertices, rim of %u, %u factorisations\n", info.vertex_count, info.rim_count, work.factorisation_count);
   hf_region_destroy(region);
   region = before;
 

@@ -30,12 +30,16 @@ class Clock {
 void describe(hf_surface surface, double create_ms) {
   hf_surface_report report = HF_INIT(hf_surface_report);
   check(hf_surface_get_report(surface, &report));
+  hf_mesh_statistics mesh = HF_INIT(hf_mesh_statistics);
+  check(hf_surface_get_mesh_statistics(surface, &mesh));
+  hf_surface_info info = HF_INIT(hf_surface_info);
+  check(hf_surface_get_info(surface, &info));
   hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
   check(hf_surface_get_statistics(surface, &statistics));
   std::printf("mesh        %u vertices (%u welded), %u triangles, %u components\n", report.vertex_count,
               report.welded_vertex_count, report.triangle_count, report.component_count);
-  if (report.face_count)
-    std::printf("            %u faces, %u of more than three corners\n", report.face_count, report.polygon_count);
+  if (info.face_count)
+    std::printf("            %u faces, %u of more than three corners\n", info.face_count, mesh.polygon_count);
   const struct {
     uint32_t count;
     const char* name;
@@ -46,8 +50,8 @@ void describe(hf_surface surface, double create_ms) {
               {report.non_manifold_edge_count, "non-manifold edges"},
               {report.flipped_edge_count, "flipped edges"},
               {report.boundary_edge_count, "boundary edges"},
-              {report.negative_edge_count, "edges of negative weight"},
-              {report.non_planar_count, "faces that are not planar"},
+              {mesh.negative_edge_count, "edges of negative weight"},
+              {mesh.non_planar_count, "faces that are not planar"},
               {report.inside_out_count, "closed pieces that are inside out"}};
   for (const auto& entry : dirt) {
     if (entry.count) std::printf("            %u %s\n", entry.count, entry.name);

@@ -414,8 +414,8 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   json = to_json(first);
   bool factorised_again = false;
   if (!command.edits.empty()) {
-    const uint32_t before_source = session.info().source_factorisation_count,
-                   before_target = session.info().target_factorisation_count;
+    const uint32_t before_source = session.statistics().source_factorisation_count,
+                   before_target = session.statistics().target_factorisation_count;
     bar.begin("editing pairs");
     session.edit(edits);
     bar.end(std::to_string(edits.remove.size()) + " out, " + std::to_string(edits.add.size()) + " in");

@@ -517,6 +517,12 @@ hf_transfer_info Session::info() const {
   return out;
 }
 
+hf_transfer_statistics Session::statistics() const {
+  hf_transfer_statistics out = HF_INIT(hf_transfer_statistics);
+  check(hf_transfer_get_statistics(transfer_, &out), "the transfer");
+  return out;
+}
+
 hf_surface_report Session::mesh_report(hf_surface surface) {
   hf_surface_report out = HF_INIT(hf_surface_report);
   check(hf_surface_get_report(surface, &out), "mesh report");

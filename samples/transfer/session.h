@@ -123,6 +123,7 @@ class Session {
 
   // Of the surfaces and the transfer.
   hf_transfer_info info() const;
+  hf_transfer_statistics statistics() const;
   hf_surface_report source_mesh() const { return mesh_report(source_surface_->get()); }
   hf_surface_report target_mesh() const { return mesh_report(target_surface_->get()); }
   hf_surface source_surface() const { return source_surface_->get(); }

@@ -107,8 +107,8 @@ RunReport make_report(Session& session, const std::vector<PlayedClip>& clips, co
   out.setup_ms = session.setup_ms();
   out.prepare_ms = session.prepare_ms();
   out.edit_ms = session.edit_ms();
-  out.source_factorisations = session.info().source_factorisation_count;
-  out.target_factorisations = session.info().target_factorisation_count;
+  out.source_factorisations = session.statistics().source_factorisation_count;
+  out.target_factorisations = session.statistics().target_factorisation_count;
   return out;
 }
 

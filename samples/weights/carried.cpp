@@ -80,15 +80,16 @@ CarriedWeights mirror_given(const hf::Surface& surface, const Rig& rig, int32_t 
   options.influence_count = influence_count;
   options.to = to;
   auto info = hf::make<hf_weights_mirror_info>();
+  auto off = hf::make<hf_weights_mirror_statistics>();
   CarriedWeights out;
-  auto [found, partners, pairings] = hf::Weights::mirror(surface, options, &info);
+  auto [found, partners, pairings] = hf::Weights::mirror(surface, options, &info, &off);
   out.weights = taken(std::move(found));
   const double unit = 100 / rig.diagonal;
   out.report = {{"plane", plane_names[info.plane_from]},
                 {"point", {info.point[0], info.point[1], info.point[2]}},
                 {"normal", {info.normal[0], info.normal[1], info.normal[2]}},
-                {"joints_off", {{"mean", unit * info.joint_off}, {"worst", unit * info.worst_joint_off}}},
-                {"vertices_off", {{"mean", unit * info.vertex_off}, {"worst", unit * info.worst_vertex_off}}},
+                {"joints_off", {{"mean", unit * off.joint_off}, {"worst", unit * off.worst_joint_off}}},
+                {"vertices_off", {{"mean", unit * off.vertex_off}, {"worst", unit * off.worst_vertex_off}}},
                 {"kept", info.kept_count},
                 {"matched", info.matched_count},
                 {"solved", info.solved_count},
@@ -105,8 +106,8 @@ CarriedWeights mirror_given(const hf::Surface& surface, const Rig& rig, int32_t 
       "off\nvertices     %u kept, %u matched, %u filled in, %u guessed; off the surface: mean %.3f %%, worst "
       "%.2f %%",
       plane_names[info.plane_from], info.named_count, info.placed_count, info.centre_count, info.alone_count,
-      unit * info.worst_joint_off, info.kept_count, info.matched_count, info.solved_count,
-      info.nearest_count + info.rigid_count, unit * info.vertex_off, unit * info.worst_vertex_off);
+      unit * off.worst_joint_off, info.kept_count, info.matched_count, info.solved_count,
+      info.nearest_count + info.rigid_count, unit * off.vertex_off, unit * off.worst_vertex_off);
   out.line = line;
   return out;
 }

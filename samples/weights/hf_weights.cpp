@@ -205,6 +205,7 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
   edited.weights();
   const double pin_ms = milliseconds(middle);
   const hf_weights_info info = weights.info();
+  const hf_weights_statistics work = weights.statistics();
   nlohmann::json out;
   out["model"] = options.mesh.filename().string();
   out["vertices"] = info.vertex_count;
@@ -217,7 +218,7 @@ nlohmann::json report_of(const Command& options, const Rig& rig, const hf::Weigh
   out["found"] = {{"informed", info.informed_count},    {"solved", info.solved_count},
                   {"pinned", info.pinned_count},        {"carried", info.nearest_count},
                   {"rigid", info.rigid_count},          {"isolated", info.isolated_count},
-                  {"pieces", info.nearest_piece_count}, {"blind", info.blind}};
+                  {"pieces", work.nearest_piece_count}, {"blind", work.blind}};
   const auto [flags, counts] = weights.joints();
   const std::vector<uint32_t> reasons = weights.helpers(rig.names);
   out["bones"] = nlohmann::json::array();
@@ -292,6 +293,7 @@ Made make_weights(const Command& options, const Model& model, Rig& rig, bool giv
   if (options.helpers) print_helpers(rig, weights);
   const Comparison found = compare(model, rig, poses, made.weights);
   const hf_weights_info info = weights.info();
+  const hf_weights_statistics work = weights.statistics();
   if (options.table) {
     std::printf("%-26s %6u %4zu %7.3f %7.3f %6.3f %4u %5u %5u %7.1f %7.1f\n", name.c_str(), info.vertex_count,
                 rig.joint_count(), found.mean, found.high, found.stretch, found.bare,
@@ -312,8 +314,8 @@ Made make_weights(const Command& options, const Model& model, Rig& rig, bool giv
         info.informed_count, info.solved_count, info.pinned_count, info.nearest_count, info.rigid_count,
         info.isolated_count, found.bare);
     std::printf("bones        %u without length, %u coincident, %u inform none, %u outside, %u look like helpers\n",
-                info.no_length_count, info.coincident_count, info.informs_none_count, info.outside_count,
-                info.helper_count);
+                work.no_length_count, work.coincident_count, work.informs_none_count, work.outside_count,
+                work.helper_count);
     std::printf("time         surface %.1f ms, weights %.1f ms\n", surface_ms, weights_ms);
   }
   if (!options.report.empty()) {

@@ -24,7 +24,8 @@ struct PoseObject final : Object {
         handle_count(pose->handle_count()) {}
   std::shared_ptr<Memory> memory;  // outlives the pose
   std::shared_ptr<PoseStack> pose;
-  bool keeps_order;  // the library's vertices are the caller's: none welded, none isolated
+  hf_pose_statistics last{};  // of the last deform
+  bool keeps_order;           // the library's vertices are the caller's: none welded, none isolated
   // The handle count after the last finished change. Another thread may read it while a change runs.
   std::atomic<std::uint32_t> handle_count;
 };
@@ -114,16 +115,16 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const DeformReport report = pose->pose->deform(request);
   write_deformed(*pose, range, desc, request.surface, straight_normals, report);
   turn_normals(core.mesh, range, desc);
+  pose->last.cluster_count = report.cluster_count;
+  pose->last.solve_ms = report.solve_ms;
+  pose->last.blend_ms = report.blend_ms;
+  pose->last.normal_ms = report.normal_ms;
+  pose->last.refine_ms = report.refine_ms;
   if (!out_info) return;
   hf_deform_info info{};
   info.iteration_count = report.iteration_count;
-  info.cluster_count = report.cluster_count;
   info.unreached_vertex_count = report.unreached_vertex_count + core.mesh.report.isolated_vertex_count;
   info.last_change = report.last_change;
-  info.solve_ms = report.solve_ms;
-  info.blend_ms = report.blend_ms;
-  info.normal_ms = report.normal_ms;
-  info.refine_ms = report.refine_ms;
   write_struct(out_info, info);
 }
 
@@ -289,6 +290,15 @@ hf_result hf_pose_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_inf
   return guarded("hf_pose_deform", [&] {
     get<PoseObject>(pose, "pose");
     deform(pose, read_struct(desc, "desc"), out_info);
+  });
+}
+
+hf_result hf_pose_get_statistics(hf_pose handle, hf_pose_statistics* out_statistics) {
+  return guarded("hf_pose_get_statistics", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    check_struct(out_statistics, "out_statistics");
+    const Reading reading(*pose);
+    write_struct(out_statistics, pose->last);
   });
 }
 

@@ -62,23 +62,34 @@ hf_result hf_region_get_info(hf_region region, hf_region_info* out_info) {
     check_struct(out_info, "out_info");
     const Reading reading(*object);
     const RegionState& state = *object->region.state();
-    const EngineCounters counters = state.engine->counters();
     hf_region_info info{};
     info.field_kind = static_cast<std::int32_t>(object->region.core().field_kind);
     info.vertex_count = static_cast<std::uint32_t>(state.shape->inside.size());
     info.rim_count = static_cast<std::uint32_t>(state.shape->rim.size());
     info.site_count = static_cast<std::uint32_t>(state.shape->sites.size());
-    info.inserted_count = state.inserted;
-    info.removed_count = state.removed;
-    info.kept_count = state.kept;
-    info.factorisation_count = counters.factorisations - 1;  // the surface's own factor counts as one
-    info.path_solve_count = counters.path_solves;
-    info.last_route = static_cast<std::uint32_t>(counters.last_route);
-    info.whole_sweep = state.whole_sweep;
     const double scale = object->region.core().mesh.scale;
     info.area = state.area * scale * scale;
     info.base_area = state.base_area * scale * scale;
     write_struct(out_info, info);
+  });
+}
+
+hf_result hf_region_get_statistics(hf_region region, hf_region_statistics* out_statistics) {
+  return guarded("hf_region_get_statistics", [&] {
+    const auto object = get<RegionObject>(region, "region");
+    check_struct(out_statistics, "out_statistics");
+    const Reading reading(*object);
+    const RegionState& state = *object->region.state();
+    const EngineCounters counters = state.engine->counters();
+    hf_region_statistics statistics{};
+    statistics.inserted_count = state.inserted;
+    statistics.removed_count = state.removed;
+    statistics.kept_count = state.kept;
+    statistics.factorisation_count = counters.factorisations - 1;  // the surface's own factor counts as one
+    statistics.path_solve_count = counters.path_solves;
+    statistics.last_route = static_cast<std::uint32_t>(counters.last_route);
+    statistics.whole_sweep = state.whole_sweep;
+    write_struct(out_statistics, statistics);
   });
 }
 

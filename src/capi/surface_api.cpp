@@ -58,30 +58,48 @@ hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_repor
     report.non_manifold_edge_count = found.non_manifold_edge_count;
     report.flipped_edge_count = found.flipped_edge_count;
     report.boundary_edge_count = found.boundary_edge_count;
-    report.negative_edge_count = found.negative_edge_count;
-    report.smallest_angle = found.smallest_angle;
     report.bounding_box_diagonal = found.bounding_box_diagonal;
-    const Core& core = object->surface.own();
-    report.changed_vertex_count = core.changed_count;
-    report.first_changed_vertex = given_vertex(core.mesh, core.first_changed);
-    report.piece_count = object->surface.geometry().unlinked().mesh.report.component_count;
-    if (const Links* links = object->surface.geometry().links.get()) {
-      report.link_count = static_cast<std::uint32_t>(links->links.size());
-      report.light_piece_count = static_cast<std::uint32_t>(std::count(links->light.begin(), links->light.end(), 1));
-      report.lone_piece_count = static_cast<std::uint32_t>(links->alone_count);
-      report.longest_tree_link = core.mesh.scale * links->longest_tree_link;
-    } else {
-      report.lone_piece_count = report.piece_count > 1 ? report.piece_count : 0;
-    }
-    const Faces& faces = core.mesh.faces;
-    report.face_count = static_cast<std::uint32_t>(faces.given_size.size());
-    report.polygon_count = faces.polygon_count;
-    report.non_planar_count = faces.non_planar_count;
-    report.largest_face = faces.largest_size;
     const MeshReport& unlinked = object->surface.geometry().unlinked().mesh.report;
     report.inside_out_count = unlinked.inside_out_count;
-    report.first_inside_out_vertex = given_vertex(core.mesh, unlinked.first_inside_out);
+    report.first_inside_out_vertex = given_vertex(object->surface.geometry().mesh, unlinked.first_inside_out);
     write_struct(out_report, report);
+  });
+}
+
+hf_result hf_surface_get_mesh_statistics(hf_surface surface, hf_mesh_statistics* out_statistics) {
+  return guarded("hf_surface_get_mesh_statistics", [&] {
+    const auto object = get<SurfaceObject>(surface, "surface");
+    check_struct(out_statistics, "out_statistics");
+    const Core& core = object->surface.own();
+    const MeshReport& found = object->surface.geometry().mesh.report;
+    hf_mesh_statistics statistics{};
+    statistics.polygon_count = core.mesh.faces.polygon_count;
+    statistics.non_planar_count = core.mesh.faces.non_planar_count;
+    statistics.largest_face = core.mesh.faces.largest_size;
+    statistics.negative_edge_count = found.negative_edge_count;
+    statistics.changed_vertex_count = core.changed_count;
+    statistics.first_changed_vertex = given_vertex(core.mesh, core.first_changed);
+    statistics.smallest_angle = found.smallest_angle;
+    write_struct(out_statistics, statistics);
+  });
+}
+
+hf_result hf_surface_get_links_info(hf_surface surface, hf_links_info* out_info) {
+  return guarded("hf_surface_get_links_info", [&] {
+    const auto object = get<SurfaceObject>(surface, "surface");
+    check_struct(out_info, "out_info");
+    const Geometry& geometry = object->surface.geometry();
+    hf_links_info info{};
+    info.piece_count = geometry.unlinked().mesh.report.component_count;
+    if (const Links* links = geometry.links.get()) {
+      info.link_count = static_cast<std::uint32_t>(links->links.size());
+      info.light_piece_count = static_cast<std::uint32_t>(std::count(links->light.begin(), links->light.end(), 1));
+      info.lone_piece_count = static_cast<std::uint32_t>(links->alone_count);
+      info.longest_tree_link = geometry.mesh.scale * links->longest_tree_link;
+    } else {
+      info.lone_piece_count = info.piece_count > 1 ? info.piece_count : 0;
+    }
+    write_struct(out_info, info);
   });
 }
 

@@ -116,12 +116,23 @@ hf_result hf_transfer_get_info(hf_transfer handle, hf_transfer_info* out_info) {
       info.aligned_count += found.alignment_share > 0 ? 1u : 0u;
       info.crossed_count += found.crossed ? 1u : 0u;
     }
-    // The counter includes the surface's own factor as its first factorisation, so one is subtracted.
-    info.source_factorisation_count = object->transfer.source_counters().factorisations - 1;
-    info.target_factorisation_count = object->transfer.target_counters().factorisations - 1;
     info.scale = object->transfer.scale();
     info.scale_found = object->transfer.scale_found() ? 1 : 0;
     write_struct(out_info, info);
+  });
+}
+
+hf_result hf_transfer_get_statistics(hf_transfer handle, hf_transfer_statistics* out_statistics) {
+  return guarded("hf_transfer_get_statistics", [&] {
+    const auto object = get<TransferObject>(handle, "transfer");
+    check_struct(out_statistics, "out_statistics");
+    const Reading reading(*object);
+    const std::lock_guard<OwnedMutex> lock(object->preparing);
+    hf_transfer_statistics statistics{};
+    // The counter includes the surface's own factor as its first factorisation, so one is subtracted.
+    statistics.source_factorisation_count = object->transfer.source_counters().factorisations - 1;
+    statistics.target_factorisation_count = object->transfer.target_counters().factorisations - 1;
+    write_struct(out_statistics, statistics);
   });
 }
 

@@ -124,18 +124,30 @@ hf_result hf_weights_get_info(hf_weights handle, hf_weights_info* out_info) {
     info.nearest_count = counts.by_origin[HF_WEIGHTS_NEAREST];
     info.rigid_count = counts.by_origin[HF_WEIGHTS_RIGID];
     info.isolated_count = counts.by_origin[HF_WEIGHTS_ISOLATED];
-    info.nearest_piece_count = counts.pieces_carried + counts.pieces_rigid;
-    info.rigid_piece_count = counts.pieces_rigid;
-    info.blind = counts.blind;
-    const BoneFlagCounts bones = count_bone_flags(state.solution->faults);
-    info.no_length_count = bones.no_length;
-    info.coincident_count = bones.coincident;
-    info.informs_none_count = bones.informs_none;
-    info.outside_count = bones.outside;
-    info.helper_count = bones.helper;
-    info.factorisation_count = counts.factorisations;
-    info.path_solve_count = counts.path_solves;
     write_struct(out_info, info);
+  });
+}
+
+hf_result hf_weights_get_statistics(hf_weights handle, hf_weights_statistics* out_statistics) {
+  return guarded("hf_weights_get_statistics", [&] {
+    const auto object = get<WeightsObject>(handle, "weights");
+    check_struct(out_statistics, "out_statistics");
+    const Reading reading(*object);
+    const WeightState& state = object->weights.state();
+    const WeightCounts& counts = state.counts;
+    hf_weights_statistics statistics{};
+    statistics.nearest_piece_count = counts.pieces_carried + counts.pieces_rigid;
+    statistics.rigid_piece_count = counts.pieces_rigid;
+    statistics.blind = counts.blind;
+    const BoneFlagCounts bones = count_bone_flags(state.solution->faults);
+    statistics.no_length_count = bones.no_length;
+    statistics.coincident_count = bones.coincident;
+    statistics.informs_none_count = bones.informs_none;
+    statistics.outside_count = bones.outside;
+    statistics.helper_count = bones.helper;
+    statistics.factorisation_count = counts.factorisations;
+    statistics.path_solve_count = counts.path_solves;
+    write_struct(out_statistics, statistics);
   });
 }
 

@@ -27,11 +27,7 @@ void write_mirror_info(const MirroredWeights& made, const Mesh& mesh, hf_weights
   hf_weights_mirror_info info{};
   info.vertex_count = mesh.report.vertex_count;
   info.plane_from = static_cast<std::int32_t>(made.plane.from);
-  info.worst_vertex = given_vertex(mesh, made.worst);
   const BoneMisses bones = bone_misses(made.pairs, mesh.scale);
-  info.joint_off = bones.mean;
-  info.worst_joint_off = bones.worst;
-  info.worst_joint = bones.worst_joint;
   info.alone_count = bones.by[HF_MIRROR_JOINT_ALONE];
   info.named_count = bones.by[HF_MIRROR_JOINT_NAMED];
   info.placed_count = bones.by[HF_MIRROR_JOINT_PLACED];
@@ -46,9 +42,20 @@ void write_mirror_info(const MirroredWeights& made, const Mesh& mesh, hf_weights
   info.normal[0] = normal.x;
   info.normal[1] = normal.y;
   info.normal[2] = normal.z;
-  info.vertex_off = mesh.scale * made.mean_off;
-  info.worst_vertex_off = mesh.scale * made.worst_off;
   write_struct(out_info, info);
+}
+
+void write_mirror_statistics(const MirroredWeights& made, const Mesh& mesh,
+                             hf_weights_mirror_statistics* out_statistics) {
+  hf_weights_mirror_statistics statistics{};
+  const BoneMisses bones = bone_misses(made.pairs, mesh.scale);
+  statistics.worst_joint = bones.worst_joint;
+  statistics.worst_vertex = given_vertex(mesh, made.worst);
+  statistics.joint_off = bones.mean;
+  statistics.worst_joint_off = bones.worst;
+  statistics.vertex_off = mesh.scale * made.mean_off;
+  statistics.worst_vertex_off = mesh.scale * made.worst_off;
+  write_struct(out_statistics, statistics);
 }
 
 }  // namespace
@@ -77,7 +84,7 @@ hf_result hf_weights_get_helpers(hf_weights handle, const char* names, uint32_t 
 }
 
 hf_result hf_weights_transfer(hf_surface source, hf_surface target, const hf_weights_transfer_desc* given,
-                           hf_weights_out* inout_weights, hf_weights_transfer_info* out_info) {
+                              hf_weights_out* inout_weights, hf_weights_transfer_info* out_info) {
   return guarded("hf_weights_transfer", [&] {
     const auto from = mesh_surface(source, "carried weights", "source");
     const auto to = mesh_surface(target, "carried weights", "target");
@@ -105,17 +112,19 @@ hf_result hf_weights_transfer(hf_surface source, hf_surface target, const hf_wei
 }
 
 hf_result hf_weights_mirror(hf_surface handle, const hf_weights_mirror_desc* given, hf_weights_out* inout_weights,
-                            uint32_t* out_partners, uint32_t* out_pairings, hf_weights_mirror_info* out_info) {
+                            uint32_t* out_partners, uint32_t* out_pairings, hf_weights_mirror_info* out_info,
+                            hf_weights_mirror_statistics* out_statistics) {
   return guarded("hf_weights_mirror", [&] {
     const auto surface = mesh_surface(handle, "mirrored weights");
     const hf_weights_mirror_desc desc = read_struct(given, "desc");
     if (out_info) check_struct(out_info, "out_info");
+    if (out_statistics) check_struct(out_statistics, "out_statistics");
     const Mesh& mesh = surface->surface.geometry().mesh;
     const MirrorOptions options = read_mirror(desc, mesh);
     const MirrorBones bones = read_mirror_bones(desc, mesh, *surface->memory);
     const GivenWeights weights = read_mirrored(desc, mesh);
     const hf_weights_out out = read_weights_out(inout_weights, mesh, options.carry.influences);
-    if (!wants_weights(out) && !out_partners && !out_pairings && !out_info) return;
+    if (!wants_weights(out) && !out_partners && !out_pairings && !out_info && !out_statistics) return;
     const MirroredWeights made = with_progress(desc.progress, [&] {
       const auto core = skin_core(*surface);
       const ProgressRange range(progress_core, 1.0f);
@@ -128,6 +137,7 @@ hf_result hf_weights_mirror(hf_surface handle, const hf_weights_mirror_desc* giv
       if (out_pairings) out_pairings[b] = static_cast<std::uint32_t>(made.pairs.by[b]);
     }
     if (out_info) write_mirror_info(made, mesh, out_info);
+    if (out_statistics) write_mirror_statistics(made, mesh, out_statistics);
   });
 }
 

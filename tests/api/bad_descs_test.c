@@ -353,22 +353,44 @@ static void fill_mirror(void* d) {
 }
 static hf_result weights_mirror(void* d) {
   hf_weights_out out = HF_INIT(hf_weights_out);
-  return hf_weights_mirror(scene.body, d, &out, NULL, NULL, NULL);
+  return hf_weights_mirror(scene.body, d, &out, NULL, NULL, NULL, NULL);
 }
 static hf_result weights_mirror_out(void* d) {
   hf_weights_mirror_desc desc;
   fill_mirror(&desc);
-  return hf_weights_mirror(scene.body, &desc, d, NULL, NULL, NULL);
+  return hf_weights_mirror(scene.body, &desc, d, NULL, NULL, NULL, NULL);
 }
 static void fill_mirror_info(void* d) { *(hf_weights_mirror_info*)d = HF_INIT(hf_weights_mirror_info); }
 static hf_result weights_mirror_info(void* d) {
   hf_weights_mirror_desc desc;
   hf_weights_out out = HF_INIT(hf_weights_out);
   fill_mirror(&desc);
-  return hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, d);
+  return hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, d, NULL);
 }
 static void fill_weights_info(void* d) { *(hf_weights_info*)d = HF_INIT(hf_weights_info); }
 static hf_result weights_info(void* d) { return hf_weights_get_info(scene.weights, d); }
+
+static void fill_mirror_statistics(void* d) {
+  *(hf_weights_mirror_statistics*)d = HF_INIT(hf_weights_mirror_statistics);
+}
+static hf_result weights_mirror_statistics(void* d) {
+  hf_weights_mirror_desc desc;
+  hf_weights_out out = HF_INIT(hf_weights_out);
+  fill_mirror(&desc);
+  return hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, NULL, d);
+}
+static void fill_links_info(void* d) { *(hf_links_info*)d = HF_INIT(hf_links_info); }
+static hf_result links_info(void* d) { return hf_surface_get_links_info(scene.sheet, d); }
+static void fill_mesh_statistics(void* d) { *(hf_mesh_statistics*)d = HF_INIT(hf_mesh_statistics); }
+static hf_result mesh_statistics(void* d) { return hf_surface_get_mesh_statistics(scene.sheet, d); }
+static void fill_weights_statistics(void* d) { *(hf_weights_statistics*)d = HF_INIT(hf_weights_statistics); }
+static hf_result weights_statistics(void* d) { return hf_weights_get_statistics(scene.weights, d); }
+static void fill_region_statistics(void* d) { *(hf_region_statistics*)d = HF_INIT(hf_region_statistics); }
+static hf_result region_statistics(void* d) { return hf_region_get_statistics(scene.region, d); }
+static void fill_pose_statistics(void* d) { *(hf_pose_statistics*)d = HF_INIT(hf_pose_statistics); }
+static hf_result pose_statistics(void* d) { return hf_pose_get_statistics(scene.pose, d); }
+static void fill_transfer_statistics(void* d) { *(hf_transfer_statistics*)d = HF_INIT(hf_transfer_statistics); }
+static hf_result transfer_statistics(void* d) { return hf_transfer_get_statistics(scene.transfer, d); }
 
 static const struct {
   const char* what; /* function and argument */
@@ -449,6 +471,18 @@ static const struct {
     {"hf_weights_mirror: desc", sizeof(hf_weights_mirror_desc), fill_mirror, weights_mirror, 0},
     {"hf_weights_mirror: inout_weights", sizeof(hf_weights_out), fill_weights_out, weights_mirror_out, 0},
     {"hf_weights_mirror: out_info", sizeof(hf_weights_mirror_info), fill_mirror_info, weights_mirror_info, 1},
+    {"hf_weights_mirror: out_statistics", sizeof(hf_weights_mirror_statistics), fill_mirror_statistics,
+     weights_mirror_statistics, 1},
+    {"hf_surface_get_links_info: out_info", sizeof(hf_links_info), fill_links_info, links_info, 0},
+    {"hf_surface_get_mesh_statistics: out_statistics", sizeof(hf_mesh_statistics), fill_mesh_statistics,
+     mesh_statistics, 0},
+    {"hf_weights_get_statistics: out_statistics", sizeof(hf_weights_statistics), fill_weights_statistics,
+     weights_statistics, 0},
+    {"hf_region_get_statistics: out_statistics", sizeof(hf_region_statistics), fill_region_statistics,
+     region_statistics, 0},
+    {"hf_pose_get_statistics: out_statistics", sizeof(hf_pose_statistics), fill_pose_statistics, pose_statistics, 0},
+    {"hf_transfer_get_statistics: out_statistics", sizeof(hf_transfer_statistics), fill_transfer_statistics,
+     transfer_statistics, 0},
 };
 
 enum { SPACE = 5000 };

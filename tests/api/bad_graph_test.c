@@ -243,7 +243,7 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   NEEDS("skin weights", NO_INDEX, hf_weights_create(graph, &bones, 4, &weights));
   NEEDS("weights carried from a graph", NO_INDEX, hf_weights_transfer(graph, scene.body, &carry, &skin, NULL));
   NEEDS("weights carried to a graph", NO_INDEX, hf_weights_transfer(scene.body, graph, &carry, &skin, NULL));
-  NEEDS("mirrored weights", NO_INDEX, hf_weights_mirror(graph, &mirror, &skin, NULL, NULL, NULL));
+  NEEDS("mirrored weights", NO_INDEX, hf_weights_mirror(graph, &mirror, &skin, NULL, NULL, NULL, NULL));
   NEEDS("streamlines", NO_INDEX, hf_flow_create(graph, &flow));
   NEEDS("a transfer from a graph", 0, hf_transfer_create(graph, scene.body, NULL, &transfer));
   NEEDS("a transfer to a graph", 1, hf_transfer_create(scene.body, graph, NULL, &transfer));
@@ -300,6 +300,12 @@ static void surfaces_of_graphs_do_all_else(void** state) {
   assert_int_equal(info.weld, HF_WELD_NONE);
   assert_true(info.vertex_count == VERTICES && info.edge_count == EDGES && info.triangle_count == 0);
   assert_ok(hf_surface_get_report(graph, &report));
+  hf_mesh_statistics mesh = HF_INIT(hf_mesh_statistics);
+  hf_links_info links = HF_INIT(hf_links_info);
+  assert_ok(hf_surface_get_mesh_statistics(graph, &mesh));
+  assert_ok(hf_surface_get_links_info(graph, &links));
+  assert_int_equal(mesh.polygon_count + mesh.negative_edge_count + mesh.changed_vertex_count, 0);
+  assert_int_equal(links.link_count, 0);
   assert_true(report.component_count == 2 && report.isolated_vertex_count == 1 && report.triangle_count == 0);
   assert_true(report.welded_vertex_count == VERTICES && report.boundary_edge_count == 0);
   assert_ok(hf_surface_get_components(graph, VERTICES, components, &count));

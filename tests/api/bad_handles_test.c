@@ -354,11 +354,31 @@ static hf_result weights_mirror(void* h) {
   desc.joints = given.joints;
   desc.weights = given.weights;
   hf_weights_out out = HF_INIT(hf_weights_out);
-  return hf_weights_mirror(h, &desc, &out, NULL, NULL, NULL);
+  return hf_weights_mirror(h, &desc, &out, NULL, NULL, NULL, NULL);
 }
 static hf_result weights_get_info(void* h) {
   hf_weights_info info = HF_INIT(hf_weights_info);
   return hf_weights_get_info(h, &info);
+}
+static hf_result links_info(void* h) {
+  hf_links_info out = HF_INIT(hf_links_info);
+  return hf_surface_get_links_info(h, &out);
+}
+static hf_result mesh_statistics(void* h) {
+  hf_mesh_statistics out = HF_INIT(hf_mesh_statistics);
+  return hf_surface_get_mesh_statistics(h, &out);
+}
+static hf_result weights_statistics(void* h) {
+  hf_weights_statistics out = HF_INIT(hf_weights_statistics);
+  return hf_weights_get_statistics(h, &out);
+}
+static hf_result pose_statistics(void* h) {
+  hf_pose_statistics out = HF_INIT(hf_pose_statistics);
+  return hf_pose_get_statistics(h, &out);
+}
+static hf_result transfer_statistics(void* h) {
+  hf_transfer_statistics out = HF_INIT(hf_transfer_statistics);
+  return hf_transfer_get_statistics(h, &out);
 }
 
 static hf_result progress_get(void* h) {
@@ -466,6 +486,11 @@ static const struct {
     {"hf_weights_get", WEIGHTS, weights_get, NO_INDEX},
     {"hf_weights_get_joints", WEIGHTS, weights_get_bones, NO_INDEX},
     {"hf_weights_get_info", WEIGHTS, weights_get_info, NO_INDEX},
+    {"hf_surface_get_links_info", SURFACE, links_info, NO_INDEX},
+    {"hf_surface_get_mesh_statistics", SURFACE, mesh_statistics, NO_INDEX},
+    {"hf_weights_get_statistics", WEIGHTS, weights_statistics, NO_INDEX},
+    {"hf_pose_get_statistics", POSE, pose_statistics, NO_INDEX},
+    {"hf_transfer_get_statistics", TRANSFER, transfer_statistics, NO_INDEX},
     {"hf_weights_get_helpers", WEIGHTS, weights_get_helpers, NO_INDEX},
     {"hf_weights_transfer", SURFACE, weights_carry_from, NO_INDEX},
     {"hf_weights_transfer", SURFACE, weights_carry_to, NO_INDEX},

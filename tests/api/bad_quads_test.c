@@ -67,6 +67,10 @@ static hf_result region_get_info(void* h) {
   hf_region_info info = HF_INIT(hf_region_info);
   return hf_region_get_info(h, &info);
 }
+static hf_result region_get_statistics(void* h) {
+  hf_region_statistics statistics = HF_INIT(hf_region_statistics);
+  return hf_region_get_statistics(h, &statistics);
+}
 static hf_result region_get_vertices(void* h) {
   return hf_region_get_vertices(h, HF_REGION_INSIDE, TUBE_VERTICES, numbers, NULL);
 }
@@ -91,12 +95,17 @@ static void quads_flow_and_regions_refuse_every_handle_that_is_not_their_own(voi
     const char* function;
     hf_result (*call)(void*);
     void* own;
-  } functions[] = {
-      {"hf_quads_create", quads_create, surface},        {"hf_quads_update", quads_update, quads},
-      {"hf_quads_get_info", quads_get_info, quads},      {"hf_quads_get_mesh", quads_get_mesh, quads},
-      {"hf_flow_create", flow_create, surface},          {"hf_flow_trace", flow_trace, flow},
-      {"hf_region_get_info", region_get_info, region},   {"hf_region_get_vertices", region_get_vertices, region},
-      {"hf_region_get_curve", region_get_curve, region}, {"hf_detail_morph", detail_morph, &stale}};
+  } functions[] = {{"hf_quads_create", quads_create, surface},
+                   {"hf_quads_update", quads_update, quads},
+                   {"hf_quads_get_info", quads_get_info, quads},
+                   {"hf_quads_get_mesh", quads_get_mesh, quads},
+                   {"hf_flow_create", flow_create, surface},
+                   {"hf_flow_trace", flow_trace, flow},
+                   {"hf_region_get_statistics", region_get_statistics, region},
+                   {"hf_region_get_info", region_get_info, region},
+                   {"hf_region_get_vertices", region_get_vertices, region},
+                   {"hf_region_get_curve", region_get_curve, region},
+                   {"hf_detail_morph", detail_morph, &stale}};
   void* const bad[] = {
       NULL, (void*)UINTPTR_MAX, (void*)(uintptr_t)1, &on_the_stack, stale, surface, solver, quads, flow, region};
   for (size_t f = 0; f < COUNT_OF(functions); ++f) {

@@ -52,10 +52,10 @@ static void a_mirror_takes_1048576_joints(void** state) {
   desc.source_influence_count = 1;
   desc.joint_count = MOST;
   heads[3 * ((size_t)MOST - 1)] = NAN;
-  assert_code(HF_ERROR_NON_FINITE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL));
+  assert_code(HF_ERROR_NON_FINITE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL, NULL));
   assert_named("joint 1048575");
   desc.joint_count = MOST + 1;
-  assert_code(HF_ERROR_TOO_LARGE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL));
+  assert_code(HF_ERROR_TOO_LARGE, hf_weights_mirror(surface, &desc, &out, NULL, NULL, NULL, NULL));
   assert_named("joint_count is 1048577; the limit is 1048576");
   free(heads);
   free(joints);
@@ -336,7 +336,7 @@ static void refused_handles_say_what_to_do(void** state) {
   assert_ok(hf_pose_create(surface, NULL, &pose));
   const double at[3] = {1, 4, 0}, far[3] = {1, 19000, 0};
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_pose_add_handle_at(pose, at, -1, NULL));
-  assert_named("the radius of point 0 is -1");
+  assert_named("the radius of place 0 is -1");
   assert_code(HF_ERROR_INVALID_ARGUMENT, hf_pose_add_handle_at(pose, at, 1e-6, NULL));
   assert_named("the next vertex is 0.5");
   assert_code(HF_ERROR_TOO_LARGE, hf_pose_add_handle_at(pose, far, 1, NULL));

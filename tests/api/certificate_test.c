@@ -314,10 +314,10 @@ static void very_soft_sites_pass(void** state) {
 static void weights_that_a_rule_set_are_counted(void** state) {
   (void)state;
   hf_surface surface = surface_on(&tube);
-  hf_surface_report report = HF_INIT(hf_surface_report);
-  assert_ok(hf_surface_get_report(surface, &report));
-  assert_int_equal(report.changed_vertex_count, 0);
-  assert_int_equal(report.first_changed_vertex, NO_INDEX);
+  hf_mesh_statistics found = HF_INIT(hf_mesh_statistics);
+  assert_ok(hf_surface_get_mesh_statistics(surface, &found));
+  assert_int_equal(found.changed_vertex_count, 0);
+  assert_int_equal(found.first_changed_vertex, NO_INDEX);
   hf_surface_destroy(surface);
   /* two unit squares with a column of this width between them */
   const double widths[2] = {1e-9, 1e-12};
@@ -339,10 +339,10 @@ static void weights_that_a_rule_set_are_counted(void** state) {
       desc.surface.triangle_count = 6;
       desc.surface.operator_kind = operator_kind;
       assert_ok(hf_surface_create(&desc.surface, &surface));
-      assert_ok(hf_surface_get_report(surface, &report));
+      assert_ok(hf_surface_get_mesh_statistics(surface, &found));
       const int kept = operator_kind == HF_OPERATOR_UNIFORM || w == 0;
-      assert_true(kept ? report.changed_vertex_count == 0 : report.changed_vertex_count >= 4);
-      assert_int_equal(report.first_changed_vertex, kept ? NO_INDEX : 1);
+      assert_true(kept ? found.changed_vertex_count == 0 : found.changed_vertex_count >= 4);
+      assert_int_equal(found.first_changed_vertex, kept ? NO_INDEX : 1);
       hf_surface_destroy(surface);
     }
   }

@@ -45,7 +45,9 @@ static void the_report_counts_what_was_found(void** state) {
   assert_int_equal(r.non_manifold_edge_count, 0);
   assert_int_equal(r.flipped_edge_count, 0);
   assert_int_equal(r.boundary_edge_count, 2 * (8 + 4) + 2 * (2 + 2));
-  assert_true(r.smallest_angle > 0.1 && r.smallest_angle < 1.0472);
+  hf_mesh_statistics s = HF_INIT(hf_mesh_statistics);
+  assert_ok(hf_surface_get_mesh_statistics(surface, &s));
+  assert_true(s.smallest_angle > 0.1 && s.smallest_angle < 1.0472);
   assert_true(r.bounding_box_diagonal > 22 && r.bounding_box_diagonal < 23); /* the isolated vertex lies at 30 */
   hf_surface_destroy(surface);
   surface_free(&cut);
@@ -113,7 +115,7 @@ static void closed_pieces_that_face_inwards_are_counted(void** state) {
   } cases[] = {{0, 0, 0, 0, HF_NO_INDEX}, {1, 0, 0, 1, 0}, {0, 1, 0, 1, 4}, {1, 1, 0, 2, 0}, {0, 1, 1, 0, HF_NO_INDEX}};
   for (uint32_t i = 0; i < 5; ++i) {
     const hf_surface_report report = report_of_tetrahedra(cases[i].first, cases[i].second, cases[i].open);
-    assert_int_equal(report.piece_count, 2);
+    assert_int_equal(report.component_count, 2);
     assert_int_equal(report.inside_out_count, cases[i].count);
     assert_int_equal(report.first_inside_out_vertex, cases[i].vertex);
   }

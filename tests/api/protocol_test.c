@@ -235,7 +235,7 @@ static hf_result weights_mirror(Call* c) {
   desc.source_influence_count = 1;
   desc.joints = one_joint;
   desc.weights = one_share;
-  const hf_result r = hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, NULL);
+  const hf_result r = hf_weights_mirror(scene.body, &desc, &out, NULL, NULL, NULL, NULL);
   c->count[0] = out.vertex_count;
   return r;
 }

@@ -4,6 +4,7 @@
 #include <pthread.h>
 
 #include "api_support.h"
+#include "support/place_in.h"
 
 enum { COLUMNS = 60, ROWS_ = 50, VERTICES = (COLUMNS + 1) * (ROWS_ + 1) };
 
@@ -159,11 +160,11 @@ static void assert_unchanged(const Seen* before, hf_surface surface, hf_solver s
     free(before.field);                                      \
   } while (0)
 
-static hf_result add_point(hf_solver solver, uint32_t triangle, const double* weights, double value) {
+static hf_result add_point(hf_solver solver, const uint32_t* corners, const double* weights, double value) {
+  const hf_place place = place_in(corners, 1, 0, weights);
   hf_sites_desc sites = HF_INIT(hf_sites_desc);
   sites.site_count = 1;
-  sites.triangles = &triangle;
-  sites.barycentrics = weights;
+  sites.places = &place;
   sites.values = &value;
   return hf_add_sites(solver, &sites, NULL);
 }
@@ -185,8 +186,8 @@ static void a_refused_edit_leaves_a_waiting_rebase_where_it_is(void** state) {
   REFUSED(HF_ERROR_CONFLICT, hf_solver_add_site(solver, taken, &value, NULL));
   sites = sites_at(1, &taken, NULL);
   REFUSED(HF_ERROR_CONFLICT, hf_solver_move_sites(solver, 1, &first, &sites));
-  REFUSED(HF_ERROR_CONFLICT, add_point(solver, 0, weights, value)); /* the engines refuse this one */
-  assert_ok(hf_solver_set_values(solver, 1, &first, &value));       /* takes it over */
+  REFUSED(HF_ERROR_CONFLICT, add_point(solver, sheet.triangles, weights, value)); /* the engines refuse this one */
+  assert_ok(hf_solver_set_values(solver, 1, &first, &value));                     /* takes it over */
   assert_int_equal(statistics_of(solver).eliminated_count, 3);
   hf_solver_destroy(solver);
   hf_surface_destroy(surface);
@@ -211,7 +212,7 @@ static void a_point_and_its_corners_are_refused_on_every_route(void** state) {
   take_many(&sheet, 1000, vertices);
   /* in one batch: its route is the rebase */
   hf_solver solver = solver_on(surface);
-  assert_ok(add_point(solver, 0, weights, 1));
+  assert_ok(add_point(solver, sheet.triangles, weights, 1));
   for (uint32_t count = 3; count <= MANY; count = count == 3 ? 100 : count + 20) {
     const hf_sites_desc sites = sites_at(count, vertices, values);
     REFUSED(HF_ERROR_CONFLICT, hf_add_sites(solver, &sites, NULL));

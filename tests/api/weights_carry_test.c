@@ -57,15 +57,18 @@ static int nothing_is_written(void) {
 #define GOOD good
 #define UNCHANGED() (weights_unchanged(&scene) && nothing_is_written())
 /* What both read alike. */
-#define BOTH(what, expected, index, change)                                                             \
+#define BOTH(what, expected, index, change)                                                                \
   ROW(what, expected, index, change, hf_weights_transfer(scene.body, scene.body, &carry, &out, &carried)); \
-  ROW(what, expected, index, change, hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored))
+  ROW(what, expected, index, change,                                                                       \
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL))
 
 static void bad_weights_are_named(void** state) {
   (void)state;
   scene_create(&scene);
-  BOTH("no influence", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, carry.source_influence_count = mirror.source_influence_count = 0);
-  BOTH("65 influences", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, carry.source_influence_count = mirror.source_influence_count = 65);
+  BOTH("no influence", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+       carry.source_influence_count = mirror.source_influence_count = 0);
+  BOTH("65 influences", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+       carry.source_influence_count = mirror.source_influence_count = 65);
   BOTH("joints NULL", HF_ERROR_NULL_POINTER, NO_INDEX, carry.joints = mirror.joints = NULL);
   BOTH("weights NULL", HF_ERROR_NULL_POINTER, NO_INDEX, carry.weights = mirror.weights = NULL);
   BOTH("a weight is NaN", HF_ERROR_NON_FINITE, 7, weights[15] = NAN);
@@ -99,29 +102,29 @@ static void bad_mirrors_are_named(void** state) {
   (void)state;
   scene_create(&scene);
   ROW("no bone", HF_ERROR_EMPTY, NO_INDEX, mirror.joint_count = 0,
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("too many bones", HF_ERROR_TOO_LARGE, NO_INDEX, mirror.joint_count = UINT32_MAX,
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("heads NULL", HF_ERROR_NULL_POINTER, NO_INDEX, mirror.heads = NULL,
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("a head is NaN", HF_ERROR_NON_FINITE, 2, heads[7] = NAN,
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("two lines for three bones", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, mirror.names = "a\nb\n",
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("a partner beyond the bones", HF_ERROR_OUT_OF_RANGE, 1, partners[1] = 3,
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("a partner of another", HF_ERROR_INVALID_ARGUMENT, 0, (partners[0] = 1, partners[1] = 2),
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("a plane with NaN", HF_ERROR_NON_FINITE, NO_INDEX, plane[1] = NAN,
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("a normal without length", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, plane[3] = 0,
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("a side that is none", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, mirror.to = 3,
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("a joint beyond the bones", HF_ERROR_OUT_OF_RANGE, 4, joints[8] = 3,
-      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+      hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   ROW("out NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
-      hf_weights_mirror(scene.body, &mirror, NULL, NULL, NULL, NULL));
+      hf_weights_mirror(scene.body, &mirror, NULL, NULL, NULL, NULL, NULL));
   ROW("helpers: names of two bones", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0,
       hf_weights_get_helpers(scene.weights, "a\nb", 3, reasons, NULL));
   ROW("helpers: a small capacity", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
@@ -153,7 +156,7 @@ static void weights_are_carried_mirrored_and_helpers_named(void** state) {
   plane[4] = 2;
   partners[0] = 2;
   carry.influence_count = 8;
-  assert_ok(hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+  assert_ok(hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   assert_int_equal(out_partners[0], 2);
   assert_int_equal(out_partners[2], 0);
   assert_int_equal(pairings[0], HF_MIRROR_JOINT_GIVEN);
@@ -162,7 +165,7 @@ static void weights_are_carried_mirrored_and_helpers_named(void** state) {
   assert_int_equal(mirrored.given_count, 2);
   mirror.plane = NULL;
   mirror.partners = NULL;
-  assert_ok(hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored));
+  assert_ok(hf_weights_mirror(scene.body, &mirror, &out, out_partners, pairings, &mirrored, NULL));
   assert_true(mirrored.plane_from == HF_MIRROR_PLANE_SURFACE);
   scene_destroy(&scene);
 }

@@ -68,7 +68,7 @@ json hard_sites(const Mesh& mesh, const Run& run, Report& report) {
   std::vector<hf_place> places;
   std::vector<double> values;
   for (const uint32_t t : triangles) {
-    places.push_back(place_in(mesh.triangles.data(), mesh.triangle_count(), t, weights));
+    places.push_back(place_in(mesh.triangles.data(), static_cast<uint32_t>(mesh.triangles.size() / 3), t, weights));
     values.push_back(value_of(t));
   }
   hf_sites_desc points = HF_INIT(hf_sites_desc);

@@ -75,14 +75,15 @@ class Rig {
     hf_transform transform = {{std::sin(0.3 * t), 0, 0, std::cos(0.3 * t)}, {0, 0.2 * t, 0}};
     check(hf_pose_set_transforms(pose, 1, &handle, &transform));
   }
-  hf_deform_info deform(bool refine = false) {
+  hf_pose_statistics deform(bool refine = false) {
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
     desc.positions = positions.data();
     desc.normals = normals.data();
     desc.refine = refine;
-    hf_deform_info info = HF_INIT(hf_deform_info);
-    check(hf_pose_deform(pose, &desc, &info));
-    return info;
+    check(hf_pose_deform(pose, &desc, nullptr));
+    hf_pose_statistics times = HF_INIT(hf_pose_statistics);
+    check(hf_pose_get_statistics(pose, &times));
+    return times;
   }
 
   hf_pose pose = nullptr;
@@ -97,7 +98,7 @@ struct FrameTimes {
 FrameTimes drag(Rig& rig, uint32_t frames, bool refine) {
   FrameTimes out;
   for (uint32_t f = 0; f < frames; ++f) {
-    hf_deform_info info;
+    hf_pose_statistics info;
     out.frame.push_back(time_ms([&] {
       rig.move(rig.handles[1], std::sin(0.1 * (f + 1)));
       info = rig.deform(refine);

@@ -38,6 +38,11 @@ class Region {
     check(hf_region_get_info(handle_, &info));
     return info;
   }
+  hf_region_statistics statistics() const {
+    hf_region_statistics statistics = HF_INIT(hf_region_statistics);
+    check(hf_region_get_statistics(handle_, &statistics));
+    return statistics;
+  }
   std::vector<uint32_t> vertices(int32_t list) const {
     const hf_region_info counts = info();
     std::vector<uint32_t> found(list == HF_REGION_INSIDE ? counts.vertex_count
@@ -66,7 +71,7 @@ void prepare(const Region& region, uint32_t vertex, uint32_t wanted) {
   for (int32_t ring = 0; ring < 2000; ++ring) {
     const Region probe(region);
     probe.grow(step);
-    if (probe.info().inserted_count >= wanted) return;
+    if (probe.statistics().inserted_count >= wanted) return;
     region.grow(ring == 0 ? 4 : 1);
   }
 }
@@ -74,6 +79,7 @@ void prepare(const Region& region, uint32_t vertex, uint32_t wanted) {
 struct Growth {
   double update_ms = 0, morph_ms = 0;
   hf_region_info info{};
+  hf_region_statistics work{};
   std::vector<uint32_t> before, after;  // rims
   std::vector<uint32_t> inside;
 };
@@ -93,6 +99,7 @@ Growth measure(const Solver& solver, uint32_t vertex, uint32_t wanted, uint32_t 
       morph.push_back(drawn);
     }  // the first one warms
     growth.info = copy.info();
+    growth.work = copy.statistics();
     growth.after = copy.vertices(HF_REGION_RIM);
     growth.inside = copy.vertices(HF_REGION_INSIDE);
   }
@@ -158,20 +165,20 @@ Rows run_detail(const Run& run, Report& report) {
         "%-14s membrane of %u vertices, %u sites in, %u out: %6.2f ms (drawn with normals %5.2f)   CHOLMOD again %7.1f "
         "= "
         "%4.1f x   engine refactor %6.1f = %4.1f x   new solver %7.1f = %5.1f x\n",
-        mesh->name.c_str(), grown.info.vertex_count, grown.info.inserted_count, grown.info.removed_count,
+        mesh->name.c_str(), grown.info.vertex_count, grown.work.inserted_count, grown.work.removed_count,
         grown.update_ms, grown.morph_ms, recompute, recompute / grown.update_ms, refactor, refactor / grown.update_ms,
         fresh, fresh / grown.update_ms);
     std::printf("%-14s thin plate of %u vertices, %u sites in, %u out: %6.2f ms   new solver %7.1f = %5.1f x\n", "",
-                plate.info.vertex_count, plate.info.inserted_count, plate.info.removed_count, plate.update_ms,
+                plate.info.vertex_count, plate.work.inserted_count, plate.work.removed_count, plate.update_ms,
                 fresh_plate, fresh_plate / plate.update_ms);
     std::fflush(stdout);
     if (!run.small && recompute > 0)
       report.measure("region_grown", mesh->name, run.threads, recompute / grown.update_ms);
     rows.push_back({{"name", mesh->name},
                     {"n", mesh->vertex_count()},
-                    {"inserted", grown.info.inserted_count},
-                    {"removed", grown.info.removed_count},
-                    {"factorisations", grown.info.factorisation_count},
+                    {"inserted", grown.work.inserted_count},
+                    {"removed", grown.work.removed_count},
+                    {"factorisations", grown.work.factorisation_count},
                     {"update_ms", grown.update_ms},
                     {"morph_ms", grown.morph_ms},
                     {"recompute_ms", recompute},

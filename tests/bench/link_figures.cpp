@@ -422,12 +422,14 @@ void report(const std::string& file, const std::string& pictures, Extent extent)
              linked = make_surface_of(scene, &links.desc, times_count, &linked_ms);
   hf_surface_report found = HF_INIT(hf_surface_report);
   ok(hf_surface_get_report(linked, &found));
+  hf_links_info joined = HF_INIT(hf_links_info);
+  ok(hf_surface_get_links_info(linked, &joined));
   hf_surface_statistics before = HF_INIT(hf_surface_statistics), after = HF_INIT(hf_surface_statistics);
   ok(hf_surface_get_statistics(plain, &before));
   ok(hf_surface_get_statistics(linked, &after));
-  std::vector<hf_link> list(found.link_count);
+  std::vector<hf_link> list(joined.link_count);
   uint32_t count = 0;
-  ok(hf_surface_get_links(linked, found.link_count, list.data(), &count));
+  ok(hf_surface_get_links(linked, joined.link_count, list.data(), &count));
   const std::string name = file.substr(file.find_last_of('/') + 1);
   if (extent == Extent::surfaces) {
     std::printf("%-26s %u links, %016llx\n", name.c_str(), count, static_cast<unsigned long long>(hash_of(list)));
@@ -468,8 +470,8 @@ void report(const std::string& file, const std::string& pictures, Extent extent)
   std::printf(
       "| %-26s | %5u | %3u | %3u | %4u | %2u | %5.2f | %5.2f / %5.1f | %6.3f / %5.2f | %4.2f | %5.2f | %5.2f | %+3.0f "
       "%% | %4u | %s | %s | %.3f | %.5f |%s\n",
-      name.c_str(), found.welded_vertex_count, found.piece_count, found.component_count, found.link_count,
-      found.light_piece_count, 100 * found.longest_tree_link / scene.diagonal, gap[0].p95, gap[0].worst, gap[1].p95,
+      name.c_str(), found.welded_vertex_count, joined.piece_count, found.component_count, joined.link_count,
+      joined.light_piece_count, 100 * joined.longest_tree_link / scene.diagonal, gap[0].p95, gap[0].worst, gap[1].p95,
       gap[1].worst, after.factor_entries / before.factor_entries, after.links_ms, plain_ms,
       100 * (linked_ms / plain_ms - 1), unreached_by_sites(linked, scene, ends[0], ends[1]),
       or_dash(wrong < 0, "%5.1f %%", 100 * wrong).c_str(),

@@ -178,8 +178,8 @@ struct Run {
 // The surface, or with --no-links one of the same mesh with links, so that gaps are measured at the same places.
 hf_surface with_links(hf_surface surface, const Loaded& loaded) {
   static std::map<std::string, hf_surface> made;
-  hf_surface_report report = HF_INIT(hf_surface_report);
-  if (hf_surface_get_report(surface, &report) != HF_OK || report.piece_count < 2 || report.link_count > 0)
+  hf_links_info report = HF_INIT(hf_links_info);
+  if (hf_surface_get_links_info(surface, &report) != HF_OK || report.piece_count < 2 || report.link_count > 0)
     return surface;
   hf_surface& linked = made[loaded.name];
   const ModelLinks links(&loaded.model, loaded.flat);

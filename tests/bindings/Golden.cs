@@ -388,8 +388,8 @@ class Scene
                 objects[name] = new Pose(surface, (DeformMode)o["mode"], (uint)o["band_count"]); return null; }
             case "add_handles":
                 bool inPlace = Flag(step, "in_place");
-                return pose.AddHandles(Lists(Get(step, "regions")), Doubles(step, "points"), Doubles(step, "radii"),
-                    Whole(step, "layer"), inPlace);
+                return pose.AddHandles(Lists(Get(step, "regions")), points: Doubles(step, "points"),
+                    radii: Doubles(step, "radii"), layer: Whole(step, "layer"), inPlace: inPlace);
             case "add_handle_at":
                 return new[] { pose.AddHandleAt(Doubles(step, "point"), Number(step["radius"])) };
             case "set_transform":

@@ -32,7 +32,7 @@ static class Lifetime
             held.AddSites(null, new[] { 2.0 }, places: new Place[] { hit });
             var field = new float[4];
             held.Solve(field);
-            if (hit.Triangle != 0 || quad.Report.PolygonCount != 1 || Math.Abs(field[3] - 2) > 1e-6)
+            if (hit.Triangle != 0 || quad.MeshStatistics.PolygonCount != 1 || Math.Abs(field[3] - 2) > 1e-6)
                 throw new Exception("a hit in a quad is no site");
         }
         var surface = new Surface(positions, triangles);

@@ -190,8 +190,8 @@ for edge in ring:
     edge.use_edge_sharp = False
 empties = {o.name: o for o in bpy.data.objects if o.type == "EMPTY"}
 assert sorted(empties) == ["bar high", "bar low"] and found.pose.handle_count == 2
-report = found.surface.report  # quads and two caps of 48 corners, as Blender stores them
-assert report.face_count == report.polygon_count == len(bar.data.polygons) and report.largest_face == 48
+figures = found.surface.mesh_statistics  # quads and two caps of 48 corners, as Blender stores them
+assert found.surface.info.face_count == figures.polygon_count == len(bar.data.polygons) and figures.largest_face == 48
 np.testing.assert_allclose(mesh_data.positions_of(bar.data), points, atol=1e-5)
 
 # ---- dragging: the change of an empty is followed through Blender's own event

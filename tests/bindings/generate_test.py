@@ -129,6 +129,14 @@ class OneDescription(unittest.TestCase):
                         "-L", self.folder, "-lhf", "-Wl,--unresolved-symbols=ignore-all"], check=True)
         subprocess.run([self.folder / "toy_cpp"], check=True, env={"LD_LIBRARY_PATH": str(self.folder)})
 
+    def test_a_struct_of_more_than_16_fields_says_why(self):
+        fields = "".join(f"  uint32_t field_{n};\n" for n in range(17))
+        many = "\n/* Many figures.%s */\ntypedef struct hf_many {\n" + fields + "} hf_many;\n"
+        with self.assertRaisesRegex(model.Problems, "hf_many: 17 fields"):
+            parse_headers.read_api(with_toy(self.folder, many % ""))
+        shutil.rmtree(self.folder / "include")
+        parse_headers.read_api(with_toy(self.folder, many % " More than 16 fields: they are one vector."))
+
     def test_what_a_comment_leaves_open_is_refused_by_name(self):
         cases = {"hf_solver_get_mean, out_mean: how many?": TOY.replace("out_mean: receives the mean. ", ""),
                  "hf_solver_shift_sites, vectors: how many?": TOY.replace("vectors: double[site_count][3] ", "vectors: "),

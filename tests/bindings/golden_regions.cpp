@@ -56,10 +56,8 @@ Result Scene::run_region(const Json& step, const std::string& what) {
   } else if (what == "region_info") {
     auto info = make<hf_region_info>();
     check(hf_region_get_info(region, &info));
-    result.fields = {{"field_kind", info.field_kind},
-                     {"vertex_count", info.vertex_count},
-                     {"rim_count", info.rim_count},
-                     {"factorisation_count", info.factorisation_count}};
+    result.fields = {
+        {"field_kind", info.field_kind}, {"vertex_count", info.vertex_count}, {"rim_count", info.rim_count}};
   } else if (what == "region_vertices") {
     const int32_t list = step.value("list", 0);
     uint32_t size = 0;

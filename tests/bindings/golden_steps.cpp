@@ -113,7 +113,7 @@ Result Scene::run(const Json& step) {
     made.vertex_count = n;
   } else if (what == "add_sites") {
     const auto inside = places_of(step);
-    const size_t k = vertices ? count(vertices) : inside.size();
+    const size_t k = inside.empty() ? count(vertices) : inside.size();
     const auto values = doubles(step, "values", k), stiffness = doubles(step, "stiffness", k),
                radii = doubles(step, "radii", k);
     auto desc = places(vertices);

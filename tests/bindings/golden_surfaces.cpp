@@ -144,11 +144,7 @@ Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface sur
     check(hf_surface_get_report(surface, &report));
     result.fields = {{"vertex_count", report.vertex_count},
                      {"component_count", report.component_count},
-                     {"boundary_edge_count", report.boundary_edge_count},
-                     {"piece_count", report.piece_count},
-                     {"link_count", report.link_count},
-                     {"face_count", report.face_count},
-                     {"polygon_count", report.polygon_count}};
+                     {"boundary_edge_count", report.boundary_edge_count}};
   } else if (what == "surface_statistics") {
     auto figures = make<hf_surface_statistics>();
     check(hf_surface_get_statistics(surface, &figures));
@@ -158,7 +154,8 @@ Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface sur
     check(hf_surface_get_info(surface, &info));
     result.fields = {{"vertex_count", info.vertex_count},   {"triangle_count", info.triangle_count},
                      {"operator_kind", info.operator_kind}, {"field_kind", info.field_kind},
-                     {"thread_count", info.thread_count},   {"vertex_limit", info.vertex_limit}};
+                     {"thread_count", info.thread_count},   {"vertex_limit", info.vertex_limit},
+                     {"face_count", info.face_count}};
   } else if (what == "components") {
     uint32_t size = 0;
     check(hf_surface_get_components(surface, 0, nullptr, &size));

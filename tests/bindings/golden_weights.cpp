@@ -150,7 +150,7 @@ Result Scene::run_carried(const Json& step, const std::string& what) {
     desc.source_influence_count = each;
     desc.joints = data(joints);
     desc.weights = shares.data();
-    check(hf_weights_mirror(on.surface.get(), &desc, &found.out, nullptr, nullptr, nullptr));
+    check(hf_weights_mirror(on.surface.get(), &desc, &found.out, nullptr, nullptr, nullptr, nullptr));
   }
   Result result;
   result.array = found.of(step["joint"]);

@@ -80,7 +80,7 @@ for (const [i, call] of wrong.entries()) assert.throws(call, hf.HfError, `case $
 const square = new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0]);
 for (const rest of [{ starts: [0, 4] }, { sizes: [4] }, { starts: [0], sizes: [4] }]) {
   const quad = new hf.Surface(square, null, { faces: { corners: [0, 1, 2, 3], ...rest } });
-  assert.equal(quad.report.polygonCount, 1);
+  assert.equal(quad.meshStatistics.polygonCount, 1);
   const hit = quad.castRay([0.3, 0.6, 1], [0, 0, -1]);
   assert.equal(hit.triangle, 0);
   const held = new hf.Solver(quad);
@@ -287,9 +287,9 @@ if (global.gc) {
   const opened = Float32Array.from(places, (x, i) => x + (i >= 24 && i % 3 === 2 ? 3 : 0));
   linked.measureGaps(Float32Array.from(places));
   assert.equal(linked.gapsInfo.worst, 0);
-  assert.equal(linked.measureGaps(opened).length, linked.report.linkCount);
+  assert.equal(linked.measureGaps(opened).length, linked.linksInfo.linkCount);
   const gaps = linked.gapsInfo;
-  assert.ok(gaps.worst > 1 && gaps.worst <= 3 && gaps.linkCount === linked.report.linkCount, `${gaps.worst}`);
+  assert.ok(gaps.worst > 1 && gaps.worst <= 3 && gaps.linkCount === linked.linksInfo.linkCount, `${gaps.worst}`);
   assert.throws(() => linked.measureGaps([0, 0, 0]), /positions must hold 48/);
   const tags = Uint32Array.from({ length: 16 }, (_, v) => Number(v > 7));
   const strangers = new hf.Surface(places, triangles, { linkPieces: { distance: 0.5 }, tags });

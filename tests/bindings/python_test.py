@@ -162,7 +162,7 @@ class Arrays(unittest.TestCase):
         for faces in (quads, quads.astype(np.uint32), (offsets, quads), (None, np.full(len(quads), 4), quads.ravel()),
                       (offsets[:-1].astype(np.int32), np.full(len(quads), 4, np.int32), quads)):
             with hf.Surface(points, faces=faces) as surface, hf.Solver(surface) as solver:
-                self.assertEqual((surface.report.face_count, surface.report.polygon_count), (len(quads), len(quads)))
+                self.assertEqual((surface.info.face_count, surface.mesh_statistics.polygon_count), (len(quads), len(quads)))
                 solver.add_sites([0, 100], [0.0, 1.0])
                 fields.append(solver.solve(dtype=np.float64))
                 np.testing.assert_array_equal(fields[0], fields[-1])
@@ -414,7 +414,7 @@ class Regions(unittest.TestCase):
             np.testing.assert_array_equal(region.vertices(), [0, 1, 2, 12, 13, 14])
             region.redo()
             self.assertEqual(set(region.vertices()), grown)
-            self.assertEqual(region.info.factorisation_count, 0)
+            self.assertEqual(region.statistics.factorisation_count, 0)
             region.edit(curve=[int(v) for v in (0, 1, 2, 3, 15, 27, 39, 38, 37, 36, 24, 12)])
             self.assertTrue({13, 14, 25, 26} <= set(region.vertices()))
             for wrong in (lambda: region.edit(add_vertices=[288]), lambda: region.edit(curve=[0]), lambda: region.morph(np.nan),
@@ -436,14 +436,14 @@ class Given(unittest.TestCase):
 
     def test_links_are_written_changed_and_given_back(self):
         links = self.surface.links()
-        self.assertEqual(len(links), self.surface.report.link_count)
+        self.assertEqual(len(links), self.surface.links_info.link_count)
         self.assertGreater(len(links), 1)
         again = self.surface.relink(mode=hf.LinkMode.LIST, links=links)
         np.testing.assert_array_equal(again.links()["vertex"], links["vertex"])
         self.assertIs(type(again), hf.Surface)
         one = hf.Surface(self.points, np.concatenate([mesh("torus")[1], mesh("torus")[1] + len(self.points) // 2]),
                          links={"mode": hf.LinkMode.LIST, "links": links[:1]})
-        self.assertEqual(one.report.link_count, 1)
+        self.assertEqual(one.links_info.link_count, 1)
         with self.assertRaisesRegex(hf.InvalidArgumentError, "links must be records"):
             self.surface.relink(mode=hf.LinkMode.LIST, links=[[0, 1]])
 

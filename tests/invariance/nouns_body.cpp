@@ -11,21 +11,25 @@ namespace invariance {
 Measured measure_report(const Setting& s) {
   hf_surface_report r = HF_INIT(hf_surface_report);
   ok(hf_surface_get_report(s.surface(), &r));
+  hf_links_info links = HF_INIT(hf_links_info);
+  ok(hf_surface_get_links_info(s.surface(), &links));
+  hf_mesh_statistics m = HF_INIT(hf_mesh_statistics);
+  ok(hf_surface_get_mesh_statistics(s.surface(), &m));
   Measured out;
   const std::uint32_t button_vertices = s.copy.added_pieces * 12;
   out.count("isolated", r.isolated_vertex_count - double(s.copy.added_isolated));
   out.count("welded", r.welded_vertex_count - double(s.copy.added_isolated) - button_vertices);
   out.count("components", r.component_count - double(s.copy.added_pieces));
-  out.count("pieces", r.piece_count - double(s.copy.added_pieces));
+  out.count("pieces", links.piece_count - double(s.copy.added_pieces));
   out.count("doubled", r.duplicate_triangle_count - double(s.copy.doubled_faces));
   out.count("degenerate", r.degenerate_triangle_count);
   out.count("collapsed", r.collapsed_triangle_count);
   out.count("non-manifold", r.non_manifold_edge_count);
   out.count("flipped", r.flipped_edge_count);
   out.count("border", r.boundary_edge_count);
-  out.count("changed", r.changed_vertex_count);
+  out.count("changed", m.changed_vertex_count);
   out.count("inside out", r.inside_out_count);
-  out.add("smallest angle", {double(r.smallest_angle)});
+  out.add("smallest angle", {double(m.smallest_angle)});
   out.add("box", {s.back_size(r.bounding_box_diagonal)}, s.body.diagonal);
   std::vector<std::uint32_t> pieces(s.copy.points.size());
   ok(hf_surface_get_pieces(s.surface(), r.vertex_count, pieces.data(), nullptr, nullptr));

@@ -146,7 +146,7 @@ Measured measure_mirror(const Setting& s) {
   d.joints = painted.joints.data();
   d.weights = painted.weights.data();
   Received received(s.copy.points.size());
-  ok(hf_weights_mirror(s.surface(), &d, &received.desc, nullptr, nullptr, nullptr));
+  ok(hf_weights_mirror(s.surface(), &d, &received.desc, nullptr, nullptr, nullptr, nullptr));
   Measured out;
   out.add("weights", table(s, received));
   return out;

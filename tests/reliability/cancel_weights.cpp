@@ -104,7 +104,7 @@ hf_result mirror(Rig& rig, hf_progress progress) {
   d.plane = plane;
   hf_weights_out out = desc<hf_weights_out>();
   hf_weights_mirror_info info = desc<hf_weights_mirror_info>();
-  return hf_weights_mirror(rig.surface, &d, &out, nullptr, nullptr, &info);
+  return hf_weights_mirror(rig.surface, &d, &out, nullptr, nullptr, &info, nullptr);
 }
 
 }  // namespace
@@ -113,8 +113,8 @@ void add_weights_cases(hf_surface surface, const Mesh& mesh, std::vector<Case>& 
   const auto rig = std::make_shared<Rig>(surface, mesh);
   const auto memory = [=] { return memory_of(rig->surface); };
   const auto counts = [=] {
-    hf_weights_info info = desc<hf_weights_info>();
-    must(hf_weights_get_info(rig->weights, &info), "hf_weights_get_info");
+    hf_weights_statistics info = desc<hf_weights_statistics>();
+    must(hf_weights_get_statistics(rig->weights, &info), "hf_weights_get_info");
     return mixed(mixed(info.factorisation_count, info.path_solve_count), memory_of(rig->surface));
   };
   cases.push_back({"weights", [=](hf_progress p) { return make(*rig, p); }, memory});

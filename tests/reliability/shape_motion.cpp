@@ -184,7 +184,8 @@ bool Player::weights() {
     mirror.weights = from_weights.data();
     mirror.to = static_cast<int>(bytes_.take() % 3);
     hf_weights_out to = fresh_out();
-    if (done("hf_weights_mirror", hf_weights_mirror(surface_, &mirror, &to, nullptr, nullptr, nullptr), HF_ERROR_EMPTY))
+    if (done("hf_weights_mirror", hf_weights_mirror(surface_, &mirror, &to, nullptr, nullptr, nullptr, nullptr),
+             HF_ERROR_EMPTY))
       check_weights("hf_weights_mirror", to);
   }
   return true;

@@ -163,7 +163,7 @@ bool Player::region() {
   hf_curve_desc curve = HF_INIT(hf_curve_desc);
   hf_region_edit_desc edit = HF_INIT(hf_region_edit_desc);
   std::vector<std::uint32_t> places(3 + bytes_.take() % 4);
-  std::vector<hf_place> inside;
+  std::vector<hf_place> in_triangles;
   curve.point_count = static_cast<std::uint32_t>(places.size());
   curve.kind = how & 4 ? HF_CURVE_EDGES : HF_CURVE_STRAIGHT;
   curve.side = static_cast<int>(how / 8 % 3);
@@ -176,10 +176,10 @@ bool Player::region() {
       t = bytes_.take() % static_cast<std::uint32_t>(mesh_.triangles.size() / 3);
       const unsigned w = bytes_.take(), i = w % 9, j = w / 9 % (9 - i);
       const double weights[3] = {i / 8.0, j / 8.0, (8 - i - j) / 8.0};
-      inside.push_back(
+      in_triangles.push_back(
           place_in(mesh_.triangles.data(), static_cast<std::uint32_t>(mesh_.triangles.size() / 3), t, weights));
     }
-    curve.places = inside.data();
+    curve.places = in_triangles.data();
   }
   edit.curve = &curve;
   const auto inside = [&](int list) {

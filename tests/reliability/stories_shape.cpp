@@ -369,7 +369,8 @@ void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
   mirror.distance = 0.05;
   mirror.angle = 0.2;  // few vertices match, so that a field fills in the others
   s.call(
-      "hf_weights_mirror", [&] { return hf_weights_mirror(surface, &mirror, &turned, flags, nullptr, nullptr); },
+      "hf_weights_mirror",
+      [&] { return hf_weights_mirror(surface, &mirror, &turned, flags, nullptr, nullptr, nullptr); },
       [&] { return mirrored.untouched(); });
   mirrored.take(s);
   hf_surface_destroy(surface);

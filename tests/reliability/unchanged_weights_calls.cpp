@@ -208,7 +208,7 @@ struct WeightsCalls {
     hf_weights_mirror_info info = HF_INIT(hf_weights_mirror_info);
     Out out(s, random);
     const hf_result result = hf_weights_mirror(s.world.surface, random.spoiled(desc), random.spoiled(out.desc),
-                                               found.data(), pairings.data(), &info);
+                                               found.data(), pairings.data(), &info, nullptr);
     const bool pairs = std::any_of(found.begin(), found.end(), [](std::uint32_t f) { return f != 77; });
     s.expect(result == HF_OK || (out.untouched() && !pairs), "refused, but weights or partners were written");
     return result;

@@ -27,6 +27,9 @@ void Run::surface_and_picking() {
   hf_surface_report report = desc<hf_surface_report>();
   call(hf_surface_get_report(surface, &report), "hf_surface_get_report");
   take(&report, 1);
+  hf_mesh_statistics mesh = desc<hf_mesh_statistics>();
+  call(hf_surface_get_mesh_statistics(surface, &mesh), "hf_surface_get_mesh_statistics");
+  take(&mesh, 1);
   std::vector<std::uint32_t> components(n);
   std::uint32_t count = 0;
   call(hf_surface_get_components(surface, n, components.data(), &count), "hf_surface_get_components");
@@ -54,6 +57,9 @@ void Run::surface_and_picking() {
   links.mode = HF_LINK_PIECES;
   hf_surface linked = nullptr;
   call(hf_surface_relink(surface, &links, nullptr, &linked), "hf_surface_relink");
+  hf_links_info linked_info = desc<hf_links_info>();
+  call(hf_surface_get_links_info(linked, &linked_info), "hf_surface_get_links_info");
+  take(&linked_info, 1);
   call(hf_surface_get_links(linked, 0, nullptr, &link_count), "hf_surface_get_links");
   take(&link_count, 1);
   call(hf_surface_get_pieces(linked, n, pieces.data(), light.data(), &pieces_count), "hf_surface_get_pieces");
@@ -182,6 +188,9 @@ void Run::other_kinds() {
   hf_pose_info info = desc<hf_pose_info>();
   call(hf_pose_get_info(pose, &info), "hf_pose_get_info");
   take(&info, 1);
+  hf_pose_statistics figures = desc<hf_pose_statistics>();
+  call(hf_pose_get_statistics(pose, &figures), "hf_pose_get_statistics");
+  take(&figures.cluster_count, 1);
   hf_pose_destroy(pose);
 }
 

@@ -100,6 +100,9 @@ void Run::pose_and_transfer() {
     hf_transfer_info info = desc<hf_transfer_info>();
     call(hf_transfer_get_info(transfer, &info), "hf_transfer_get_info");
     take(&info, 1);
+    hf_transfer_statistics work = desc<hf_transfer_statistics>();
+    call(hf_transfer_get_statistics(transfer, &work), "hf_transfer_get_statistics");
+    take(&work, 1);
     hf_skin_info skin = desc<hf_skin_info>();
     call(hf_transfer_get_skin(transfer, &skin), "hf_transfer_get_skin");
     take(&skin.joint_count, 1);
@@ -180,6 +183,9 @@ void Run::regions() {
   hf_region_info info = desc<hf_region_info>();
   call(hf_region_get_info(target, &info), "hf_region_get_info");
   take(&info, 1);
+  hf_region_statistics work = desc<hf_region_statistics>();
+  call(hf_region_get_statistics(target, &work), "hf_region_get_statistics");
+  take(&work, 1);
   call(hf_region_get_vertices(target, HF_REGION_RIM, n, list.data(), nullptr), "hf_region_get_vertices");
   std::uint32_t corner_count = 0;
   call(hf_region_get_curve(target, 0, nullptr, &corner_count), "hf_region_get_curve");
@@ -241,6 +247,9 @@ void Run::skin_weights() {
   hf_weights_info info = desc<hf_weights_info>();
   call(hf_weights_get_info(weights, &info), "hf_weights_get_info");
   take(&info, 1);
+  hf_weights_statistics found = desc<hf_weights_statistics>();
+  call(hf_weights_get_statistics(weights, &found), "hf_weights_get_statistics");
+  take(&found, 1);
   call(hf_weights_get_helpers(weights, "root\narm.L\narm.R\n", 3, flags.data(), nullptr), "hf_weights_get_helpers");
   take(flags.data(), flags.size());
   hf_weights_destroy(weights);
@@ -273,7 +282,7 @@ void Run::carried_weights(hf_surface surface, const Numbers& heads, const std::v
   mirror.joints = joints.data();
   mirror.weights = shares.data();
   hf_weights_mirror_info mirrored = desc<hf_weights_mirror_info>();
-  call(hf_weights_mirror(surface, &mirror, &out, nullptr, nullptr, &mirrored), "hf_weights_mirror");
+  call(hf_weights_mirror(surface, &mirror, &out, nullptr, nullptr, &mirrored, nullptr), "hf_weights_mirror");
   take(bones.data(), bones.size());
   take(weights.data(), weights.size());
   take(&mirrored, 1);

@@ -276,7 +276,7 @@ TEST(Wrapper, regions_morph_and_hand_their_detail_on) {
   hf::RegionEditOptions grow;
   grow.ring_count = 1;
   region.edit(grow);
-  EXPECT_EQ(region.info().factorisation_count, 0u);
+  EXPECT_EQ(region.statistics().factorisation_count, 0u);
   const hf::Region grown = region.clone();
   edits.undo(region);
   EXPECT_LT(region.info().vertex_count, grown.info().vertex_count);

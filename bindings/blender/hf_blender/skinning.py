@@ -125,16 +125,16 @@ def note_on(obj, sentences):
     obj[NOTE] = "\n".join(sentences)
 
 
-def describe(info, helpers):
+def describe(info, work, helpers):
     """What was guessed, in sentences."""
     note = [f"{info.informed_count} vertices see their bone, {info.solved_count} are between"]
     guessed = info.nearest_count + info.rigid_count + info.isolated_count
     if guessed:
-        note.append(f"guessed: {guessed} vertices of {info.nearest_piece_count} loose parts")
-    if info.blind:
+        note.append(f"guessed: {guessed} vertices of {work.nearest_piece_count} loose parts")
+    if work.blind:
         note.append("guessed: a part of the mesh sees no bone")
-    if info.outside_count:
-        note.append(f"{info.outside_count} bones outside the mesh")
+    if work.outside_count:
+        note.append(f"{work.outside_count} bones outside the mesh")
     if helpers:
         note.append("look like helpers: " + ", ".join(helpers[:4]) + (f" and {len(helpers) - 4} more" if len(helpers) > 4 else ""))
     return note
@@ -193,11 +193,11 @@ def weights_from_bones(obj, armature, count=4, window_manager=None):
         values /= np.maximum(values.sum(1, keepdims=True), 1)
         weights.set_locks([number[n] for n in locked], values)
     pin(obj, skin, places)
-    info, reasons = weights.info, weights.helpers(names)
+    info, work, reasons = weights.info, weights.statistics, weights.helpers(names)
     if not any(m.type == "ARMATURE" and m.object == armature for m in obj.modifiers):
         obj.modifiers.new(armature.name, "ARMATURE").object = armature
     helpers = [n for n, r in zip(names, reasons) if r & hf.HelperReason.PROPOSED]
-    note_on(obj, describe(info, helpers))
+    note_on(obj, describe(info, work, helpers))
     return info, helpers
 
 
@@ -237,13 +237,13 @@ def mirror(obj, to, count=4, window_manager=None):
     joints, weights = group_weights(obj, names)
     ends = bone_ends(obj, armature, bones)
     with make_surface(positions_of(obj.data), faces_of(obj.data), window_manager) as surface:
-        info = hf.WeightsMirrorInfo()
+        info, off = hf.WeightsMirrorInfo(), hf.WeightsMirrorStatistics()
         found, _, pairings = hf.Weights.mirror(surface, ends[:, 0], names, joints=joints, weights=weights, to=to, influence_count=count,
-            info=info)
+            info=info, statistics=off)
     write_groups(obj, names, found.joints, found.weights)
     alone = [n for n, p in zip(names, pairings) if p == hf.MirrorPairing.ALONE]
     note = [f"mirrored: {info.named_count} bones paired by name, {info.placed_count} by place, {info.centre_count} in the middle",
-            f"{info.matched_count} vertices matched, {info.solved_count} filled in, farthest {info.worst_vertex_off:.3g} off"]
+            f"{info.matched_count} vertices matched, {info.solved_count} filled in, farthest {off.worst_vertex_off:.3g} off"]
     if alone:
         note.append("without a partner: " + ", ".join(alone[:4]) + (f" and {len(alone) - 4} more" if len(alone) > 4 else ""))
     note_on(obj, note)

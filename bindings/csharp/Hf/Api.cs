@@ -474,7 +474,7 @@ namespace Hf
         }
     }
 
-    /// <summary>The options a surface was made with, defaults filled in.</summary>
+    /// <summary>The options a surface was made with, defaults filled in. More than 16 fields: they mirror SurfaceDesc.</summary>
     public sealed unsafe partial class SurfaceInfo
     {
         /// <summary>as given</summary>
@@ -529,7 +529,7 @@ namespace Hf
 
     /// <summary>Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are
     /// 0. Where faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces.
-    /// Degenerate triangles, negative edges and the smallest angle are of the cut.</summary>
+    /// Degenerate triangles are of the cut.</summary>
     public sealed unsafe partial class SurfaceReport
     {
         /// <summary>as given</summary>
@@ -554,40 +554,13 @@ namespace Hf
         /// <summary>edges that two triangles run through in the same direction</summary>
         public uint FlippedEdgeCount;
         public uint BoundaryEdgeCount;
-        /// <summary>edges of negative cotangent weight, before any clamping</summary>
-        public uint NegativeEdgeCount;
-        /// <summary>radians, over the usable triangles</summary>
-        public double SmallestAngle;
-        /// <summary>in the unit of the positions, without isolated vertices</summary>
-        public double BoundingBoxDiagonal;
-        /// <summary>welded vertices with a weight that is not the mesh's, in the operator of field_kind: of triangles too
-        /// thin for it, or cut to the digits that there are. A certificate holds for the weights used; near such
-        /// vertices the field may be another's</summary>
-        public uint ChangedVertexCount;
-        /// <summary>the first of them, as given; uint.MaxValue without one</summary>
-        public uint FirstChangedVertex;
-        /// <summary>edge-connected pieces, linked or not</summary>
-        public uint PieceCount;
-        /// <summary>Surface.Links writes them</summary>
-        public uint LinkCount;
-        public uint LightPieceCount;
-        /// <summary>pieces without a link, if there are several</summary>
-        public uint LonePieceCount;
-        /// <summary>of the tree over the pieces, in the unit of the positions</summary>
-        public double LongestTreeLink;
-        /// <summary>as given; 0 where triangles were given</summary>
-        public uint FaceCount;
-        /// <summary>faces of more than three corners</summary>
-        public uint PolygonCount;
-        /// <summary>polygons with a corner farther than 1 % of their diameter from their mean plane</summary>
-        public uint NonPlanarCount;
-        /// <summary>corners of the largest face</summary>
-        public uint LargestFace;
         /// <summary>closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The inner wall of a
         /// hollow body is one too. Fields do not change; what uses normals does</summary>
         public uint InsideOutCount;
         /// <summary>the first vertex of one, as given; uint.MaxValue without one</summary>
         public uint FirstInsideOutVertex;
+        /// <summary>in the unit of the positions, without isolated vertices</summary>
+        public double BoundingBoxDiagonal;
 
         internal SurfaceReport(hf_surface_report* raw)
         {
@@ -602,22 +575,64 @@ namespace Hf
             NonManifoldEdgeCount = raw->non_manifold_edge_count;
             FlippedEdgeCount = raw->flipped_edge_count;
             BoundaryEdgeCount = raw->boundary_edge_count;
-            NegativeEdgeCount = raw->negative_edge_count;
-            SmallestAngle = raw->smallest_angle;
+            InsideOutCount = raw->inside_out_count;
+            FirstInsideOutVertex = raw->first_inside_out_vertex;
             BoundingBoxDiagonal = raw->bounding_box_diagonal;
+        }
+    }
+
+    /// <summary>What a developer reads about a mesh: its faces, and the weights of its operator.</summary>
+    public sealed unsafe partial class MeshStatistics
+    {
+        /// <summary>faces of more than three corners</summary>
+        public uint PolygonCount;
+        /// <summary>polygons with a corner farther than 1 % of their diameter from their mean plane</summary>
+        public uint NonPlanarCount;
+        /// <summary>corners of the largest face; 0 where triangles were given</summary>
+        public uint LargestFace;
+        /// <summary>edges of the cut of negative cotangent weight, before any clamping</summary>
+        public uint NegativeEdgeCount;
+        /// <summary>welded vertices with a weight that is not the mesh's, in the operator of field_kind: of triangles too
+        /// thin for it, or cut to the digits that there are. A certificate holds for the weights used; near such
+        /// vertices the field may be another's</summary>
+        public uint ChangedVertexCount;
+        /// <summary>the first of them, as given; uint.MaxValue without one</summary>
+        public uint FirstChangedVertex;
+        /// <summary>radians, over the usable triangles of the cut</summary>
+        public double SmallestAngle;
+
+        internal MeshStatistics(hf_mesh_statistics* raw)
+        {
+            PolygonCount = raw->polygon_count;
+            NonPlanarCount = raw->non_planar_count;
+            LargestFace = raw->largest_face;
+            NegativeEdgeCount = raw->negative_edge_count;
             ChangedVertexCount = raw->changed_vertex_count;
             FirstChangedVertex = raw->first_changed_vertex;
+            SmallestAngle = raw->smallest_angle;
+        }
+    }
+
+    /// <summary>How the pieces of a mesh are linked.</summary>
+    public sealed unsafe partial class LinksInfo
+    {
+        /// <summary>edge-connected pieces, linked or not</summary>
+        public uint PieceCount;
+        /// <summary>Surface.Links writes them</summary>
+        public uint LinkCount;
+        public uint LightPieceCount;
+        /// <summary>pieces without a link, if there are several</summary>
+        public uint LonePieceCount;
+        /// <summary>of the tree over the pieces, in the unit of the positions</summary>
+        public double LongestTreeLink;
+
+        internal LinksInfo(hf_links_info* raw)
+        {
             PieceCount = raw->piece_count;
             LinkCount = raw->link_count;
             LightPieceCount = raw->light_piece_count;
             LonePieceCount = raw->lone_piece_count;
             LongestTreeLink = raw->longest_tree_link;
-            FaceCount = raw->face_count;
-            PolygonCount = raw->polygon_count;
-            NonPlanarCount = raw->non_planar_count;
-            LargestFace = raw->largest_face;
-            InsideOutCount = raw->inside_out_count;
-            FirstInsideOutVertex = raw->first_inside_out_vertex;
         }
     }
 
@@ -835,7 +850,7 @@ namespace Hf
         public double Overshoot;
         /// <summary>as given, where the largest of the three is</summary>
         public uint WorstVertex;
-        /// <summary>welded vertices with a weight that a rule set (SurfaceReport). On a mesh, and for bi-harmonic fields,
+        /// <summary>welded vertices with a weight that a rule set (MeshStatistics). On a mesh, and for bi-harmonic fields,
         /// the errors hold for the weights used; on a graph for your own, within 1e30 of their median</summary>
         public uint ChangedVertexCount;
         /// <summary>how far a value may be from the exact field: a bound by K alone where no weight is negative and the
@@ -1121,27 +1136,36 @@ namespace Hf
         }
     }
 
-    /// <summary>Counts and times of a deform.</summary>
+    /// <summary>What a deform did.</summary>
     public sealed unsafe partial class DeformInfo
     {
         /// <summary>done</summary>
         public uint IterationCount;
-        public uint ClusterCount;
         /// <summary>in components without a handle; they stay at rest</summary>
         public uint UnreachedVertexCount;
         /// <summary>largest change of a rotation in the last iteration</summary>
         public double LastChange;
+
+        internal DeformInfo(hf_deform_info* raw)
+        {
+            IterationCount = raw->iteration_count;
+            UnreachedVertexCount = raw->unreached_vertex_count;
+            LastChange = raw->last_change;
+        }
+    }
+
+    /// <summary>Size of a pose and times of its last deform, in milliseconds; 0 before the first.</summary>
+    public sealed unsafe partial class PoseStatistics
+    {
+        public uint ClusterCount;
         public double SolveMs;
         public double BlendMs;
         public double NormalMs;
         public double RefineMs;
 
-        internal DeformInfo(hf_deform_info* raw)
+        internal PoseStatistics(hf_pose_statistics* raw)
         {
-            IterationCount = raw->iteration_count;
             ClusterCount = raw->cluster_count;
-            UnreachedVertexCount = raw->unreached_vertex_count;
-            LastChange = raw->last_change;
             SolveMs = raw->solve_ms;
             BlendMs = raw->blend_ms;
             NormalMs = raw->normal_ms;
@@ -1216,7 +1240,7 @@ namespace Hf
         }
     }
 
-    /// <summary>Counts and areas of a region and of its last edit. Welded copies count as one vertex.</summary>
+    /// <summary>Counts and areas of a region. Welded copies count as one vertex.</summary>
     public sealed unsafe partial class RegionInfo
     {
         /// <summary>FieldKind</summary>
@@ -1227,6 +1251,25 @@ namespace Hf
         public uint RimCount;
         /// <summary>vertices that fix the base: the rim, for thin plates two rows or more</summary>
         public uint SiteCount;
+        /// <summary>of the triangles with a corner in the region, on the surface, in units^2</summary>
+        public double Area;
+        /// <summary>the same on the base</summary>
+        public double BaseArea;
+
+        internal RegionInfo(hf_region_info* raw)
+        {
+            FieldKind = (FieldKind)raw->field_kind;
+            VertexCount = raw->vertex_count;
+            RimCount = raw->rim_count;
+            SiteCount = raw->site_count;
+            Area = raw->area;
+            BaseArea = raw->base_area;
+        }
+    }
+
+    /// <summary>Work of the last edit of a region, and of all its edits.</summary>
+    public sealed unsafe partial class RegionStatistics
+    {
         /// <summary>sites of the last edit ...</summary>
         public uint InsertedCount;
         public uint RemovedCount;
@@ -1239,17 +1282,9 @@ namespace Hf
         public uint LastRoute;
         /// <summary>1: the last base took a sweep through the whole factor</summary>
         public bool WholeSweep;
-        /// <summary>of the triangles with a corner in the region, on the surface, in units^2</summary>
-        public double Area;
-        /// <summary>the same on the base</summary>
-        public double BaseArea;
 
-        internal RegionInfo(hf_region_info* raw)
+        internal RegionStatistics(hf_region_statistics* raw)
         {
-            FieldKind = (FieldKind)raw->field_kind;
-            VertexCount = raw->vertex_count;
-            RimCount = raw->rim_count;
-            SiteCount = raw->site_count;
             InsertedCount = raw->inserted_count;
             RemovedCount = raw->removed_count;
             KeptCount = raw->kept_count;
@@ -1257,8 +1292,6 @@ namespace Hf
             PathSolveCount = raw->path_solve_count;
             LastRoute = raw->last_route;
             WholeSweep = raw->whole_sweep != 0;
-            Area = raw->area;
-            BaseArea = raw->base_area;
         }
     }
 
@@ -1504,9 +1537,6 @@ namespace Hf
         public uint CrossedCount;
         /// <summary>1: from the legs or the boxes; 0: given in the desc</summary>
         public bool ScaleFound;
-        /// <summary>numeric factorisations by edits of pairs; 0 unless they are very many</summary>
-        public uint SourceFactorisationCount;
-        public uint TargetFactorisationCount;
         /// <summary>lengths of the target over those of the source, both in the units of their meshes</summary>
         public double Scale;
 
@@ -1517,9 +1547,21 @@ namespace Hf
             AlignedCount = raw->aligned_count;
             CrossedCount = raw->crossed_count;
             ScaleFound = raw->scale_found != 0;
+            Scale = raw->scale;
+        }
+    }
+
+    /// <summary>Work of a transfer.</summary>
+    public sealed unsafe partial class TransferStatistics
+    {
+        /// <summary>numeric factorisations by edits of pairs; 0 unless they are very many</summary>
+        public uint SourceFactorisationCount;
+        public uint TargetFactorisationCount;
+
+        internal TransferStatistics(hf_transfer_statistics* raw)
+        {
             SourceFactorisationCount = raw->source_factorisation_count;
             TargetFactorisationCount = raw->target_factorisation_count;
-            Scale = raw->scale;
         }
     }
 
@@ -1572,6 +1614,25 @@ namespace Hf
         public uint NearestCount;
         public uint RigidCount;
         public uint IsolatedCount;
+
+        internal WeightsInfo(hf_weights_info* raw)
+        {
+            VertexCount = raw->vertex_count;
+            JointCount = raw->joint_count;
+            PinCount = raw->pin_count;
+            LockCount = raw->lock_count;
+            InformedCount = raw->informed_count;
+            SolvedCount = raw->solved_count;
+            PinnedCount = raw->pinned_count;
+            NearestCount = raw->nearest_count;
+            RigidCount = raw->rigid_count;
+            IsolatedCount = raw->isolated_count;
+        }
+    }
+
+    /// <summary>What a developer reads about weights: pieces that were guessed, joints that deserve a look, work done.</summary>
+    public sealed unsafe partial class WeightsStatistics
+    {
         /// <summary>pieces without information</summary>
         public uint NearestPieceCount;
         /// <summary>small ones of them</summary>
@@ -1589,18 +1650,8 @@ namespace Hf
         /// <summary>elimination paths of pins since then</summary>
         public uint PathSolveCount;
 
-        internal WeightsInfo(hf_weights_info* raw)
+        internal WeightsStatistics(hf_weights_statistics* raw)
         {
-            VertexCount = raw->vertex_count;
-            JointCount = raw->joint_count;
-            PinCount = raw->pin_count;
-            LockCount = raw->lock_count;
-            InformedCount = raw->informed_count;
-            SolvedCount = raw->solved_count;
-            PinnedCount = raw->pinned_count;
-            NearestCount = raw->nearest_count;
-            RigidCount = raw->rigid_count;
-            IsolatedCount = raw->isolated_count;
             NearestPieceCount = raw->nearest_piece_count;
             RigidPieceCount = raw->rigid_piece_count;
             Blind = raw->blind != 0;
@@ -1639,7 +1690,7 @@ namespace Hf
         }
     }
 
-    /// <summary>The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh.</summary>
+    /// <summary>The findings of a mirror. Vertices are counted as given.</summary>
     public sealed unsafe partial class WeightsMirrorInfo
     {
         public uint VertexCount;
@@ -1658,19 +1709,9 @@ namespace Hf
         public uint NearestCount;
         public uint RigidCount;
         public uint IsolatedCount;
-        /// <summary>the joint farthest off, uint.MaxValue: none has a partner</summary>
-        public uint WorstJoint;
-        /// <summary>the vertex farthest off, uint.MaxValue: none was mirrored</summary>
-        public uint WorstVertex;
         /// <summary>of the plane</summary>
         public double[] Point = new double[3];
         public double[] Normal = new double[3];
-        /// <summary>mean distance of reflected joints from their partners</summary>
-        public double JointOff;
-        public double WorstJointOff;
-        /// <summary>mean distance of reflected vertices from the surface</summary>
-        public double VertexOff;
-        public double WorstVertexOff;
 
         internal WeightsMirrorInfo(hf_weights_mirror_info* raw)
         {
@@ -1687,10 +1728,29 @@ namespace Hf
             NearestCount = raw->nearest_count;
             RigidCount = raw->rigid_count;
             IsolatedCount = raw->isolated_count;
-            WorstJoint = raw->worst_joint;
-            WorstVertex = raw->worst_vertex;
             for (int i = 0; i < 3; ++i) Point[i] = raw->point[i];
             for (int i = 0; i < 3; ++i) Normal[i] = raw->normal[i];
+        }
+    }
+
+    /// <summary>How far a surface and its joints are from their reflections. Lengths are in the unit of the mesh.</summary>
+    public sealed unsafe partial class WeightsMirrorStatistics
+    {
+        /// <summary>the joint farthest off, uint.MaxValue: none has a partner</summary>
+        public uint WorstJoint;
+        /// <summary>the vertex farthest off, uint.MaxValue: none was mirrored</summary>
+        public uint WorstVertex;
+        /// <summary>mean distance of reflected joints from their partners</summary>
+        public double JointOff;
+        public double WorstJointOff;
+        /// <summary>mean distance of reflected vertices from the surface</summary>
+        public double VertexOff;
+        public double WorstVertexOff;
+
+        internal WeightsMirrorStatistics(hf_weights_mirror_statistics* raw)
+        {
+            WorstJoint = raw->worst_joint;
+            WorstVertex = raw->worst_vertex;
             JointOff = raw->joint_off;
             WorstJointOff = raw->worst_joint_off;
             VertexOff = raw->vertex_off;
@@ -1723,7 +1783,7 @@ namespace Hf
     {
         /// <summary>[capacity] numbers</summary>
         public uint[] Sites;
-        /// <summary>[capacity] the vertex given, uint.MaxValue for a point in a triangle</summary>
+        /// <summary>[capacity] the vertex of the place, uint.MaxValue for a point in a triangle</summary>
         public uint[] Vertices;
         /// <summary>[capacity]</summary>
         public uint[] Components;
@@ -2177,11 +2237,11 @@ namespace Hf
         /// copies the graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors,
         /// components and reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED:
         /// poses, regions, directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin
-        /// weights, vector fields, links, screening, and sites in triangles or on discs.
+        /// weights, vector fields, links, screening, and sites at places, at points or on discs.
         ///
         /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than
-        /// 1e30 from the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-
-        /// harmonic fields limit weights to 1e3 times the median.
+        /// 1e30 from the median of their component are limited; MeshStatistics counts their vertices as changed.
+        /// Bi-harmonic fields limit weights to 1e3 times the median.
         ///
         /// edges: [edgeCount x 2] vertices, in any order. The weights of parallel edges are added up. Self loops
         ///     are ignored
@@ -2261,6 +2321,21 @@ namespace Hf
             }
         }
 
+        /// <summary>Writes the statistics of the mesh.</summary>
+        public MeshStatistics MeshStatistics
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var statisticsStruct = new hf_mesh_statistics { struct_size = (uint)sizeof(hf_mesh_statistics) };
+                    hf_mesh_statistics* statistics = &statisticsStruct;
+                    HfException.Check(Functions.hf_surface_get_mesh_statistics(RawHandle, statistics));
+                    return new MeshStatistics(statistics);
+                }
+            }
+        }
+
         /// <summary>Writes the component of every vertex of your mesh, and uint.MaxValue for isolated vertices. Components
         /// are numbered in the order of their lowest vertex numbers.</summary>
         public uint[] Components()
@@ -2280,6 +2355,21 @@ namespace Hf
                 }
                 while (found.Again());
                 return found.Take<uint>("components");
+            }
+        }
+
+        /// <summary>Writes how the pieces of a surface are linked.</summary>
+        public LinksInfo LinksInfo
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var infoStruct = new hf_links_info { struct_size = (uint)sizeof(hf_links_info) };
+                    hf_links_info* info = &infoStruct;
+                    HfException.Check(Functions.hf_surface_get_links_info(RawHandle, info));
+                    return new LinksInfo(info);
+                }
             }
         }
 
@@ -4471,6 +4561,21 @@ namespace Hf
             }
         }
 
+        /// <summary>Writes the statistics of a pose.</summary>
+        public PoseStatistics Statistics
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var statisticsStruct = new hf_pose_statistics { struct_size = (uint)sizeof(hf_pose_statistics) };
+                    hf_pose_statistics* statistics = &statisticsStruct;
+                    HfException.Check(Functions.hf_pose_get_statistics(RawHandle, statistics));
+                    return new PoseStatistics(statistics);
+                }
+            }
+        }
+
         /// <summary>Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they
         /// were added. If the handles do not reach some vertices, a last joint that never moves holds those
         /// vertices. The weights of a vertex are its 4 or 8 largest, scaled so that their sum is exactly 1 in
@@ -4949,6 +5054,21 @@ namespace Hf
                     hf_region_info* info = &infoStruct;
                     HfException.Check(Functions.hf_region_get_info(RawHandle, info));
                     return new RegionInfo(info);
+                }
+            }
+        }
+
+        /// <summary>Writes the statistics of a region.</summary>
+        public RegionStatistics Statistics
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var statisticsStruct = new hf_region_statistics { struct_size = (uint)sizeof(hf_region_statistics) };
+                    hf_region_statistics* statistics = &statisticsStruct;
+                    HfException.Check(Functions.hf_region_get_statistics(RawHandle, statistics));
+                    return new RegionStatistics(statistics);
                 }
             }
         }
@@ -5818,6 +5938,21 @@ namespace Hf
             }
         }
 
+        /// <summary>Writes the statistics of a transfer.</summary>
+        public TransferStatistics Statistics
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var statisticsStruct = new hf_transfer_statistics { struct_size = (uint)sizeof(hf_transfer_statistics) };
+                    hf_transfer_statistics* statistics = &statisticsStruct;
+                    HfException.Check(Functions.hf_transfer_get_statistics(RawHandle, statistics));
+                    return new TransferStatistics(statistics);
+                }
+            }
+        }
+
         /// <summary>Sets the dials of a transfer for the next frames.
         ///
         /// stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A
@@ -6377,6 +6512,21 @@ namespace Hf
             }
         }
 
+        /// <summary>Writes the statistics.</summary>
+        public WeightsStatistics Statistics
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var statisticsStruct = new hf_weights_statistics { struct_size = (uint)sizeof(hf_weights_statistics) };
+                    hf_weights_statistics* statistics = &statisticsStruct;
+                    HfException.Check(Functions.hf_weights_get_statistics(RawHandle, statistics));
+                    return new WeightsStatistics(statistics);
+                }
+            }
+        }
+
         /// <summary>Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides,
         /// and sets deforms to 0.
         ///
@@ -6480,19 +6630,21 @@ namespace Hf
         /// influenceCount: joints of each vertex in the result: 4 or 8; 0: 4
         /// progress: an object to poll and cancel through
         /// info: filled in when given
+        /// statistics: filled in when given
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
         /// HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL, HF_ERROR_UNSUPPORTED.</summary>
-        public static (WeightsOut Weights, uint[] Partners, uint[] Pairings,
-                WeightsMirrorInfo Info) Mirror(Surface surface, double[] heads = null, string[] names = null,
-                uint[] partners = null, double[] plane = null, uint[] joints = null, float[] weights = null,
-                MirrorTo to = default(MirrorTo), double distance = 0, double angle = 0, uint influenceCount = 0,
-                Progress progress = null)
+        public static (WeightsOut Weights, uint[] Partners, uint[] Pairings, WeightsMirrorInfo Info,
+                WeightsMirrorStatistics Statistics) Mirror(Surface surface, double[] heads = null,
+                string[] names = null, uint[] partners = null, double[] plane = null, uint[] joints = null,
+                float[] weights = null, MirrorTo to = default(MirrorTo), double distance = 0, double angle = 0,
+                uint influenceCount = 0, Progress progress = null)
         {
             using (var c = new Call(null))
             {
                 c.Parent("surface", surface);
                 var info = new hf_weights_mirror_info { struct_size = (uint)sizeof(hf_weights_mirror_info) };
+                var statistics = new hf_weights_mirror_statistics { struct_size = (uint)sizeof(hf_weights_mirror_statistics) };
                 var descStruct = new hf_weights_mirror_desc { struct_size = (uint)sizeof(hf_weights_mirror_desc),
                     to = (int)to, distance = distance, angle = angle, influence_count = influenceCount };
                 hf_weights_mirror_desc* desc = &descStruct;
@@ -6525,7 +6677,7 @@ namespace Hf
                         weights_->weights = (IntPtr)found.Place("weights");
                         weights_->origins = (IntPtr)found.Place("origins");
                         found.Result = Functions.hf_weights_mirror(c.Handle(surface), desc, weights_, partners_Place,
-                            pairingsPlace, &info);
+                            pairingsPlace, &info, &statistics);
                         found.Told("vertex_capacity", weights_->vertex_count);
                         found.Told("vertex_count", weights_->vertex_count);
                         found.Told("influence_count", weights_->influence_count);
@@ -6533,7 +6685,8 @@ namespace Hf
                 while (found.Again());
                 return (new WeightsOut { InfluenceCount = weights_->influence_count,
                     Joints = found.Take<uint>("joints"), Weights = found.Take<float>("weights"),
-                    Origins = found.Take<byte>("origins") }, partners_, pairings, new WeightsMirrorInfo(&info));
+                    Origins = found.Take<byte>("origins") }, partners_, pairings, new WeightsMirrorInfo(&info),
+                    new WeightsMirrorStatistics(&statistics));
             }
         }
 

@@ -340,23 +340,35 @@ namespace Hf.Native
         public uint non_manifold_edge_count;
         public uint flipped_edge_count;
         public uint boundary_edge_count;
-        public uint negative_edge_count;
-        public uint reserved;
-        public double smallest_angle;
+        public uint inside_out_count;
+        public uint first_inside_out_vertex;
         public double bounding_box_diagonal;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_mesh_statistics
+    {
+        public uint struct_size;
+        public uint polygon_count;
+        public uint non_planar_count;
+        public uint largest_face;
+        public uint negative_edge_count;
         public uint changed_vertex_count;
         public uint first_changed_vertex;
+        public uint reserved;
+        public double smallest_angle;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_links_info
+    {
+        public uint struct_size;
         public uint piece_count;
         public uint link_count;
         public uint light_piece_count;
         public uint lone_piece_count;
+        public uint reserved;
         public double longest_tree_link;
-        public uint face_count;
-        public uint polygon_count;
-        public uint non_planar_count;
-        public uint largest_face;
-        public uint inside_out_count;
-        public uint first_inside_out_vertex;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -759,13 +771,9 @@ namespace Hf.Native
     {
         public uint struct_size;
         public uint iteration_count;
-        public uint cluster_count;
         public uint unreached_vertex_count;
+        public uint reserved;
         public double last_change;
-        public double solve_ms;
-        public double blend_ms;
-        public double normal_ms;
-        public double refine_ms;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -784,6 +792,17 @@ namespace Hf.Native
         public uint first_vertex;
         public uint vertex_count;
         public uint reserved;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_pose_statistics
+    {
+        public uint struct_size;
+        public uint cluster_count;
+        public double solve_ms;
+        public double blend_ms;
+        public double normal_ms;
+        public double refine_ms;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -945,6 +964,15 @@ namespace Hf.Native
         public uint vertex_count;
         public uint rim_count;
         public uint site_count;
+        public uint reserved;
+        public double area;
+        public double base_area;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_region_statistics
+    {
+        public uint struct_size;
         public uint inserted_count;
         public uint removed_count;
         public uint kept_count;
@@ -952,8 +980,6 @@ namespace Hf.Native
         public uint path_solve_count;
         public uint last_route;
         public int whole_sweep;
-        public double area;
-        public double base_area;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1151,9 +1177,15 @@ namespace Hf.Native
         public uint aligned_count;
         public uint crossed_count;
         public int scale_found;
+        public double scale;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_transfer_statistics
+    {
+        public uint struct_size;
         public uint source_factorisation_count;
         public uint target_factorisation_count;
-        public double scale;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1244,6 +1276,12 @@ namespace Hf.Native
         public uint nearest_count;
         public uint rigid_count;
         public uint isolated_count;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_weights_statistics
+    {
+        public uint struct_size;
         public uint nearest_piece_count;
         public uint rigid_piece_count;
         public int blind;
@@ -1254,7 +1292,6 @@ namespace Hf.Native
         public uint helper_count;
         public uint factorisation_count;
         public uint path_solve_count;
-        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1321,10 +1358,17 @@ namespace Hf.Native
         public uint nearest_count;
         public uint rigid_count;
         public uint isolated_count;
-        public uint worst_joint;
-        public uint worst_vertex;
         public fixed double point[3];
         public fixed double normal[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_weights_mirror_statistics
+    {
+        public uint struct_size;
+        public uint worst_joint;
+        public uint worst_vertex;
+        public uint reserved;
         public double joint_off;
         public double worst_joint_off;
         public double vertex_off;
@@ -1353,7 +1397,9 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_surface_destroy(IntPtr surface);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_info(IntPtr surface, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_report(IntPtr surface, void* out_report);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_mesh_statistics(IntPtr surface, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_components(IntPtr surface, uint capacity, void* out_components, void* out_count);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_links_info(IntPtr surface, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_links(IntPtr surface, uint capacity, void* out_links, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_pieces(IntPtr surface, uint capacity, void* out_pieces, void* out_light, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_measure_gaps(IntPtr surface, void* desc, uint capacity, void* out_gaps, void* out_info);
@@ -1428,6 +1474,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_field(IntPtr pose, uint handle, void* out_values, uint value_stride);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_deform(IntPtr pose, void* out_positions, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_deform(IntPtr pose, void* desc, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_statistics(IntPtr pose, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* inout_skin);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_propose_handles(IntPtr surface, void* desc, uint capacity, void* out_proposals, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_create(IntPtr surface, void* desc, void* out_quads);
@@ -1443,6 +1490,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_region_destroy(IntPtr region);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_edit(IntPtr region, void* edit);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_info(IntPtr region, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_statistics(IntPtr region, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_vertices(IntPtr region, int list, uint capacity, void* out_vertices, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_get_curve(IntPtr region, uint capacity, void* out_points, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_region_morph(IntPtr region, void* desc);
@@ -1471,6 +1519,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_remove_pairs(IntPtr transfer, uint pair_count, void* pairs);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_pair(IntPtr transfer, uint pair, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_info(IntPtr transfer, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_statistics(IntPtr transfer, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_set_dials(IntPtr transfer, void* dials);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_dials(IntPtr transfer, void* out_dials);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_apply(IntPtr transfer, void* frame);
@@ -1485,8 +1534,9 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get(IntPtr weights, void* inout_weights);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_joints(IntPtr weights, uint capacity, void* out_flags, void* out_vertex_counts, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_info(IntPtr weights, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_statistics(IntPtr weights, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_get_helpers(IntPtr weights, void* names, uint capacity, void* out_reasons, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_transfer(IntPtr source, IntPtr target, void* desc, void* inout_weights, void* out_info);
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_mirror(IntPtr surface, void* desc, void* inout_weights, void* out_partners, void* out_pairings, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_weights_mirror(IntPtr surface, void* desc, void* inout_weights, void* out_partners, void* out_pairings, void* out_info, void* out_statistics);
     }
 }

@@ -96,12 +96,15 @@ Value dispose(Surface& s, const Arguments&) {
 Value report(Surface& s, const Arguments&) {
   auto found = make<hf_surface_report>();
   check(hf_surface_get_report(s.get(), &found));
+  auto links = make<hf_links_info>();
+  check(hf_surface_get_links_info(s.get(), &links));
+  auto mesh = make<hf_mesh_statistics>();
+  check(hf_surface_get_mesh_statistics(s.get(), &mesh));
   return named({{"vertex_count", found.vertex_count},
                 {"component_count", found.component_count},
-                {"piece_count", found.piece_count},
-                {"link_count", found.link_count},
-                {"face_count", found.face_count},
-                {"polygon_count", found.polygon_count},
+                {"piece_count", links.piece_count},
+                {"link_count", links.link_count},
+                {"polygon_count", mesh.polygon_count},
                 {"boundary_edge_count", found.boundary_edge_count},
                 {"isolated_vertex_count", found.isolated_vertex_count},
                 {"non_manifold_edge_count", found.non_manifold_edge_count}});

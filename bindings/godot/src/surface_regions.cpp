@@ -55,12 +55,14 @@ hf_region_info info_of(const Surface& s) {
 
 Value region_info(Surface& s, const Arguments&) {
   const hf_region_info info = info_of(s);
+  auto work = make<hf_region_statistics>();
+  check(hf_region_get_statistics(s.region.get(), &work));
   return named({{"vertex_count", info.vertex_count},
                 {"rim_count", info.rim_count},
                 {"site_count", info.site_count},
-                {"inserted_count", info.inserted_count},
-                {"removed_count", info.removed_count},
-                {"factorisation_count", info.factorisation_count},
+                {"inserted_count", work.inserted_count},
+                {"removed_count", work.removed_count},
+                {"factorisation_count", work.factorisation_count},
                 {"field_kind", info.field_kind},
                 {"area", info.area},
                 {"base_area", info.base_area}});

@@ -485,6 +485,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return report.toObject();
     }
 
+    get meshStatistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_mesh_statistics', {});
+      call('hf_surface_get_mesh_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
     components() {
       const c = new Call(this);
       const count = new Uint32Array(1);
@@ -492,6 +499,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
               this._handle, room.capacity, written(made.components), written(count)), () => ({ capacity: count[0] }),
               { capacity: null }, { components: ['u4', ['capacity']] });
       return found.components;
+    }
+
+    get linksInfo() {
+      const c = new Call(this);
+      const info = c.struct('hf_links_info', {});
+      call('hf_surface_get_links_info', this._handle, info);
+      return info.toObject();
     }
 
     links() {
@@ -1102,6 +1116,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return out;
     }
 
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_pose_statistics', {});
+      call('hf_pose_get_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
     skin(options = {}) {
       const { influenceCount = 0, scales = false, ...more } = options;
       none(more);
@@ -1228,6 +1249,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const info = c.struct('hf_region_info', {});
       call('hf_region_get_info', this._handle, info);
       return info.toObject();
+    }
+
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_region_statistics', {});
+      call('hf_region_get_statistics', this._handle, statistics);
+      return statistics.toObject();
     }
 
     vertices(list = 0) {
@@ -1464,6 +1492,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return info.toObject();
     }
 
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_transfer_statistics', {});
+      call('hf_transfer_get_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
     setDials(options = {}) {
       const c = new Call(this);
       const desc = transferDials(c, '', options);
@@ -1587,6 +1622,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return info.toObject();
     }
 
+    get statistics() {
+      const c = new Call(this);
+      const statistics = c.struct('hf_weights_statistics', {});
+      call('hf_weights_get_statistics', this._handle, statistics);
+      return statistics.toObject();
+    }
+
     helpers(names = null) {
       const c = new Call(this);
       const count = new Uint32Array(1);
@@ -1614,18 +1656,20 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     static mirror(surface, options = {}) {
       const c = new Call(null, { surface });
       const info = c.struct('hf_weights_mirror_info', {});
+      const statistics = c.struct('hf_weights_mirror_statistics', {});
       const desc = weightsMirrorDesc(c, '', options);
       const weights_ = c.struct('hf_weights_out', {});
       const partners_ = c.out(null, 'u4', ['joint_count']);
       const pairings = c.out(null, 'u4', ['joint_count']);
       const found = c.grow(surface, 'hf_weights_mirror', (room, made) => (c.into(weights_, room, made),
               call('hf_weights_mirror', handleOf(surface, Surface, 'surface'), desc, weights_, written(partners_),
-              written(pairings), info)), () => ({ vertex_capacity: weights_.get('vertex_count'),
+              written(pairings), info, statistics)), () => ({ vertex_capacity: weights_.get('vertex_count'),
               vertex_count: weights_.get('vertex_count'), influence_count: weights_.get('influence_count') }),
               { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
               weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
       return { ...{ ...found, vertexCount: weights_.get('vertex_count'),
-              influenceCount: weights_.get('influence_count') }, partners: partners_, pairings, info: info.toObject() };
+              influenceCount: weights_.get('influence_count') }, partners: partners_, pairings, info: info.toObject(),
+              statistics: statistics.toObject() };
     }
   }
 

@@ -58,7 +58,7 @@ export interface Link {
   inTree: number;
 }
 
-/** The options a surface was made with, defaults filled in. */
+/** The options a surface was made with, defaults filled in. More than 16 fields: they mirror hf_surface_desc. */
 export interface SurfaceInfo {
   /** as given */
   vertexCount: number;
@@ -93,7 +93,7 @@ export interface SurfaceInfo {
 /**
  * Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are 0.
  * Where faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces. Degenerate
- * triangles, negative edges and the smallest angle are of the cut.
+ * triangles are of the cut.
  */
 export interface SurfaceReport {
   /** as given */
@@ -117,12 +117,27 @@ export interface SurfaceReport {
   /** edges that two triangles run through in the same direction */
   flippedEdgeCount: number;
   boundaryEdgeCount: number;
-  /** edges of negative cotangent weight, before any clamping */
-  negativeEdgeCount: number;
-  /** radians, over the usable triangles */
-  smallestAngle: number;
+  /**
+   * closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The inner wall of a hollow
+   * body is one too. Fields do not change; what uses normals does
+   */
+  insideOutCount: number;
+  /** the first vertex of one, as given; constants.HF_NO_INDEX without one */
+  firstInsideOutVertex: number;
   /** in the unit of the positions, without isolated vertices */
   boundingBoxDiagonal: number;
+}
+
+/** What a developer reads about a mesh: its faces, and the weights of its operator. */
+export interface MeshStatistics {
+  /** faces of more than three corners */
+  polygonCount: number;
+  /** polygons with a corner farther than 1 % of their diameter from their mean plane */
+  nonPlanarCount: number;
+  /** corners of the largest face; 0 where triangles were given */
+  largestFace: number;
+  /** edges of the cut of negative cotangent weight, before any clamping */
+  negativeEdgeCount: number;
   /**
    * welded vertices with a weight that is not the mesh's, in the operator of field_kind: of triangles too thin for
    * it, or cut to the digits that there are. A certificate holds for the weights used; near such vertices the
@@ -131,6 +146,12 @@ export interface SurfaceReport {
   changedVertexCount: number;
   /** the first of them, as given; constants.HF_NO_INDEX without one */
   firstChangedVertex: number;
+  /** radians, over the usable triangles of the cut */
+  smallestAngle: number;
+}
+
+/** How the pieces of a mesh are linked. */
+export interface LinksInfo {
   /** edge-connected pieces, linked or not */
   pieceCount: number;
   /** Surface.links writes them */
@@ -140,21 +161,6 @@ export interface SurfaceReport {
   lonePieceCount: number;
   /** of the tree over the pieces, in the unit of the positions */
   longestTreeLink: number;
-  /** as given; 0 where triangles were given */
-  faceCount: number;
-  /** faces of more than three corners */
-  polygonCount: number;
-  /** polygons with a corner farther than 1 % of their diameter from their mean plane */
-  nonPlanarCount: number;
-  /** corners of the largest face */
-  largestFace: number;
-  /**
-   * closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The inner wall of a hollow
-   * body is one too. Fields do not change; what uses normals does
-   */
-  insideOutCount: number;
-  /** the first vertex of one, as given; constants.HF_NO_INDEX without one */
-  firstInsideOutVertex: number;
 }
 
 /** How far linked pieces have opened, in the unit of the positions. */
@@ -254,7 +260,7 @@ export interface SitesInfo {
   count: number;
   /** [capacity] numbers */
   sites: Uint32Array;
-  /** [capacity] the vertex given, constants.HF_NO_INDEX for a point in a triangle */
+  /** [capacity] the vertex of the place, constants.HF_NO_INDEX for a point in a triangle */
   vertices: Uint32Array;
   /** [capacity] */
   components: Uint32Array;
@@ -327,7 +333,7 @@ export interface Certificate {
   /** as given, where the largest of the three is */
   worstVertex: number;
   /**
-   * welded vertices with a weight that a rule set (SurfaceReport). On a mesh, and for bi-harmonic fields, the
+   * welded vertices with a weight that a rule set (MeshStatistics). On a mesh, and for bi-harmonic fields, the
    * errors hold for the weights used; on a graph for your own, within 1e30 of their median
    */
   changedVertexCount: number;
@@ -532,15 +538,19 @@ export interface HandleInfo {
   freeRotation: number;
 }
 
-/** Counts and times of a deform. */
+/** What a deform did. */
 export interface DeformInfo {
   /** done */
   iterationCount: number;
-  clusterCount: number;
   /** in components without a handle; they stay at rest */
   unreachedVertexCount: number;
   /** largest change of a rotation in the last iteration */
   lastChange: number;
+}
+
+/** Size of a pose and times of its last deform, in milliseconds; 0 before the first. */
+export interface PoseStatistics {
+  clusterCount: number;
   solveMs: number;
   blendMs: number;
   normalMs: number;
@@ -646,7 +656,7 @@ export interface Streamlines {
   lineEnds: Uint32Array;
 }
 
-/** Counts and areas of a region and of its last edit. Welded copies count as one vertex. */
+/** Counts and areas of a region. Welded copies count as one vertex. */
 export interface RegionInfo {
   /** HF_FIELD_* */
   fieldKind: number;
@@ -656,6 +666,14 @@ export interface RegionInfo {
   rimCount: number;
   /** vertices that fix the base: the rim, for thin plates two rows or more */
   siteCount: number;
+  /** of the triangles with a corner in the region, on the surface, in units^2 */
+  area: number;
+  /** the same on the base */
+  baseArea: number;
+}
+
+/** Work of the last edit of a region, and of all its edits. */
+export interface RegionStatistics {
   /** sites of the last edit ... */
   insertedCount: number;
   removedCount: number;
@@ -668,10 +686,6 @@ export interface RegionInfo {
   lastRoute: number;
   /** 1: the last base took a sweep through the whole factor */
   wholeSweep: number;
-  /** of the triangles with a corner in the region, on the surface, in units^2 */
-  area: number;
-  /** the same on the base */
-  baseArea: number;
 }
 
 /** Figures of a retarget. Angles, stride and drop count all frames since the last reset. */
@@ -805,11 +819,15 @@ export interface TransferInfo {
   crossedCount: number;
   /** 1: from the legs or the boxes; 0: given in the desc */
   scaleFound: number;
+  /** lengths of the target over those of the source, both in the units of their meshes */
+  scale: number;
+}
+
+/** Work of a transfer. */
+export interface TransferStatistics {
   /** numeric factorisations by edits of pairs; 0 unless they are very many */
   sourceFactorisationCount: number;
   targetFactorisationCount: number;
-  /** lengths of the target over those of the source, both in the units of their meshes */
-  scale: number;
 }
 
 /**
@@ -875,6 +893,10 @@ export interface WeightsInfo {
   nearestCount: number;
   rigidCount: number;
   isolatedCount: number;
+}
+
+/** What a developer reads about weights: pieces that were guessed, joints that deserve a look, work done. */
+export interface WeightsStatistics {
   /** pieces without information */
   nearestPieceCount: number;
   /** small ones of them */
@@ -906,7 +928,7 @@ export interface WeightsTransferInfo {
   guessedPieceCount: number;
 }
 
-/** The findings of a mirror. Vertices are counted as given; lengths are in the unit of the mesh. */
+/** The findings of a mirror. Vertices are counted as given. */
 export interface WeightsMirrorInfo {
   vertexCount: number;
   /** HF_MIRROR_PLANE_* */
@@ -924,13 +946,17 @@ export interface WeightsMirrorInfo {
   nearestCount: number;
   rigidCount: number;
   isolatedCount: number;
+  /** of the plane */
+  point: number[];
+  normal: number[];
+}
+
+/** How far a surface and its joints are from their reflections. Lengths are in the unit of the mesh. */
+export interface WeightsMirrorStatistics {
   /** the joint farthest off, constants.HF_NO_INDEX: none has a partner */
   worstJoint: number;
   /** the vertex farthest off, constants.HF_NO_INDEX: none was mirrored */
   worstVertex: number;
-  /** of the plane */
-  point: number[];
-  normal: number[];
   /** mean distance of reflected joints from their partners */
   jointOff: number;
   worstJointOff: number;
@@ -1105,11 +1131,15 @@ export interface Surface extends Handle {
   readonly info: SurfaceInfo;
   /** Writes the report of the mesh. */
   readonly report: SurfaceReport;
+  /** Writes the statistics of the mesh. */
+  readonly meshStatistics: MeshStatistics;
   /**
    * Writes the component of every vertex of your mesh, and constants.HF_NO_INDEX for isolated vertices. Components
    * are numbered in the order of their lowest vertex numbers.
    */
   components(): Uint32Array;
+  /** Writes how the pieces of a surface are linked. */
+  readonly linksInfo: LinksInfo;
   /**
    * Writes the links of a surface. You can edit them and give them back with HF_LINK_LIST. A list does not say
    * which pieces are light: name them in light_vertices, as Surface.pieces marks them. Then the list alone gives
@@ -1275,10 +1305,10 @@ export interface SurfaceClass {
    * graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
    * reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions,
    * directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
-   * links, screening, and sites in triangles or on discs.
+   * links, screening, and sites at places, at points or on discs.
    *
    * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from
-   * the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-harmonic fields
+   * the median of their component are limited; MeshStatistics counts their vertices as changed. Bi-harmonic fields
    * limit weights to 1e3 times the median.
    *
    * edges: [edgeCount x 2] vertices, in any order. The weights of parallel edges are added up. Self loops are
@@ -1838,6 +1868,8 @@ export interface Pose extends Recorded {
    */
   deform<T extends Floats = Float32Array>(out?: T | null,
           options?: { iterationCount?: number; restart?: boolean | number; refine?: number; refineFromLast?: boolean | number; firstVertex?: number; vertexCount?: number; Type?: FloatsType; normals?: Float32Array | null }): T;
+  /** Writes the statistics of a pose. */
+  readonly statistics: PoseStatistics;
   /**
    * Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were
    * added. If the handles do not reach some vertices, a last joint that never moves holds those vertices. The
@@ -2019,6 +2051,8 @@ export interface Region extends Recorded {
   edit(options?: { removeVertices?: Rows | null; addVertices?: Rows | null; ringCount?: number; curve?: CurveDescGiven | Rows | null; progress?: Progress | null }): void;
   /** Writes the info of a region. */
   readonly info: RegionInfo;
+  /** Writes the statistics of a region. */
+  readonly statistics: RegionStatistics;
   /**
    * Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
    *
@@ -2254,6 +2288,8 @@ export interface Transfer extends Handle {
    * Throws HF_ERROR_EMPTY.
    */
   readonly info: TransferInfo;
+  /** Writes the statistics of a transfer. */
+  readonly statistics: TransferStatistics;
   /**
    * Sets the dials of a transfer for the next frames.
    *
@@ -2411,6 +2447,8 @@ export interface Weights extends Recorded {
   joints(): { flags: Uint32Array; vertexCounts: Uint32Array };
   /** Writes the info. */
   readonly info: WeightsInfo;
+  /** Writes the statistics. */
+  readonly statistics: WeightsStatistics;
   /**
    * Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and
    * sets deforms to 0.
@@ -2461,12 +2499,13 @@ export interface WeightsClass {
    * influenceCount: joints of each vertex in the result: 4 or 8; 0: 4
    * progress: an object to poll and cancel through
    * info: filled in when given
+   * statistics: filled in when given
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
    * HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL, HF_ERROR_UNSUPPORTED.
    */
   mirror(surface: Surface,
-          options?: { heads?: Rows | null; names?: string | readonly string[] | null; partners?: Rows | null; plane?: Rows | null; joints?: Rows | null; weights?: Rows | null; to?: number; distance?: number; angle?: number; influenceCount?: number; progress?: Progress | null }): WeightsOut & { partners: Uint32Array; pairings: Uint32Array; info: WeightsMirrorInfo };
+          options?: { heads?: Rows | null; names?: string | readonly string[] | null; partners?: Rows | null; plane?: Rows | null; joints?: Rows | null; weights?: Rows | null; to?: number; distance?: number; angle?: number; influenceCount?: number; progress?: Progress | null }): WeightsOut & { partners: Uint32Array; pairings: Uint32Array; info: WeightsMirrorInfo; statistics: WeightsMirrorStatistics };
 }
 
 export interface Api {

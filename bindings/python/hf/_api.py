@@ -17,6 +17,8 @@ from ._library import PlaceLike
 Link = _raw.hf_link
 SurfaceInfo = _raw.hf_surface_info
 SurfaceReport = _raw.hf_surface_report
+MeshStatistics = _raw.hf_mesh_statistics
+LinksInfo = _raw.hf_links_info
 GapsInfo = _raw.hf_gaps_info
 SurfaceStatistics = _raw.hf_surface_statistics
 Place = _raw.hf_place
@@ -35,9 +37,11 @@ PoseInfo = _raw.hf_pose_info
 Transform = _raw.hf_transform
 HandleInfo = _raw.hf_handle_info
 DeformInfo = _raw.hf_deform_info
+PoseStatistics = _raw.hf_pose_statistics
 HandleProposal = _raw.hf_handle_proposal
 QuadsInfo = _raw.hf_quads_info
 RegionInfo = _raw.hf_region_info
+RegionStatistics = _raw.hf_region_statistics
 RetargetInfo = _raw.hf_retarget_info
 ChainMatch = _raw.hf_chain_match
 SkeletonInfo = _raw.hf_skeleton_info
@@ -45,10 +49,13 @@ JointInfo = _raw.hf_joint_info
 Chain = _raw.hf_chain
 PairInfo = _raw.hf_pair_info
 TransferInfo = _raw.hf_transfer_info
+TransferStatistics = _raw.hf_transfer_statistics
 TransferDials = _raw.hf_transfer_dials
 WeightsInfo = _raw.hf_weights_info
+WeightsStatistics = _raw.hf_weights_statistics
 WeightsTransferInfo = _raw.hf_weights_transfer_info
 WeightsMirrorInfo = _raw.hf_weights_mirror_info
+WeightsMirrorStatistics = _raw.hf_weights_mirror_statistics
 
 
 class Weld(IntEnum):
@@ -515,7 +522,7 @@ class SitesInfo(NamedTuple):
     sites: np.ndarray
     """(capacity,) numbers"""
     vertices: np.ndarray
-    """(capacity,) the vertex given, NO_INDEX for a point in a triangle"""
+    """(capacity,) the vertex of the place, NO_INDEX for a point in a triangle"""
     components: np.ndarray
     """(capacity,)"""
     values: np.ndarray
@@ -1119,10 +1126,10 @@ class Surface(Object):
         graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
         reports work as on a mesh. A call that needs triangles returns UnsupportedError: poses, regions, directions,
         geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links,
-        screening, and sites in triangles or on discs.
+        screening, and sites at places, at points or on discs.
 
         A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from
-        the median of their component are limited; SurfaceReport counts their vertices as changed. Bi-harmonic fields
+        the median of their component are limited; MeshStatistics counts their vertices as changed. Bi-harmonic fields
         limit weights to 1e3 times the median.
 
         edges: (edge_count, 2) vertices, in any order. The weights of parallel edges are added up. Self loops are
@@ -1171,6 +1178,14 @@ class Surface(Object):
         call('hf_surface_get_report', self._handle, ref(report))
         return report
 
+    @property
+    def mesh_statistics(self) -> MeshStatistics:
+        """Writes the statistics of the mesh."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_mesh_statistics, {})
+        call('hf_surface_get_mesh_statistics', self._handle, ref(statistics))
+        return statistics
+
     def components(self) -> np.ndarray:
         """Writes the component of every vertex of your mesh, and NO_INDEX for isolated vertices. Components are numbered
         in the order of their lowest vertex numbers.
@@ -1184,6 +1199,14 @@ class Surface(Object):
         found = c.grow(self, 'hf_surface_get_components', run, lambda: {'capacity': count.value}, {'capacity': None},
                 {'components': (np.uint32, ('capacity',))})
         return found['components']
+
+    @property
+    def links_info(self) -> LinksInfo:
+        """Writes how the pieces of a surface are linked."""
+        c = Call(self)
+        info = c.struct(_raw.hf_links_info, {})
+        call('hf_surface_get_links_info', self._handle, ref(info))
+        return info
 
     def links(self) -> np.ndarray:
         """Writes the links of a surface. You can edit them and give them back with LinkMode.LIST. A list does not say
@@ -2311,6 +2334,14 @@ class Pose(Recorded):
         call('hf_pose_deform', self._handle, ref(desc), c.info(info, _raw.hf_deform_info))
         return out
 
+    @property
+    def statistics(self) -> PoseStatistics:
+        """Writes the statistics of a pose."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_pose_statistics, {})
+        call('hf_pose_get_statistics', self._handle, ref(statistics))
+        return statistics
+
     def skin(self, influence_count: int = 0, *, scales: bool = False) -> SkinInfo:
         """Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were
         added. If the handles do not reach some vertices, a last joint that never moves holds those vertices. The
@@ -2593,6 +2624,14 @@ class Region(Recorded):
         info = c.struct(_raw.hf_region_info, {})
         call('hf_region_get_info', self._handle, ref(info))
         return info
+
+    @property
+    def statistics(self) -> RegionStatistics:
+        """Writes the statistics of a region."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_region_statistics, {})
+        call('hf_region_get_statistics', self._handle, ref(statistics))
+        return statistics
 
     def vertices(self, list: int = RegionList.INSIDE) -> np.ndarray:
         """Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
@@ -3022,6 +3061,14 @@ class Transfer(Object):
         call('hf_transfer_get_info', self._handle, ref(info))
         return info
 
+    @property
+    def statistics(self) -> TransferStatistics:
+        """Writes the statistics of a transfer."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_transfer_statistics, {})
+        call('hf_transfer_get_statistics', self._handle, ref(statistics))
+        return statistics
+
     def set_dials(self, *, stride: float = 0.0, hip_height_share: float = 0.0, neck_follow: float = 0.0,
             tail_follow: float = 0.0, arm_space: float = 0.0, long_follow: float = 0.0) -> None:
         """Sets the dials of a transfer for the next frames.
@@ -3284,6 +3331,14 @@ class Weights(Recorded):
         call('hf_weights_get_info', self._handle, ref(info))
         return info
 
+    @property
+    def statistics(self) -> WeightsStatistics:
+        """Writes the statistics."""
+        c = Call(self)
+        statistics = c.struct(_raw.hf_weights_statistics, {})
+        call('hf_weights_get_statistics', self._handle, ref(statistics))
+        return statistics
+
     def helpers(self, names: Union[None, str, Sequence[str]] = None) -> np.ndarray:
         """Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and
         sets deforms to 0.
@@ -3345,7 +3400,8 @@ class Weights(Recorded):
             partners: Optional[ArrayLike] = None, plane: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None,
             weights: Optional[ArrayLike] = None, *, to: int = MirrorTo.TO_NEGATIVE, distance: float = 0.0,
             angle: float = 0.0, influence_count: int = 0, progress: Optional[Progress] = None,
-            info: Optional[WeightsMirrorInfo] = None) -> Tuple[WeightsOut, np.ndarray, np.ndarray]:
+            info: Optional[WeightsMirrorInfo] = None,
+            statistics: Optional[WeightsMirrorStatistics] = None) -> Tuple[WeightsOut, np.ndarray, np.ndarray]:
         """Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the
         nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
         fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a
@@ -3363,6 +3419,7 @@ class Weights(Recorded):
         influence_count: joints of each vertex in the result: 4 or 8; 0: 4
         progress: an object to poll and cancel through
         info: filled in when given
+        statistics: filled in when given
 
         Raises CancelledError, EmptyError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError,
         TooSmallError, UnsupportedError.
@@ -3378,7 +3435,8 @@ class Weights(Recorded):
         def run(room: Any, made: Any) -> None:
             c.into(weights_, room, made)
             call('hf_weights_mirror', handle_of(surface, Surface, 'surface'), ref(desc), ref(weights_),
-                    address(partners_), address(pairings), c.info(info, _raw.hf_weights_mirror_info))
+                    address(partners_), address(pairings), c.info(info, _raw.hf_weights_mirror_info), c.info(statistics,
+                    _raw.hf_weights_mirror_statistics))
 
         found = c.grow(surface, 'hf_weights_mirror', run, lambda: {'vertex_capacity': weights_.vertex_count,
                 'vertex_count': weights_.vertex_count, 'influence_count': weights_.influence_count},
@@ -3393,11 +3451,13 @@ __all__ = [
     'CurveKind', 'DeformInfo', 'DeformMode', 'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod',
     'Engine', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo',
     'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo', 'JointKind',
-    'Levels', 'Link', 'LinkMode', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag',
-    'PairInfo', 'Path', 'Place', 'Pose', 'PoseInfo', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh',
-    'Region', 'RegionInfo', 'RegionList', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion',
-    'Route', 'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo',
-    'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo', 'SurfaceReport',
-    'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode', 'Transform', 'Weights',
-    'WeightsInfo', 'WeightsMirrorInfo', 'WeightsOrigin', 'WeightsOut', 'WeightsTransferInfo', 'Weld'
+    'Levels', 'Link', 'LinkMode', 'LinksInfo', 'MeshStatistics', 'MirrorPairing', 'MirrorPlane', 'MirrorTo',
+    'Operator', 'Ordering', 'PairFlag', 'PairInfo', 'Path', 'Place', 'Pose', 'PoseInfo', 'PoseStatistics',
+    'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh', 'Region', 'RegionInfo', 'RegionList',
+    'RegionStatistics', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion', 'Route', 'ScaleFrom',
+    'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo', 'Solver',
+    'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo', 'SurfaceReport',
+    'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode', 'TransferStatistics',
+    'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo', 'WeightsMirrorStatistics', 'WeightsOrigin',
+    'WeightsOut', 'WeightsStatistics', 'WeightsTransferInfo', 'Weld'
 ]

@@ -486,23 +486,9 @@ class hf_surface_report(Struct):
     non_manifold_edge_count: int
     flipped_edge_count: int
     boundary_edge_count: int
-    negative_edge_count: int
-    reserved: int
-    smallest_angle: float
-    bounding_box_diagonal: float
-    changed_vertex_count: int
-    first_changed_vertex: int
-    piece_count: int
-    link_count: int
-    light_piece_count: int
-    lone_piece_count: int
-    longest_tree_link: float
-    face_count: int
-    polygon_count: int
-    non_planar_count: int
-    largest_face: int
     inside_out_count: int
     first_inside_out_vertex: int
+    bounding_box_diagonal: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -516,23 +502,53 @@ class hf_surface_report(Struct):
         ("non_manifold_edge_count", c_uint32),
         ("flipped_edge_count", c_uint32),
         ("boundary_edge_count", c_uint32),
-        ("negative_edge_count", c_uint32),
-        ("reserved", c_uint32),
-        ("smallest_angle", c_double),
+        ("inside_out_count", c_uint32),
+        ("first_inside_out_vertex", c_uint32),
         ("bounding_box_diagonal", c_double),
+    ]
+
+
+class hf_mesh_statistics(Struct):
+    """What a developer reads about a mesh"""
+    struct_size: int
+    polygon_count: int
+    non_planar_count: int
+    largest_face: int
+    negative_edge_count: int
+    changed_vertex_count: int
+    first_changed_vertex: int
+    reserved: int
+    smallest_angle: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("polygon_count", c_uint32),
+        ("non_planar_count", c_uint32),
+        ("largest_face", c_uint32),
+        ("negative_edge_count", c_uint32),
         ("changed_vertex_count", c_uint32),
         ("first_changed_vertex", c_uint32),
+        ("reserved", c_uint32),
+        ("smallest_angle", c_double),
+    ]
+
+
+class hf_links_info(Struct):
+    """How the pieces of a mesh are linked."""
+    struct_size: int
+    piece_count: int
+    link_count: int
+    light_piece_count: int
+    lone_piece_count: int
+    reserved: int
+    longest_tree_link: float
+    _fields_ = [
+        ("struct_size", c_uint32),
         ("piece_count", c_uint32),
         ("link_count", c_uint32),
         ("light_piece_count", c_uint32),
         ("lone_piece_count", c_uint32),
+        ("reserved", c_uint32),
         ("longest_tree_link", c_double),
-        ("face_count", c_uint32),
-        ("polygon_count", c_uint32),
-        ("non_planar_count", c_uint32),
-        ("largest_face", c_uint32),
-        ("inside_out_count", c_uint32),
-        ("first_inside_out_vertex", c_uint32),
     ]
 
 
@@ -1195,26 +1211,18 @@ class hf_handle_info(Struct):
 
 
 class hf_deform_info(Struct):
-    """Counts and times of a deform."""
+    """What a deform did."""
     struct_size: int
     iteration_count: int
-    cluster_count: int
     unreached_vertex_count: int
+    reserved: int
     last_change: float
-    solve_ms: float
-    blend_ms: float
-    normal_ms: float
-    refine_ms: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("iteration_count", c_uint32),
-        ("cluster_count", c_uint32),
         ("unreached_vertex_count", c_uint32),
+        ("reserved", c_uint32),
         ("last_change", c_double),
-        ("solve_ms", c_double),
-        ("blend_ms", c_double),
-        ("normal_ms", c_double),
-        ("refine_ms", c_double),
     ]
 
 
@@ -1247,6 +1255,24 @@ class hf_deform_desc(Struct):
         ("first_vertex", c_uint32),
         ("vertex_count", c_uint32),
         ("reserved", c_uint32),
+    ]
+
+
+class hf_pose_statistics(Struct):
+    """Size of a pose and times of its last deform, in milliseconds; 0 before the first."""
+    struct_size: int
+    cluster_count: int
+    solve_ms: float
+    blend_ms: float
+    normal_ms: float
+    refine_ms: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("cluster_count", c_uint32),
+        ("solve_ms", c_double),
+        ("blend_ms", c_double),
+        ("normal_ms", c_double),
+        ("refine_ms", c_double),
     ]
 
 
@@ -1510,19 +1536,13 @@ class hf_region_edit_desc(Struct):
 
 
 class hf_region_info(Struct):
-    """Counts and areas of a region and of its last edit."""
+    """Counts and areas of a region."""
     struct_size: int
     field_kind: int
     vertex_count: int
     rim_count: int
     site_count: int
-    inserted_count: int
-    removed_count: int
-    kept_count: int
-    factorisation_count: int
-    path_solve_count: int
-    last_route: int
-    whole_sweep: int
+    reserved: int
     area: float
     base_area: float
     _fields_ = [
@@ -1531,6 +1551,24 @@ class hf_region_info(Struct):
         ("vertex_count", c_uint32),
         ("rim_count", c_uint32),
         ("site_count", c_uint32),
+        ("reserved", c_uint32),
+        ("area", c_double),
+        ("base_area", c_double),
+    ]
+
+
+class hf_region_statistics(Struct):
+    """Work of the last edit of a region, and of all its edits."""
+    struct_size: int
+    inserted_count: int
+    removed_count: int
+    kept_count: int
+    factorisation_count: int
+    path_solve_count: int
+    last_route: int
+    whole_sweep: int
+    _fields_ = [
+        ("struct_size", c_uint32),
         ("inserted_count", c_uint32),
         ("removed_count", c_uint32),
         ("kept_count", c_uint32),
@@ -1538,8 +1576,6 @@ class hf_region_info(Struct):
         ("path_solve_count", c_uint32),
         ("last_route", c_uint32),
         ("whole_sweep", c_int32),
-        ("area", c_double),
-        ("base_area", c_double),
     ]
 
 
@@ -1869,8 +1905,6 @@ class hf_transfer_info(Struct):
     aligned_count: int
     crossed_count: int
     scale_found: int
-    source_factorisation_count: int
-    target_factorisation_count: int
     scale: float
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1879,9 +1913,19 @@ class hf_transfer_info(Struct):
         ("aligned_count", c_uint32),
         ("crossed_count", c_uint32),
         ("scale_found", c_int32),
+        ("scale", c_double),
+    ]
+
+
+class hf_transfer_statistics(Struct):
+    """Work of a transfer."""
+    struct_size: int
+    source_factorisation_count: int
+    target_factorisation_count: int
+    _fields_ = [
+        ("struct_size", c_uint32),
         ("source_factorisation_count", c_uint32),
         ("target_factorisation_count", c_uint32),
-        ("scale", c_double),
     ]
 
 
@@ -2026,17 +2070,6 @@ class hf_weights_info(Struct):
     nearest_count: int
     rigid_count: int
     isolated_count: int
-    nearest_piece_count: int
-    rigid_piece_count: int
-    blind: int
-    no_length_count: int
-    coincident_count: int
-    informs_none_count: int
-    outside_count: int
-    helper_count: int
-    factorisation_count: int
-    path_solve_count: int
-    reserved: int
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -2049,6 +2082,24 @@ class hf_weights_info(Struct):
         ("nearest_count", c_uint32),
         ("rigid_count", c_uint32),
         ("isolated_count", c_uint32),
+    ]
+
+
+class hf_weights_statistics(Struct):
+    """What a developer reads about weights"""
+    struct_size: int
+    nearest_piece_count: int
+    rigid_piece_count: int
+    blind: int
+    no_length_count: int
+    coincident_count: int
+    informs_none_count: int
+    outside_count: int
+    helper_count: int
+    factorisation_count: int
+    path_solve_count: int
+    _fields_ = [
+        ("struct_size", c_uint32),
         ("nearest_piece_count", c_uint32),
         ("rigid_piece_count", c_uint32),
         ("blind", c_int32),
@@ -2059,7 +2110,6 @@ class hf_weights_info(Struct):
         ("helper_count", c_uint32),
         ("factorisation_count", c_uint32),
         ("path_solve_count", c_uint32),
-        ("reserved", c_uint32),
     ]
 
 
@@ -2161,14 +2211,8 @@ class hf_weights_mirror_info(Struct):
     nearest_count: int
     rigid_count: int
     isolated_count: int
-    worst_joint: int
-    worst_vertex: int
     point: object
     normal: object
-    joint_off: float
-    worst_joint_off: float
-    vertex_off: float
-    worst_vertex_off: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -2184,10 +2228,26 @@ class hf_weights_mirror_info(Struct):
         ("nearest_count", c_uint32),
         ("rigid_count", c_uint32),
         ("isolated_count", c_uint32),
-        ("worst_joint", c_uint32),
-        ("worst_vertex", c_uint32),
         ("point", c_double * 3),
         ("normal", c_double * 3),
+    ]
+
+
+class hf_weights_mirror_statistics(Struct):
+    """How far a surface and its joints are from their reflections."""
+    struct_size: int
+    worst_joint: int
+    worst_vertex: int
+    reserved: int
+    joint_off: float
+    worst_joint_off: float
+    vertex_off: float
+    worst_vertex_off: float
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("worst_joint", c_uint32),
+        ("worst_vertex", c_uint32),
+        ("reserved", c_uint32),
         ("joint_off", c_double),
         ("worst_joint_off", c_double),
         ("vertex_off", c_double),
@@ -2195,7 +2255,7 @@ class hf_weights_mirror_info(Struct):
     ]
 
 
-STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_place, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info]
+STRUCTS = [hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_mesh_statistics, hf_links_info, hf_gaps_desc, hf_gaps_info, hf_surface_statistics, hf_place, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_scalars, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_pose_statistics, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_statistics, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_statistics, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_weights_mirror_statistics]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -2211,7 +2271,9 @@ PROTOTYPES = {
     "hf_surface_destroy": (None, [c_void_p]),
     "hf_surface_get_info": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_get_report": (c_int32, [c_void_p, c_void_p]),
+    "hf_surface_get_mesh_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_get_components": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
+    "hf_surface_get_links_info": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_get_links": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_surface_get_pieces": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
     "hf_surface_measure_gaps": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
@@ -2286,6 +2348,7 @@ PROTOTYPES = {
     "hf_pose_get_field": (c_int32, [c_void_p, c_uint32, c_void_p, c_uint32]),
     "hf_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "hf_pose_deform": (c_int32, [c_void_p, c_void_p, c_void_p]),
+    "hf_pose_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),
     "hf_surface_propose_handles": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_quads_create": (c_int32, [c_void_p, c_void_p, c_void_p]),
@@ -2301,6 +2364,7 @@ PROTOTYPES = {
     "hf_region_destroy": (None, [c_void_p]),
     "hf_region_edit": (c_int32, [c_void_p, c_void_p]),
     "hf_region_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_region_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_region_get_vertices": (c_int32, [c_void_p, c_int32, c_uint32, c_void_p, c_void_p]),
     "hf_region_get_curve": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_region_morph": (c_int32, [c_void_p, c_void_p]),
@@ -2329,6 +2393,7 @@ PROTOTYPES = {
     "hf_transfer_remove_pairs": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_transfer_get_pair": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_transfer_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_transfer_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_set_dials": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_get_dials": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_apply": (c_int32, [c_void_p, c_void_p]),
@@ -2343,9 +2408,10 @@ PROTOTYPES = {
     "hf_weights_get": (c_int32, [c_void_p, c_void_p]),
     "hf_weights_get_joints": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p, c_void_p]),
     "hf_weights_get_info": (c_int32, [c_void_p, c_void_p]),
+    "hf_weights_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_weights_get_helpers": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_weights_transfer": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
-    "hf_weights_mirror": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "hf_weights_mirror": (c_int32, [c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
 }
 
 

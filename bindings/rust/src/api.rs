@@ -89,6 +89,8 @@ impl<'a> Links<'a> {
 /// polygon Laplacian, [`raw::HF_OPERATOR_UNIFORM`] the sides of the faces. Directions, distances, iso-lines, streamlines
 /// and quads work on a cut of the library. It does not depend on the order of the corners. Where this interface names a
 /// triangle, it names the face then. Normals of poses are sums of the area vectors of faces.
+///
+/// More than 16 fields: each array of the mesh has a count and a stride, each limit is a choice of its own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceOptions<'a> {
     /// `[face_count]` first corner of each face. `None`: the faces follow one another. Without face_sizes `[face_count +
@@ -180,7 +182,8 @@ impl<'a> SurfaceOptions<'a> {
 }
 
 /// A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
-/// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of [`SurfaceOptions`].
+/// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of [`SurfaceOptions`]. More than 16
+/// fields: they mirror [`SurfaceOptions`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GraphOptions<'a> {
     /// `[vertex_count]` M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100; `None`: all 1. A mass below
@@ -678,7 +681,8 @@ impl<'a> HandleProposalsOptions<'a> {
     }
 }
 
-/// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals.
+/// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals. More than 16
+/// fields: creases, guides and irregular vertices are lists with their counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QuadsOptions<'a> {
     /// `[crease_count x 2]` the two vertices of each edge, as given
@@ -1377,7 +1381,7 @@ pub struct Isolines {
 pub struct SitesInfo {
     /// `[capacity]` numbers
     pub sites: Vec<u32>,
-    /// `[capacity]` the vertex given, [`raw::HF_NO_INDEX`] for a point in a triangle
+    /// `[capacity]` the vertex of the place, [`raw::HF_NO_INDEX`] for a point in a triangle
     pub vertices: Vec<u32>,
     /// `[capacity]`
     pub components: Vec<u32>,
@@ -1572,10 +1576,10 @@ impl Surface {
     /// graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
     /// reports work as on a mesh. A call that needs triangles returns [`raw::HF_ERROR_UNSUPPORTED`]: poses, regions,
     /// directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
-    /// links, screening, and sites in triangles or on discs.
+    /// links, screening, and sites at places, at points or on discs.
     ///
     /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
-    /// median of their component are limited; [`raw::hf_surface_report`] counts their vertices as changed. Bi-harmonic
+    /// median of their component are limited; [`raw::hf_mesh_statistics`] counts their vertices as changed. Bi-harmonic
     /// fields limit weights to 1e3 times the median.
     ///
     /// edges: `[edge_count x 2]` vertices, in any order. The weights of parallel edges are added up. Self loops are
@@ -1629,6 +1633,16 @@ impl Surface {
         Ok(report)
     }
 
+    /// Writes the statistics of the mesh.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn mesh_statistics(&self) -> Result<raw::hf_mesh_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_mesh_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_get_mesh_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
+    }
+
     /// Writes the component of every vertex of your mesh, and [`raw::HF_NO_INDEX`] for isolated vertices. Components are
     /// numbered in the order of their lowest vertex numbers.
     #[allow(unused_mut, unused_variables, clippy::all)]
@@ -1649,6 +1663,16 @@ impl Surface {
         }
         components.truncate(c.product(&["capacity"]));
         Ok(components)
+    }
+
+    /// Writes how the pieces of a surface are linked.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn links_info(&self) -> Result<raw::hf_links_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_links_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_get_links_info(self.handle, &mut info) })?;
+        Ok(info)
     }
 
     /// Writes the links of a surface. You can edit them and give them back with [`raw::HF_LINK_LIST`]. A list does not
@@ -3140,6 +3164,16 @@ impl Pose {
         Ok(info)
     }
 
+    /// Writes the statistics of a pose.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_pose_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_pose_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
+    }
+
     /// Writes the joints and weights of a pose. Joints 0 to handle_count - 1 are its handles in the order they were
     /// added. If the handles do not reach some vertices, a last joint that never moves holds those vertices. The weights
     /// of a vertex are its 4 or 8 largest, scaled so that their sum is exactly 1 in single precision. Weights and pivots
@@ -3521,6 +3555,16 @@ impl Region {
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_get_info(self.handle, &mut info) })?;
         Ok(info)
+    }
+
+    /// Writes the statistics of a region.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_region_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_region_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_region_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
     }
 
     /// Writes one list of vertices of your mesh, ascending. Where vertices were welded, the list has the first copy.
@@ -4076,6 +4120,16 @@ impl Transfer {
         Ok(info)
     }
 
+    /// Writes the statistics of a transfer.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_transfer_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_transfer_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
+    }
+
     /// Sets the dials of a transfer for the next frames.
     ///
     /// stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
@@ -4424,6 +4478,16 @@ impl Weights {
         Ok(info)
     }
 
+    /// Writes the statistics.
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn statistics(&self) -> Result<raw::hf_weights_statistics> {
+        let mut c = Call::new(&self.counts);
+        let mut statistics = raw::hf_weights_statistics::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_weights_get_statistics(self.handle, &mut statistics) })?;
+        Ok(statistics)
+    }
+
     /// Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and sets
     /// deforms to 0.
     ///
@@ -4520,16 +4584,18 @@ impl Weights {
     /// influence_count: joints of each vertex in the result: 4 or 8; 0: 4
     /// progress: an object to poll and cancel through
     /// info: filled in when given
+    /// statistics: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_TOO_SMALL`], [`raw::HF_ERROR_UNSUPPORTED`].
     #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn mirror(surface: &Surface, options: &WeightsMirrorOptions) -> Result<(WeightsOut, Vec<u32>, Vec<u32>,
-            raw::hf_weights_mirror_info)> {
+            raw::hf_weights_mirror_info, raw::hf_weights_mirror_statistics)> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
         let mut info = raw::hf_weights_mirror_info::default();
+        let mut statistics = raw::hf_weights_mirror_statistics::default();
         let desc = options.fill(&mut c, "")?;
         let mut weights_ = raw::hf_weights_out { ..Default::default() };
         let mut partners_ = vec![u32::default(); c.product(&["joint_count"])];
@@ -4550,7 +4616,7 @@ impl Weights {
             weights_.origins = room.at(&mut all_origins);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_weights_mirror(surface.handle, &desc, &mut weights_, partners_.as_mut_ptr(),
-                pairings.as_mut_ptr(), &mut info) };
+                pairings.as_mut_ptr(), &mut info, &mut statistics) };
             if room.enough(&mut c, code, &[("vertex_capacity", weights_.vertex_count), ("vertex_count",
                 weights_.vertex_count), ("influence_count", weights_.influence_count)])? {
                 break;
@@ -4560,7 +4626,7 @@ impl Weights {
         all_weights.truncate(c.product(&["vertex_capacity", "influence_count"]));
         all_origins.truncate(c.product(&["vertex_capacity"]));
         Ok((WeightsOut { influence_count: weights_.influence_count, joints: all_joints, weights: all_weights,
-            origins: all_origins }, partners_, pairings, info))
+            origins: all_origins }, partners_, pairings, info, statistics))
     }
 
     /// Vertices of the surface, as given.

@@ -506,23 +506,9 @@ pub struct hf_surface_report {
     pub non_manifold_edge_count: u32,
     pub flipped_edge_count: u32,
     pub boundary_edge_count: u32,
-    pub negative_edge_count: u32,
-    pub reserved: u32,
-    pub smallest_angle: f64,
-    pub bounding_box_diagonal: f64,
-    pub changed_vertex_count: u32,
-    pub first_changed_vertex: u32,
-    pub piece_count: u32,
-    pub link_count: u32,
-    pub light_piece_count: u32,
-    pub lone_piece_count: u32,
-    pub longest_tree_link: f64,
-    pub face_count: u32,
-    pub polygon_count: u32,
-    pub non_planar_count: u32,
-    pub largest_face: u32,
     pub inside_out_count: u32,
     pub first_inside_out_vertex: u32,
+    pub bounding_box_diagonal: f64,
 }
 impl Default for hf_surface_report {
     fn default() -> Self {
@@ -548,23 +534,85 @@ impl hf_surface_report {
             "non_manifold_edge_count" => f64::from(self.non_manifold_edge_count),
             "flipped_edge_count" => f64::from(self.flipped_edge_count),
             "boundary_edge_count" => f64::from(self.boundary_edge_count),
-            "negative_edge_count" => f64::from(self.negative_edge_count),
-            "reserved" => f64::from(self.reserved),
-            "smallest_angle" => self.smallest_angle,
+            "inside_out_count" => f64::from(self.inside_out_count),
+            "first_inside_out_vertex" => f64::from(self.first_inside_out_vertex),
             "bounding_box_diagonal" => self.bounding_box_diagonal,
+            _ => return None,
+        })
+    }
+}
+
+/// What a developer reads about a mesh
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_mesh_statistics {
+    pub struct_size: u32,
+    pub polygon_count: u32,
+    pub non_planar_count: u32,
+    pub largest_face: u32,
+    pub negative_edge_count: u32,
+    pub changed_vertex_count: u32,
+    pub first_changed_vertex: u32,
+    pub reserved: u32,
+    pub smallest_angle: f64,
+}
+impl Default for hf_mesh_statistics {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_mesh_statistics {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "polygon_count" => f64::from(self.polygon_count),
+            "non_planar_count" => f64::from(self.non_planar_count),
+            "largest_face" => f64::from(self.largest_face),
+            "negative_edge_count" => f64::from(self.negative_edge_count),
             "changed_vertex_count" => f64::from(self.changed_vertex_count),
             "first_changed_vertex" => f64::from(self.first_changed_vertex),
+            "reserved" => f64::from(self.reserved),
+            "smallest_angle" => self.smallest_angle,
+            _ => return None,
+        })
+    }
+}
+
+/// How the pieces of a mesh are linked.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_links_info {
+    pub struct_size: u32,
+    pub piece_count: u32,
+    pub link_count: u32,
+    pub light_piece_count: u32,
+    pub lone_piece_count: u32,
+    pub reserved: u32,
+    pub longest_tree_link: f64,
+}
+impl Default for hf_links_info {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_links_info {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
             "piece_count" => f64::from(self.piece_count),
             "link_count" => f64::from(self.link_count),
             "light_piece_count" => f64::from(self.light_piece_count),
             "lone_piece_count" => f64::from(self.lone_piece_count),
+            "reserved" => f64::from(self.reserved),
             "longest_tree_link" => self.longest_tree_link,
-            "face_count" => f64::from(self.face_count),
-            "polygon_count" => f64::from(self.polygon_count),
-            "non_planar_count" => f64::from(self.non_planar_count),
-            "largest_face" => f64::from(self.largest_face),
-            "inside_out_count" => f64::from(self.inside_out_count),
-            "first_inside_out_vertex" => f64::from(self.first_inside_out_vertex),
             _ => return None,
         })
     }
@@ -1420,19 +1468,15 @@ impl hf_handle_info {
     }
 }
 
-/// Counts and times of a deform.
+/// What a deform did.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_deform_info {
     pub struct_size: u32,
     pub iteration_count: u32,
-    pub cluster_count: u32,
     pub unreached_vertex_count: u32,
+    pub reserved: u32,
     pub last_change: f64,
-    pub solve_ms: f64,
-    pub blend_ms: f64,
-    pub normal_ms: f64,
-    pub refine_ms: f64,
 }
 impl Default for hf_deform_info {
     fn default() -> Self {
@@ -1448,13 +1492,9 @@ impl hf_deform_info {
         Some(match name {
             "struct_size" => f64::from(self.struct_size),
             "iteration_count" => f64::from(self.iteration_count),
-            "cluster_count" => f64::from(self.cluster_count),
             "unreached_vertex_count" => f64::from(self.unreached_vertex_count),
+            "reserved" => f64::from(self.reserved),
             "last_change" => self.last_change,
-            "solve_ms" => self.solve_ms,
-            "blend_ms" => self.blend_ms,
-            "normal_ms" => self.normal_ms,
-            "refine_ms" => self.refine_ms,
             _ => return None,
         })
     }
@@ -1484,6 +1524,40 @@ impl Default for hf_deform_desc {
         let mut made: Self = unsafe { std::mem::zeroed() };
         made.struct_size = std::mem::size_of::<Self>() as u32;
         made
+    }
+}
+
+/// Size of a pose and times of its last deform, in milliseconds; 0 before the first.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_pose_statistics {
+    pub struct_size: u32,
+    pub cluster_count: u32,
+    pub solve_ms: f64,
+    pub blend_ms: f64,
+    pub normal_ms: f64,
+    pub refine_ms: f64,
+}
+impl Default for hf_pose_statistics {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_pose_statistics {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
+            "cluster_count" => f64::from(self.cluster_count),
+            "solve_ms" => self.solve_ms,
+            "blend_ms" => self.blend_ms,
+            "normal_ms" => self.normal_ms,
+            "refine_ms" => self.refine_ms,
+            _ => return None,
+        })
     }
 }
 
@@ -1736,7 +1810,7 @@ impl Default for hf_region_edit_desc {
     }
 }
 
-/// Counts and areas of a region and of its last edit.
+/// Counts and areas of a region.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_region_info {
@@ -1745,13 +1819,7 @@ pub struct hf_region_info {
     pub vertex_count: u32,
     pub rim_count: u32,
     pub site_count: u32,
-    pub inserted_count: u32,
-    pub removed_count: u32,
-    pub kept_count: u32,
-    pub factorisation_count: u32,
-    pub path_solve_count: u32,
-    pub last_route: u32,
-    pub whole_sweep: i32,
+    pub reserved: u32,
     pub area: f64,
     pub base_area: f64,
 }
@@ -1772,6 +1840,40 @@ impl hf_region_info {
             "vertex_count" => f64::from(self.vertex_count),
             "rim_count" => f64::from(self.rim_count),
             "site_count" => f64::from(self.site_count),
+            "reserved" => f64::from(self.reserved),
+            "area" => self.area,
+            "base_area" => self.base_area,
+            _ => return None,
+        })
+    }
+}
+
+/// Work of the last edit of a region, and of all its edits.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_region_statistics {
+    pub struct_size: u32,
+    pub inserted_count: u32,
+    pub removed_count: u32,
+    pub kept_count: u32,
+    pub factorisation_count: u32,
+    pub path_solve_count: u32,
+    pub last_route: u32,
+    pub whole_sweep: i32,
+}
+impl Default for hf_region_statistics {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_region_statistics {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
             "inserted_count" => f64::from(self.inserted_count),
             "removed_count" => f64::from(self.removed_count),
             "kept_count" => f64::from(self.kept_count),
@@ -1779,8 +1881,6 @@ impl hf_region_info {
             "path_solve_count" => f64::from(self.path_solve_count),
             "last_route" => f64::from(self.last_route),
             "whole_sweep" => f64::from(self.whole_sweep),
-            "area" => self.area,
-            "base_area" => self.base_area,
             _ => return None,
         })
     }
@@ -2161,8 +2261,6 @@ pub struct hf_transfer_info {
     pub aligned_count: u32,
     pub crossed_count: u32,
     pub scale_found: i32,
-    pub source_factorisation_count: u32,
-    pub target_factorisation_count: u32,
     pub scale: f64,
 }
 impl Default for hf_transfer_info {
@@ -2183,9 +2281,35 @@ impl hf_transfer_info {
             "aligned_count" => f64::from(self.aligned_count),
             "crossed_count" => f64::from(self.crossed_count),
             "scale_found" => f64::from(self.scale_found),
+            "scale" => self.scale,
+            _ => return None,
+        })
+    }
+}
+
+/// Work of a transfer.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_transfer_statistics {
+    pub struct_size: u32,
+    pub source_factorisation_count: u32,
+    pub target_factorisation_count: u32,
+}
+impl Default for hf_transfer_statistics {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_transfer_statistics {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
             "source_factorisation_count" => f64::from(self.source_factorisation_count),
             "target_factorisation_count" => f64::from(self.target_factorisation_count),
-            "scale" => self.scale,
             _ => return None,
         })
     }
@@ -2341,17 +2465,6 @@ pub struct hf_weights_info {
     pub nearest_count: u32,
     pub rigid_count: u32,
     pub isolated_count: u32,
-    pub nearest_piece_count: u32,
-    pub rigid_piece_count: u32,
-    pub blind: i32,
-    pub no_length_count: u32,
-    pub coincident_count: u32,
-    pub informs_none_count: u32,
-    pub outside_count: u32,
-    pub helper_count: u32,
-    pub factorisation_count: u32,
-    pub path_solve_count: u32,
-    pub reserved: u32,
 }
 impl Default for hf_weights_info {
     fn default() -> Self {
@@ -2376,6 +2489,40 @@ impl hf_weights_info {
             "nearest_count" => f64::from(self.nearest_count),
             "rigid_count" => f64::from(self.rigid_count),
             "isolated_count" => f64::from(self.isolated_count),
+            _ => return None,
+        })
+    }
+}
+
+/// What a developer reads about weights
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_weights_statistics {
+    pub struct_size: u32,
+    pub nearest_piece_count: u32,
+    pub rigid_piece_count: u32,
+    pub blind: i32,
+    pub no_length_count: u32,
+    pub coincident_count: u32,
+    pub informs_none_count: u32,
+    pub outside_count: u32,
+    pub helper_count: u32,
+    pub factorisation_count: u32,
+    pub path_solve_count: u32,
+}
+impl Default for hf_weights_statistics {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_weights_statistics {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
             "nearest_piece_count" => f64::from(self.nearest_piece_count),
             "rigid_piece_count" => f64::from(self.rigid_piece_count),
             "blind" => f64::from(self.blind),
@@ -2386,7 +2533,6 @@ impl hf_weights_info {
             "helper_count" => f64::from(self.helper_count),
             "factorisation_count" => f64::from(self.factorisation_count),
             "path_solve_count" => f64::from(self.path_solve_count),
-            "reserved" => f64::from(self.reserved),
             _ => return None,
         })
     }
@@ -2500,14 +2646,8 @@ pub struct hf_weights_mirror_info {
     pub nearest_count: u32,
     pub rigid_count: u32,
     pub isolated_count: u32,
-    pub worst_joint: u32,
-    pub worst_vertex: u32,
     pub point: [f64; 3],
     pub normal: [f64; 3],
-    pub joint_off: f64,
-    pub worst_joint_off: f64,
-    pub vertex_off: f64,
-    pub worst_vertex_off: f64,
 }
 impl Default for hf_weights_mirror_info {
     fn default() -> Self {
@@ -2535,8 +2675,40 @@ impl hf_weights_mirror_info {
             "nearest_count" => f64::from(self.nearest_count),
             "rigid_count" => f64::from(self.rigid_count),
             "isolated_count" => f64::from(self.isolated_count),
+            _ => return None,
+        })
+    }
+}
+
+/// How far a surface and its joints are from their reflections.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_weights_mirror_statistics {
+    pub struct_size: u32,
+    pub worst_joint: u32,
+    pub worst_vertex: u32,
+    pub reserved: u32,
+    pub joint_off: f64,
+    pub worst_joint_off: f64,
+    pub vertex_off: f64,
+    pub worst_vertex_off: f64,
+}
+impl Default for hf_weights_mirror_statistics {
+    fn default() -> Self {
+        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+        let mut made: Self = unsafe { std::mem::zeroed() };
+        made.struct_size = std::mem::size_of::<Self>() as u32;
+        made
+    }
+}
+impl hf_weights_mirror_statistics {
+    /// The figure of this name, for generic tools.
+    pub fn figure(&self, name: &str) -> Option<f64> {
+        Some(match name {
+            "struct_size" => f64::from(self.struct_size),
             "worst_joint" => f64::from(self.worst_joint),
             "worst_vertex" => f64::from(self.worst_vertex),
+            "reserved" => f64::from(self.reserved),
             "joint_off" => self.joint_off,
             "worst_joint_off" => self.worst_joint_off,
             "vertex_off" => self.vertex_off,
@@ -2559,7 +2731,9 @@ extern "C" {
     pub fn hf_surface_destroy(surface: hf_surface);
     pub fn hf_surface_get_info(surface: hf_surface, out_info: *mut hf_surface_info) -> i32;
     pub fn hf_surface_get_report(surface: hf_surface, out_report: *mut hf_surface_report) -> i32;
+    pub fn hf_surface_get_mesh_statistics(surface: hf_surface, out_statistics: *mut hf_mesh_statistics) -> i32;
     pub fn hf_surface_get_components(surface: hf_surface, capacity: u32, out_components: *mut u32, out_count: *mut u32) -> i32;
+    pub fn hf_surface_get_links_info(surface: hf_surface, out_info: *mut hf_links_info) -> i32;
     pub fn hf_surface_get_links(surface: hf_surface, capacity: u32, out_links: *mut hf_link, out_count: *mut u32) -> i32;
     pub fn hf_surface_get_pieces(surface: hf_surface, capacity: u32, out_pieces: *mut u32, out_light: *mut i32, out_count: *mut u32) -> i32;
     pub fn hf_surface_measure_gaps(surface: hf_surface, desc: *const hf_gaps_desc, capacity: u32, out_gaps: *mut f64, out_info: *mut hf_gaps_info) -> i32;
@@ -2634,6 +2808,7 @@ extern "C" {
     pub fn hf_pose_get_field(pose: hf_pose, handle: u32, out_values: *mut f32, value_stride: u32) -> i32;
     pub fn hf_deform(pose: hf_pose, out_positions: *mut f32, out_info: *mut hf_deform_info) -> i32;
     pub fn hf_pose_deform(pose: hf_pose, desc: *const hf_deform_desc, out_info: *mut hf_deform_info) -> i32;
+    pub fn hf_pose_get_statistics(pose: hf_pose, out_statistics: *mut hf_pose_statistics) -> i32;
     pub fn hf_pose_get_skin(pose: hf_pose, inout_skin: *mut hf_skin_info) -> i32;
     pub fn hf_surface_propose_handles(surface: hf_surface, desc: *const hf_handle_proposals_desc, capacity: u32, out_proposals: *mut hf_handle_proposal, out_count: *mut u32) -> i32;
     pub fn hf_quads_create(surface: hf_surface, desc: *const hf_quads_desc, out_quads: *mut hf_quads) -> i32;
@@ -2649,6 +2824,7 @@ extern "C" {
     pub fn hf_region_destroy(region: hf_region);
     pub fn hf_region_edit(region: hf_region, edit: *const hf_region_edit_desc) -> i32;
     pub fn hf_region_get_info(region: hf_region, out_info: *mut hf_region_info) -> i32;
+    pub fn hf_region_get_statistics(region: hf_region, out_statistics: *mut hf_region_statistics) -> i32;
     pub fn hf_region_get_vertices(region: hf_region, list: i32, capacity: u32, out_vertices: *mut u32, out_count: *mut u32) -> i32;
     pub fn hf_region_get_curve(region: hf_region, capacity: u32, out_points: *mut f64, out_count: *mut u32) -> i32;
     pub fn hf_region_morph(region: hf_region, desc: *const hf_morph_desc) -> i32;
@@ -2677,6 +2853,7 @@ extern "C" {
     pub fn hf_transfer_remove_pairs(transfer: hf_transfer, pair_count: u32, pairs: *const u32) -> i32;
     pub fn hf_transfer_get_pair(transfer: hf_transfer, pair: u32, out_info: *mut hf_pair_info) -> i32;
     pub fn hf_transfer_get_info(transfer: hf_transfer, out_info: *mut hf_transfer_info) -> i32;
+    pub fn hf_transfer_get_statistics(transfer: hf_transfer, out_statistics: *mut hf_transfer_statistics) -> i32;
     pub fn hf_transfer_set_dials(transfer: hf_transfer, dials: *const hf_transfer_dials) -> i32;
     pub fn hf_transfer_get_dials(transfer: hf_transfer, out_dials: *mut hf_transfer_dials) -> i32;
     pub fn hf_transfer_apply(transfer: hf_transfer, frame: *const hf_transfer_frame) -> i32;
@@ -2691,7 +2868,8 @@ extern "C" {
     pub fn hf_weights_get(weights: hf_weights, inout_weights: *mut hf_weights_out) -> i32;
     pub fn hf_weights_get_joints(weights: hf_weights, capacity: u32, out_flags: *mut u32, out_vertex_counts: *mut u32, out_count: *mut u32) -> i32;
     pub fn hf_weights_get_info(weights: hf_weights, out_info: *mut hf_weights_info) -> i32;
+    pub fn hf_weights_get_statistics(weights: hf_weights, out_statistics: *mut hf_weights_statistics) -> i32;
     pub fn hf_weights_get_helpers(weights: hf_weights, names: *const c_char, capacity: u32, out_reasons: *mut u32, out_count: *mut u32) -> i32;
     pub fn hf_weights_transfer(source: hf_surface, target: hf_surface, desc: *const hf_weights_transfer_desc, inout_weights: *mut hf_weights_out, out_info: *mut hf_weights_transfer_info) -> i32;
-    pub fn hf_weights_mirror(surface: hf_surface, desc: *const hf_weights_mirror_desc, inout_weights: *mut hf_weights_out, out_partners: *mut u32, out_pairings: *mut u32, out_info: *mut hf_weights_mirror_info) -> i32;
+    pub fn hf_weights_mirror(surface: hf_surface, desc: *const hf_weights_mirror_desc, inout_weights: *mut hf_weights_out, out_partners: *mut u32, out_pairings: *mut u32, out_info: *mut hf_weights_mirror_info, out_statistics: *mut hf_weights_mirror_statistics) -> i32;
 }

@@ -99,7 +99,8 @@ export class App {
       await shaped;
       this.figures.open = performance.now() - begin;
       await this.use(this.tool?.constructor.key ?? 'pose');
-      const { componentCount, pieceCount } = opened.report;
+      const { componentCount } = opened.report;
+      const { pieceCount } = opened.linksInfo;
       const linked = pieceCount > componentCount ? `, ${pieceCount} pieces linked to ${componentCount}` : '';
       say(
         [

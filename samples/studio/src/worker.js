@@ -83,7 +83,7 @@ const tasks = {
     body.detail = detailOf(body);
     smoothNormals(positions, sums, body.normals);
     const report = surface.report;
-    const answer = { proposals, report, normals: body.normals.slice(), components: surface.components() };
+    const answer = { proposals, report, linksInfo: surface.linksInfo, normals: body.normals.slice(), components: surface.components() };
     answer.openMs = performance.now() - begin;
     return [answer, [answer.normals.buffer, answer.components.buffer]];
   },

@@ -469,14 +469,14 @@ TEST(RegionsNear, ListsARegionForEachPoint) {
   const double points[] = {0, 0, 0, 5, 5, 0.2}, radii[] = {0.5, 1.1};
   Vector<std::uint32_t> start(core->memory.get());
   Vector<std::int32_t> vertices(core->memory.get());
-  regions_near(*core, {points, 6}, {radii, 2}, start, vertices);
+  regions_near(*core, Places(2, nullptr, nullptr, points), radii, start, vertices);
   ASSERT_EQ(start.size(), 3u);
   EXPECT_EQ(start[1], 1u);
   EXPECT_EQ(start[2], 6u);  // the middle and its four neighbours
   EXPECT_EQ(core->mesh.given_of_inner[vertices[0]], 0);
   const double bad[] = {0.5, -1};
   try {
-    regions_near(*core, {points, 6}, {bad, 2}, start, vertices);
+    regions_near(*core, Places(2, nullptr, nullptr, points), bad, start, vertices);
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_INVALID_ARGUMENT);

@@ -334,7 +334,7 @@ TEST(Isolines, PointsLieOnTheirEdgesInTheUnitOfTheMesh) {
   const hf_inner::Mesh& mesh = surface.core->mesh;
   const std::int32_t a = mesh.inner_of_given[1], b = mesh.inner_of_given[2];
   for (const double t : {0.0, 0.25, 1.0}) {
-    const hf_inner::Vec3 p = hf_inner::position_of(mesh, {a, b, t});
+    const hf_inner::Vec3 p = hf_inner::position_of(mesh, hf_inner::Isolines::Point{a, b, t});
     EXPECT_NEAR(p.x, 3 + 3 * t, 1e-12);
     EXPECT_NEAR(p.y, 0, 1e-12);
   }
