@@ -89,7 +89,8 @@ struct Faces {
   hf_faces_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// The mesh and the options of a surface. Set triangles or faces.
+// The mesh and the options of a surface. Set triangles or faces. Limits and hooks stand here one by one, since
+// languages pass them by name; so the struct has more than 16 fields.
 struct SurfaceOptions {
   // HF_WELD_*
   int32_t weld = 0;
@@ -126,7 +127,8 @@ struct SurfaceOptions {
 };
 
 // A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
-// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of SurfaceOptions.
+// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of SurfaceOptions, one by one as
+// there.
 struct GraphOptions {
   // none, or `[vertex_count]` of float or double: M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none:
   // all 1. A mass below 1e-4 of the mean of its component counts as that

@@ -108,7 +108,8 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// The mesh and the options of a surface. Set triangles or faces.
+/// The mesh and the options of a surface. Set triangles or faces. Limits and hooks stand here one by one, since languages
+/// pass them by name; so the struct has more than 16 fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceOptions<'a> {
     /// `HF_WELD_*`
@@ -188,7 +189,8 @@ impl<'a> SurfaceOptions<'a> {
 }
 
 /// A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
-/// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of [`SurfaceOptions`].
+/// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of [`SurfaceOptions`], one by one as
+/// there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GraphOptions<'a> {
     /// `None`, or `[vertex_count]` of float or double: M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to
