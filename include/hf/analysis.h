@@ -95,8 +95,8 @@ typedef struct hf_critical_info {
  * Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field can show an extremum away
  * from its sites, because the default operator uses other edges than the mesh. HF_OPERATOR_CLAMPED uses the edges of
  * the mesh and avoids this. field: [vertex_count] of float or double. out_points: NULL, or hf_critical_point[capacity],
- * out_info->point_count of them, ordered by welded vertex. out_info: NULL,
- * or receives the counts. Errors: HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
+ * out_info->point_count of them, ordered by welded vertex. out_info: NULL, or receives the counts. Errors:
+ * HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_find_critical_points(hf_surface surface, const hf_array* field, uint32_t capacity,
                                                  hf_critical_point* out_points, hf_critical_info* out_info);
 

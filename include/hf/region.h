@@ -38,8 +38,8 @@ typedef struct hf_region_desc {
 
 /* Creates a region without vertices. desc: NULL for defaults. Sets *out_region to NULL first. Cost: O(n), and the
  * factor that may be missing. hf_region_info::field_kind says which base it has. Errors: HF_ERROR_INVALID_ARGUMENT
- * (base), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_NOT_POSITIVE_DEFINITE (the matrix of the
- * base does not factorise), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+ * (base), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_NOT_POSITIVE_DEFINITE (the matrix of the base does not
+ * factorise), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_region_create(hf_surface surface, const hf_region_desc* desc, hf_region* out_region);
 
 /* Copies a region. The copy shares the factor and all memory, until one of the two is edited. For undo, keep copies:
@@ -171,8 +171,8 @@ typedef struct hf_morph_desc {
 /* Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
  * hf_region_desc. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A weight
  * below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p. The call solves
- * nothing. Errors: HF_ERROR_NON_FINITE (weight), HF_ERROR_TOO_LARGE
- * (index = vertex that does not fit the output). Thread safety: reads `region`. Since 0.1. */
+ * nothing. Errors: HF_ERROR_NON_FINITE (weight), HF_ERROR_TOO_LARGE (index = vertex that does not fit the output).
+ * Thread safety: reads `region`. Since 0.1. */
 HF_API hf_result hf_region_morph(hf_region region, const hf_morph_desc* desc);
 
 /* ---- detail transferred to another region ---- */

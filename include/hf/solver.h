@@ -172,12 +172,11 @@ typedef struct hf_solve_info {
 } hf_solve_info;
 
 /* Solves for the field at every vertex of your mesh, in single precision. out_values:
- * float[vertex_count][channel_count], rows
- * value_stride bytes apart (0 = packed). Hard sites hold their values exactly. The field is
- * 0 on components without a site. out_info: NULL, or receives the counts of these components. Cost: one backward sweep
- * through the factor, or three sweeps for bi-harmonic fields; 30 to 700 sweeps for these, by the number of sites, where
- * a vertex has more than 1,000 neighbours. Errors: HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (index = vertex, no float).
- * Thread safety: reads `solver`. Since 0.1. */
+ * float[vertex_count][channel_count], rows value_stride bytes apart (0 = packed). Hard sites hold their values exactly.
+ * The field is 0 on components without a site. out_info: NULL, or receives the counts of these components. Cost: one
+ * backward sweep through the factor, or three sweeps for bi-harmonic fields; 30 to 700 sweeps for these, by the number
+ * of sites, where a vertex has more than 1,000 neighbours. Errors: HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (index = vertex,
+ * no float). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
 /* Solves for the field at every vertex of your mesh, in single or double precision. out_values:
@@ -199,9 +198,9 @@ HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, con
 /* Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.3). The
  * channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects the
  * vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal. out_vectors:
- * [vertex_count][3] of float or double, not normalised. out_normals: NULL, or
- * double[vertex_count][3], packed: the normals used. out_info: NULL, or receives what the sites did not reach. Errors:
- * as hf_solve, HF_ERROR_INVALID_ARGUMENT (not 3 channels). Thread safety: reads `solver`. Since 0.1. */
+ * [vertex_count][3] of float or double, not normalised. out_normals: NULL, or double[vertex_count][3], packed: the
+ * normals used. out_info: NULL, or receives what the sites did not reach. Errors: as hf_solve,
+ * HF_ERROR_INVALID_ARGUMENT (not 3 channels). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_vectors(hf_solver solver, const hf_array_out* out_vectors, double* out_normals,
                                          hf_solve_info* out_info);
 

@@ -180,7 +180,7 @@ class Stages {
     const hf_solver solver = make_solver(surface);
     add(solver, 7, 811, 29, nullptr);
     must(hf_solver_solve(solver, OUT(doubles_.data()), nullptr), "hf_solver_solve");
-    const hf_array scalars = HF_ARRAY(doubles_.data(), doubles_.size());
+    const hf_array scalars = HF_ARRAY(doubles_.data(), n_);
     std::vector<hf_critical_point> points(n_);
     hf_critical_info info = desc<hf_critical_info>();
     must(hf_surface_find_critical_points(surface, &scalars, n_, points.data(), &info),

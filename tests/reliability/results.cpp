@@ -59,6 +59,7 @@ void arguments(const Scene& s) {
   d.vertex_limit = 1;
   provoke(hf_surface_create(&d, &surface), "vertex_limit 1");
   d = scene_desc(s);
+  d.positions.count = 7;
   provoke(hf_surface_create(&d, &surface), "triangles beyond the vertices");
   d = scene_desc(s);
   d.positions.stride = 1;
@@ -66,7 +67,7 @@ void arguments(const Scene& s) {
   std::vector<float> infinite = s.positions;
   infinite[5] = HUGE_VALF;
   d = scene_desc(s);
-  d.positions = HF_ARRAY(infinite.data(), 7);
+  d.positions = HF_ARRAY(infinite.data(), s.vertex_count);
   provoke(hf_surface_create(&d, &surface), "an infinite position");
   Mesh large;
   add_torus(large, 100, 80);
