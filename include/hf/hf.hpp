@@ -91,7 +91,7 @@ struct Faces {
 
 // The mesh and the options of a surface. Set triangles or faces.
 //
-// More than 16 fields: each limit and each hook is a choice of its own.
+// More than 16 fields: limits and hooks stand here one by one, since languages pass them by name.
 struct SurfaceOptions {
   // HF_WELD_*
   int32_t weld = 0;

@@ -121,14 +121,9 @@ typedef struct hf_faces_desc {
                         another. Without sizes [faces + 1]: the corners of face f end where those of f + 1 start */
 } hf_faces_desc;
 
-<<<<<<< HEAD
 /* The mesh and the options of a surface. Set triangles or faces.
  *
- * More than 16 fields: each limit and each hook is a choice of its own. */
-=======
-/* The mesh and the options of a surface. Set triangles or faces. Limits and hooks stand here one by one, since
- * languages pass them by name; so the struct has more than 16 fields. */
->>>>>>> w/apia
+ * More than 16 fields: limits and hooks stand here one by one, since languages pass them by name. */
 typedef struct hf_surface_desc {
   uint32_t struct_size;
   int32_t weld;               /* HF_WELD_* */
@@ -177,13 +172,8 @@ typedef struct hf_surface_desc {
 HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
 
 /* A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
-<<<<<<< HEAD
  * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of hf_surface_desc.
  * More than 16 fields: they mirror hf_surface_desc. */
-=======
- * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of hf_surface_desc, one by one as
- * there. */
->>>>>>> w/apia
 typedef struct hf_graph_desc {
   uint32_t struct_size;
   uint32_t vertex_count;  /* >= 1, also without masses */

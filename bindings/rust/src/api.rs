@@ -110,7 +110,7 @@ impl<'a> Faces<'a> {
 
 /// The mesh and the options of a surface. Set triangles or faces.
 ///
-/// More than 16 fields: each limit and each hook is a choice of its own.
+/// More than 16 fields: limits and hooks stand here one by one, since languages pass them by name.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceOptions<'a> {
     /// `HF_WELD_*`
