@@ -78,7 +78,31 @@ std::shared_ptr<Memory> make_memory(const hf_allocator& hooks, std::uint64_t byt
   return std::allocate_shared<Memory>(HookAllocator<Memory>(hooks), hooks, byte_limit);
 }
 
-void* Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
+void* Memory::ask_host(std::size_t bytes, std::size_t alignment) noexcept {
+  return hooks_.allocate ? hooks_.allocate(hooks_.user, bytes, alignment) : default_allocate(bytes, alignment);
+}
+
+void Memory::give_host(void* pointer, std::size_t bytes, std::size_t alignment) noexcept {
+  if (hooks_.allocate) {
+    hooks_.release(hooks_.user, pointer, bytes, alignment);
+  } else {
+    default_release(pointer);
+  }
+}
+
+// Gives the kept blocks back. Returns true if there were some.
+bool Memory::release_cached() noexcept {
+  std::size_t bytes = 0, alignment = 0;
+  bool any = false;
+  while (void* const block = cache_.take_any(bytes, alignment)) {
+    give_host(block, bytes, alignment);
+    any = true;
+  }
+  return any;
+}
+
+void* Memory::do_allocate(std::size_t asked, std::size_t given_alignment) {
+  const std::size_t bytes = BlockCache::rounded(asked), alignment = BlockCache::aligned(given_alignment);
   // Counts the bytes first and subtracts them again if the allocation fails.
   struct Claim {
     std::atomic<std::uint64_t>& live;
@@ -87,8 +111,12 @@ void* Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
   } claim{live_, bytes};
   const std::uint64_t live = live_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
   if (byte_limit_ != 0 && live > byte_limit_) throw MemoryLimitReached(byte_limit_, live - bytes, bytes);
-  void* const pointer =
-      hooks_.allocate ? hooks_.allocate(hooks_.user, bytes, alignment) : default_allocate(bytes, alignment);
+  void* pointer = cache_.take(bytes, alignment);
+  if (!pointer) {
+    if (byte_limit_ != 0 && live + cache_.bytes() > byte_limit_) release_cached();
+    pointer = ask_host(bytes, alignment);
+    if (!pointer && release_cached()) pointer = ask_host(bytes, alignment);
+  }
   if (!pointer) throw std::bad_alloc();
   claim.bytes = 0;
   count_.fetch_add(1, std::memory_order_relaxed);
@@ -98,13 +126,16 @@ void* Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
   return pointer;
 }
 
-void Memory::do_deallocate(void* pointer, std::size_t bytes, std::size_t alignment) {
-  live_.fetch_sub(bytes, std::memory_order_relaxed);
-  if (hooks_.allocate) {
-    hooks_.release(hooks_.user, pointer, bytes, alignment);
-  } else {
-    default_release(pointer);
+void Memory::do_deallocate(void* pointer, std::size_t asked, std::size_t given_alignment) {
+  const std::size_t bytes = BlockCache::rounded(asked), alignment = BlockCache::aligned(given_alignment);
+  const std::uint64_t live = live_.fetch_sub(bytes, std::memory_order_relaxed) - bytes;
+  bool full = false;
+  bool kept = cache_.put(pointer, bytes, alignment, live, full);
+  if (full) {
+    release_cached();
+    kept = cache_.put(pointer, bytes, alignment, live, full);
   }
+  if (!kept) give_host(pointer, bytes, alignment);
 }
 
 }  // namespace hf_inner
