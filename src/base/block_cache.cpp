@@ -9,10 +9,6 @@ namespace {
 
 constexpr std::size_t steps = 8, least_step = 16;
 constexpr std::size_t most_rounded = std::size_t{1} << 16;
-// The share of the bytes in use that is kept. A drag of one site uses some vectors over all vertices. The factor is as
-// large as a hundred of them.
-constexpr std::uint64_t share = 32;
-constexpr std::uint64_t least_room = std::uint64_t{1} << 18;  // for small surfaces
 
 // The octave of a size: sizes of octave o are multiples of least_step << o, up to (steps * least_step) << (o + 1).
 std::size_t octave_of(std::size_t bytes) noexcept {
@@ -20,13 +16,6 @@ std::size_t octave_of(std::size_t bytes) noexcept {
   while (bytes > (2 * steps * least_step) << octave) ++octave;
   return octave;
 }
-
-// Under a sanitizer freed blocks go to the host at once, so that it sees who uses them.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool keeps_blocks = false;
-#else
-constexpr bool keeps_blocks = true;
-#endif
 
 }  // namespace
 
@@ -48,17 +37,19 @@ std::size_t BlockCache::size_of_class(std::size_t number) noexcept {
 }
 
 void* BlockCache::take(std::size_t bytes, std::size_t alignment) noexcept {
-  if (bytes_.load(std::memory_order_relaxed) < bytes) return nullptr;
-  const std::lock_guard<std::mutex> lock(mutex_);
+  if (this->bytes() < bytes) return nullptr;
+  const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+  if (!lock) return nullptr;
   void* found = nullptr;
   if (bytes > most_rounded) {
-    for (std::size_t k = 0; k < large_count_ && !found; ++k) {
-      if (large_[k].bytes != bytes || large_[k].alignment != alignment) continue;
-      found = large_[k].block;
-      large_[k] = large_[--large_count_];
+    for (std::size_t k = 0; k < blocks_.large_count && !found; ++k) {
+      const Large kept = blocks_.large[k];
+      if (kept.bytes != bytes || kept.alignment != alignment) continue;
+      found = kept.block;
+      blocks_.large[k] = blocks_.large[--blocks_.large_count];
     }
   } else if (alignment == least_alignment || alignment == line) {
-    Free*& first = small_[alignment == line][class_of(bytes)];
+    Free*& first = blocks_.small[alignment == line][class_of(bytes)];
     found = first;
     if (first) first = first->next;
   }
@@ -66,41 +57,28 @@ void* BlockCache::take(std::size_t bytes, std::size_t alignment) noexcept {
   return found;
 }
 
-bool BlockCache::put(void* block, std::size_t bytes, std::size_t alignment, std::uint64_t live, bool& full) noexcept {
-  const std::uint64_t room = live / share > least_room ? live / share : least_room;
-  if (!keeps_blocks || bytes > room || (alignment != least_alignment && alignment != line)) return false;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  full = bytes_.load(std::memory_order_relaxed) + bytes > room || (bytes > most_rounded && large_count_ == most_large);
-  if (full) return false;
+BlockCache::Answer BlockCache::put(void* block, std::size_t bytes, std::size_t alignment, std::uint64_t most) noexcept {
+  if (bytes > most || (alignment != least_alignment && alignment != line)) return Answer::refused;
+  const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+  if (!lock) return Answer::refused;
+  if (this->bytes() > most - bytes) return Answer::full;
   if (bytes > most_rounded) {
-    large_[large_count_++] = {block, bytes, alignment};
+    if (blocks_.large_count == most_large) return Answer::full;
+    blocks_.large[blocks_.large_count++] = {block, bytes, alignment};
   } else {
-    Free*& first = small_[alignment == line][class_of(bytes)];
+    Free*& first = blocks_.small[alignment == line][class_of(bytes)];
     first = new (block) Free{first};
   }
   bytes_.fetch_add(bytes, std::memory_order_relaxed);
-  return true;
+  return Answer::kept;
 }
 
-void* BlockCache::take_any(std::size_t& bytes, std::size_t& alignment) noexcept {
+BlockCache::Blocks BlockCache::take_all() noexcept {
   const std::lock_guard<std::mutex> lock(mutex_);
-  void* found = nullptr;
-  if (large_count_ > 0) {
-    const Large& last = large_[--large_count_];
-    found = last.block;
-    bytes = last.bytes;
-    alignment = last.alignment;
-  }
-  for (std::size_t k = 0; k < 2 * classes && !found; ++k) {
-    Free*& first = small_[k / classes][k % classes];
-    if (!first) continue;
-    found = first;
-    first = first->next;
-    bytes = size_of_class(k % classes);
-    alignment = k / classes ? line : least_alignment;
-  }
-  if (found) bytes_.fetch_sub(bytes, std::memory_order_relaxed);
-  return found;
+  const Blocks all = blocks_;
+  blocks_ = Blocks{};
+  bytes_.store(0, std::memory_order_relaxed);
+  return all;
 }
 
 }  // namespace hf_inner

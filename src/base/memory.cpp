@@ -1,12 +1,15 @@
 #include "base/memory.h"
 
 #include <cstdlib>
+#include <exception>
 
 #if defined(__linux__)
 #include <sys/mman.h>
 #elif defined(_WIN32)
 #include <malloc.h>
 #endif
+
+#include "base/compiler.h"
 
 namespace hf_inner {
 namespace {
@@ -15,6 +18,9 @@ namespace {
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 // Smallest block that is aligned to large pages. In smaller blocks up to half of a large page would be wasted.
 constexpr std::size_t least_huge = 2 * huge_page;
+
+// Under a sanitizer freed blocks go to the host at once, so that it sees who uses them.
+constexpr bool keeps_blocks = HF_SANITIZED == 0;
 
 // Aligns large blocks to 2 MiB and asks the kernel for large pages, which make reading a factor several times faster.
 void* default_allocate(std::size_t bytes, std::size_t alignment) noexcept {
@@ -78,7 +84,8 @@ std::shared_ptr<Memory> make_memory(const hf_allocator& hooks, std::uint64_t byt
   return std::allocate_shared<Memory>(HookAllocator<Memory>(hooks), hooks, byte_limit);
 }
 
-void* Memory::ask_host(std::size_t bytes, std::size_t alignment) noexcept {
+// The host's function may throw.
+void* Memory::ask_host(std::size_t bytes, std::size_t alignment) {
   return hooks_.allocate ? hooks_.allocate(hooks_.user, bytes, alignment) : default_allocate(bytes, alignment);
 }
 
@@ -90,15 +97,8 @@ void Memory::give_host(void* pointer, std::size_t bytes, std::size_t alignment) 
   }
 }
 
-// Gives the kept blocks back. Returns true if there were some.
-bool Memory::release_cached() noexcept {
-  std::size_t bytes = 0, alignment = 0;
-  bool any = false;
-  while (void* const block = cache_.take_any(bytes, alignment)) {
-    give_host(block, bytes, alignment);
-    any = true;
-  }
-  return any;
+bool Memory::release_kept() noexcept {
+  return kept_.empty([&](void* block, std::size_t bytes, std::size_t alignment) { give_host(block, bytes, alignment); });
 }
 
 void* Memory::do_allocate(std::size_t asked, std::size_t given_alignment) {
@@ -111,11 +111,11 @@ void* Memory::do_allocate(std::size_t asked, std::size_t given_alignment) {
   } claim{live_, bytes};
   const std::uint64_t live = live_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
   if (byte_limit_ != 0 && live > byte_limit_) throw MemoryLimitReached(byte_limit_, live - bytes, bytes);
-  void* pointer = cache_.take(bytes, alignment);
+  void* pointer = kept_.take(bytes, alignment);
   if (!pointer) {
-    if (byte_limit_ != 0 && live + cache_.bytes() > byte_limit_) release_cached();
+    if (byte_limit_ != 0 && live + kept_.bytes() > byte_limit_) release_kept();
     pointer = ask_host(bytes, alignment);
-    if (!pointer && release_cached()) pointer = ask_host(bytes, alignment);
+    if (!pointer && release_kept()) pointer = ask_host(bytes, alignment);
   }
   if (!pointer) throw std::bad_alloc();
   claim.bytes = 0;
@@ -129,13 +129,19 @@ void* Memory::do_allocate(std::size_t asked, std::size_t given_alignment) {
 void Memory::do_deallocate(void* pointer, std::size_t asked, std::size_t given_alignment) {
   const std::size_t bytes = BlockCache::rounded(asked), alignment = BlockCache::aligned(given_alignment);
   const std::uint64_t live = live_.fetch_sub(bytes, std::memory_order_relaxed) - bytes;
-  bool full = false;
-  bool kept = cache_.put(pointer, bytes, alignment, live, full);
-  if (full) {
-    release_cached();
-    kept = cache_.put(pointer, bytes, alignment, live, full);
+  if (keeps_blocks && std::uncaught_exceptions() == 0) {
+    const std::uint64_t most = BlockCache::room(live);
+    BlockCache::Answer answer = kept_.put(pointer, bytes, alignment, most);
+    // After a long call a full cache holds the sizes of that call, which the next call does not want.
+    if (answer == BlockCache::Answer::full) {
+      release_kept();
+      answer = kept_.put(pointer, bytes, alignment, most);
+    }
+    if (answer == BlockCache::Answer::kept) return;
+  } else {
+    release_kept();  // a call is refused
   }
-  if (!kept) give_host(pointer, bytes, alignment);
+  give_host(pointer, bytes, alignment);
 }
 
 }  // namespace hf_inner

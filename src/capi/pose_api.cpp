@@ -17,12 +17,10 @@ static_assert(HF_HANDLE_LIMIT == handle_limit && HF_LAYER_COUNT == layer_limit, 
 struct PoseObject final : Object {
   static constexpr Kind kind_of = Kind::pose;
   PoseObject(std::shared_ptr<Memory> owner, std::shared_ptr<PoseStack> given)
-      : Object(kind_of),
-        memory(std::move(owner)),
+      : Object(kind_of, std::move(owner)),
         pose(std::move(given)),
         keeps_order(keeps_vertices(pose->core().mesh)),
         handle_count(pose->handle_count()) {}
-  std::shared_ptr<Memory> memory;  // outlives the pose
   std::shared_ptr<PoseStack> pose;
   bool keeps_order;  // the library's vertices are the caller's: none welded, none isolated
   // The handle count after the last finished change. Another thread may read it while a change runs.
