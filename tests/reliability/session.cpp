@@ -64,6 +64,8 @@ Stretch edit_on(EditedSolver& solver, Clones& clones, int count) {
   must(hf_surface_get_statistics(solver.surface(), &statistics), "hf_surface_get_statistics");
   stretch.library_bytes = statistics.memory_bytes;
   stretch.with_gaps_bytes = resident_bytes();
+  hf_solver_destroy(clones.front());  // kept blocks go back with it
+  clones.pop_front();
   malloc_trim(0);
   stretch.process_bytes = resident_bytes();
   return stretch;
