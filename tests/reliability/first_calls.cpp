@@ -155,8 +155,10 @@ void kinds(const Mesh& mesh, int rounds, unsigned& different, unsigned& repeated
     Made warm, right, second;
     make_and_solve(surface, mesh, own, warm);
     hf_solver_destroy(warm.solver);
-    const long first = count([&] { make_and_solve(surface, mesh, kind, right); }),
-               later = count([&] { make_and_solve(surface, mesh, kind, second); });
+    const long first = count([&] { make_and_solve(surface, mesh, kind, right); });
+    make_and_solve(surface, mesh, own, warm);
+    hf_solver_destroy(warm.solver);  // kept blocks go back with it
+    const long later = count([&] { make_and_solve(surface, mesh, kind, second); });
     // a second solver shares the factor of the first
     different += second.field != right.field;
     repeated += 4 * later > 3 * first;
