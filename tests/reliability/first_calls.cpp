@@ -194,8 +194,8 @@ void kinds(const Mesh& mesh, int rounds, unsigned& different, unsigned& repeated
         hf_solver_destroy(each.solver);
       }
     }
-    printf("kind %d on a surface of kind %d: %ld allocations (%ld of %zu bytes or more), later: %ld\n", kind, own, first,
-           blocks, factor, later);
+    printf("kind %d on a surface of kind %d: %ld allocations (%ld of %zu bytes or more), later: %ld\n", kind, own,
+           first, blocks, factor, later);
   }
 }
 
