@@ -58,11 +58,22 @@
 #define HF_UNROLL
 #endif
 
+// 1 under AddressSanitizer or ThreadSanitizer.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#define HF_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HF_SANITIZED 1
+#endif
+#endif
+#ifndef HF_SANITIZED
+#define HF_SANITIZED 0
+#endif
+
 // Also compiles a function for AVX2. The program picks the version when it starts. The loops work on four adjacent
 // numbers and use no fused multiply-adds, so the bits are those of the plain build. The choice needs glibc's dynamic
 // linker. It runs before sanitizers can, so sanitizer builds leave it out.
-#if HF_GNU_EXTENSIONS && defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#if HF_GNU_EXTENSIONS && defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && !HF_SANITIZED
 #define HF_FOUR_LANES __attribute__((target_clones("avx2", "default")))
 #else
 #define HF_FOUR_LANES

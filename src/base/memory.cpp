@@ -1,12 +1,15 @@
 #include "base/memory.h"
 
 #include <cstdlib>
+#include <exception>
 
 #if defined(__linux__)
 #include <sys/mman.h>
 #elif defined(_WIN32)
 #include <malloc.h>
 #endif
+
+#include "base/compiler.h"
 
 namespace hf_inner {
 namespace {
@@ -15,6 +18,9 @@ namespace {
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 // Smallest block that is aligned to large pages. In smaller blocks up to half of a large page would be wasted.
 constexpr std::size_t least_huge = 2 * huge_page;
+
+// Under a sanitizer freed blocks go to the host at once, so that it sees who uses them.
+constexpr bool keeps_blocks = HF_SANITIZED == 0;
 
 // Aligns large blocks to 2 MiB and asks the kernel for large pages, which make reading a factor several times faster.
 void* default_allocate(std::size_t bytes, std::size_t alignment) noexcept {
@@ -78,7 +84,25 @@ std::shared_ptr<Memory> make_memory(const hf_allocator& hooks, std::uint64_t byt
   return std::allocate_shared<Memory>(HookAllocator<Memory>(hooks), hooks, byte_limit);
 }
 
-void* Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
+// The host's function may throw.
+void* Memory::ask_host(std::size_t bytes, std::size_t alignment) {
+  return hooks_.allocate ? hooks_.allocate(hooks_.user, bytes, alignment) : default_allocate(bytes, alignment);
+}
+
+void Memory::give_host(void* pointer, std::size_t bytes, std::size_t alignment) noexcept {
+  if (hooks_.allocate) {
+    hooks_.release(hooks_.user, pointer, bytes, alignment);
+  } else {
+    default_release(pointer);
+  }
+}
+
+bool Memory::release_kept() noexcept {
+  return kept_.empty([&](void* block, std::size_t bytes, std::size_t alignment) { give_host(block, bytes, alignment); });
+}
+
+void* Memory::do_allocate(std::size_t asked, std::size_t given_alignment) {
+  const std::size_t bytes = BlockCache::rounded(asked), alignment = BlockCache::aligned(given_alignment);
   // Counts the bytes first and subtracts them again if the allocation fails.
   struct Claim {
     std::atomic<std::uint64_t>& live;
@@ -87,8 +111,12 @@ void* Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
   } claim{live_, bytes};
   const std::uint64_t live = live_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
   if (byte_limit_ != 0 && live > byte_limit_) throw MemoryLimitReached(byte_limit_, live - bytes, bytes);
-  void* const pointer =
-      hooks_.allocate ? hooks_.allocate(hooks_.user, bytes, alignment) : default_allocate(bytes, alignment);
+  void* pointer = kept_.take(bytes, alignment);
+  if (!pointer) {
+    if (byte_limit_ != 0 && live + kept_.bytes() > byte_limit_) release_kept();
+    pointer = ask_host(bytes, alignment);
+    if (!pointer && release_kept()) pointer = ask_host(bytes, alignment);
+  }
   if (!pointer) throw std::bad_alloc();
   claim.bytes = 0;
   count_.fetch_add(1, std::memory_order_relaxed);
@@ -98,13 +126,22 @@ void* Memory::do_allocate(std::size_t bytes, std::size_t alignment) {
   return pointer;
 }
 
-void Memory::do_deallocate(void* pointer, std::size_t bytes, std::size_t alignment) {
-  live_.fetch_sub(bytes, std::memory_order_relaxed);
-  if (hooks_.allocate) {
-    hooks_.release(hooks_.user, pointer, bytes, alignment);
+void Memory::do_deallocate(void* pointer, std::size_t asked, std::size_t given_alignment) {
+  const std::size_t bytes = BlockCache::rounded(asked), alignment = BlockCache::aligned(given_alignment);
+  const std::uint64_t live = live_.fetch_sub(bytes, std::memory_order_relaxed) - bytes;
+  if (keeps_blocks && std::uncaught_exceptions() == 0) {
+    const std::uint64_t most = BlockCache::room(live);
+    BlockCache::Answer answer = kept_.put(pointer, bytes, alignment, most);
+    // After a long call a full cache holds the sizes of that call, which the next call does not want.
+    if (answer == BlockCache::Answer::full) {
+      release_kept();
+      answer = kept_.put(pointer, bytes, alignment, most);
+    }
+    if (answer == BlockCache::Answer::kept) return;
   } else {
-    default_release(pointer);
+    release_kept();  // a call is refused
   }
+  give_host(pointer, bytes, alignment);
 }
 
 }  // namespace hf_inner

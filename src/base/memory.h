@@ -1,5 +1,7 @@
 // Memory counts and limits every allocation of a surface and of the objects made on it. It allocates through the host's
-// functions or malloc, and counts live and peak bytes.
+// functions or malloc, and counts live and peak bytes. It keeps freed blocks for the next call (block_cache.h), so that
+// a drag asks the host for nothing. Kept blocks are not live. They go back to the host when a call is refused, when the
+// host or the limit has no more memory, and when an object is destroyed.
 //
 // Two containers use it: Vector<T> (std::pmr::vector) for small and growing arrays, and Buffer<T> for large numeric
 // arrays (64-byte aligned, not initialised). A failed allocation throws std::bad_alloc and leaves earlier allocations
@@ -15,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/block_cache.h"
 #include "hf/base.h"
 
 namespace hf_inner {
@@ -35,7 +38,9 @@ class Memory final : public std::pmr::memory_resource {
   // allocated at once; 0 = no limit.
   explicit Memory(const hf_allocator& hooks, std::uint64_t byte_limit = 0) noexcept
       : hooks_(hooks), byte_limit_(byte_limit) {}
+  ~Memory() { release_kept(); }
 
+  // What the host gave and is in use.
   std::uint64_t live_bytes() const noexcept { return live_.load(std::memory_order_relaxed); }
   // Bytes that may still be allocated before the byte limit refuses.
   std::uint64_t room() const noexcept {
@@ -44,15 +49,20 @@ class Memory final : public std::pmr::memory_resource {
   }
   std::uint64_t peak_bytes() const noexcept { return peak_.load(std::memory_order_relaxed); }
   std::uint64_t allocation_count() const noexcept { return count_.load(std::memory_order_relaxed); }
+  // Gives the kept blocks back to the host. Returns true if there were some.
+  bool release_kept() noexcept;
 
  private:
   void* do_allocate(std::size_t bytes, std::size_t alignment) override;
   void do_deallocate(void* pointer, std::size_t bytes, std::size_t alignment) override;
   bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
+  void* ask_host(std::size_t bytes, std::size_t alignment);
+  void give_host(void* pointer, std::size_t bytes, std::size_t alignment) noexcept;
 
   hf_allocator hooks_{};
   std::uint64_t byte_limit_ = 0;
   std::atomic<std::uint64_t> live_{0}, peak_{0}, count_{0};
+  BlockCache kept_;
 };
 
 // Makes a Memory object whose own block also comes from the hooks. Throws std::bad_alloc.

@@ -18,11 +18,9 @@ namespace {
 struct GeodesicsObject final : Object {
   static constexpr Kind kind_of = Kind::geodesics;
   GeodesicsObject(const Surface& surface, const DistanceOptions& options, std::shared_ptr<ProgressObject> calls)
-      : Object(kind_of),
-        memory(surface.geometry().memory),
+      : Object(kind_of, surface.geometry().memory),
         progress(std::move(calls)),
         distances(surface, options.method, options.smoothing) {}
-  std::shared_ptr<Memory> memory;            // outlives what follows
   std::shared_ptr<ProgressObject> progress;  // of every call, or null
   Distances distances;
 };

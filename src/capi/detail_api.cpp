@@ -9,8 +9,7 @@ namespace {
 struct DetailObject final : Object {
   static constexpr Kind kind_of = Kind::detail;
   explicit DetailObject(CarriedDetail&& made)
-      : Object(kind_of), memory(made.surface->core->memory), detail(std::move(made)) {}
-  std::shared_ptr<Memory> memory;  // outlives what follows
+      : Object(kind_of, made.surface->core->memory), detail(std::move(made)) {}
   CarriedDetail detail;
 };
 

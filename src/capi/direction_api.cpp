@@ -11,15 +11,13 @@ namespace {
 struct DirectionObject final : Object {
   static constexpr Kind kind_of = Kind::direction;
   DirectionObject(const std::shared_ptr<const Core>& core, std::int32_t degree, std::uint32_t limit)
-      : Object(kind_of), site_limit(limit), memory(core->memory), field(core, degree, limit) {}
+      : Object(kind_of, core->memory), site_limit(limit), field(core, degree, limit) {}
   DirectionObject(const DirectionObject& other)
-      : Object(kind_of),
+      : Object(kind_of, other.memory),
         site_limit(other.site_limit),
-        memory(other.memory),
         field(other.field),
         site_count(other.field.count()) {}
   const std::uint32_t site_limit;
-  std::shared_ptr<Memory> memory;  // outlives everything below
   DirectionField field;
   std::atomic<std::uint32_t> site_count{0};  // number of constraints after the last finished change
 };

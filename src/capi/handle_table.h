@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/float_environment.h"
+#include "base/memory.h"
 
 namespace hf_inner::capi {
 
@@ -35,11 +37,13 @@ enum class Kind : std::uint32_t {
 // callback of that other call, it returns HF_ERROR_REENTRANT.
 class Object {
  public:
-  explicit Object(Kind kind) noexcept : kind_(kind) {}
+  explicit Object(Kind kind, std::shared_ptr<Memory> lies_in = nullptr) noexcept
+      : memory(std::move(lies_in)), kind_(kind) {}
   virtual ~Object() = default;
   Object(const Object&) = delete;
   Object& operator=(const Object&) = delete;
   Kind kind() const noexcept { return kind_; }
+  const std::shared_ptr<Memory> memory;  // outlives what the object is made of; null for a progress object
 
  private:
   friend class Reading;
@@ -103,10 +107,15 @@ void create(Handle* out, const char* name, Make&& make) {
   *out = reinterpret_cast<Handle>(insert(make()));
 }
 
+// The blocks that the object's Memory keeps for the next call go back to the host with it.
 template <class T, class Handle>
 void destroy(Handle handle) noexcept {
   const FloatEnvironment environment;
-  remove(reinterpret_cast<std::uintptr_t>(handle), T::kind_of);
+  std::shared_ptr<Object> object = remove(reinterpret_cast<std::uintptr_t>(handle), T::kind_of);
+  if (!object) return;
+  const std::shared_ptr<Memory> memory = object->memory;
+  object.reset();
+  if (memory) memory->release_kept();
 }
 
 }  // namespace hf_inner::capi

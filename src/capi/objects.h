@@ -45,8 +45,7 @@ auto with_progress(hf_progress handle, Work&& work) {
 struct SurfaceObject final : Object {
   static constexpr Kind kind_of = Kind::surface;
   SurfaceObject(std::shared_ptr<const Geometry> geometry, const CoreOptions& options, const hf_surface_info& given)
-      : Object(kind_of), memory(geometry->memory), surface(std::move(geometry), options), info(given) {}
-  std::shared_ptr<Memory> memory;  // outlives everything below
+      : Object(kind_of, geometry->memory), surface(std::move(geometry), options), info(given) {}
   const Surface surface;
   const hf_surface_info info;
 };
@@ -77,18 +76,15 @@ struct SolverObject final : Object {
   // engine: as ScalarField takes it.
   SolverObject(std::shared_ptr<const Core> core, const SolverOptions& options,
                std::shared_ptr<SiteSolver> engine = nullptr)
-      : Object(kind_of),
+      : Object(kind_of, core->memory),
         site_limit(options.site_limit),
-        memory(core->memory),
         field(std::move(core), options.channels, site_limit, std::move(engine)) {}
   SolverObject(const SolverObject& other)
-      : Object(kind_of),
+      : Object(kind_of, other.memory),
         site_limit(other.site_limit),
-        memory(other.memory),
         field(other.field),
         site_count(other.field.sites().count()) {}
   const std::uint32_t site_limit;
-  std::shared_ptr<Memory> memory;  // outlives everything below
   ScalarField field;
   // The site count after the last finished change. Another thread may read it while a change runs.
   std::atomic<std::uint32_t> site_count{0};

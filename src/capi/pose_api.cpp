@@ -18,12 +18,10 @@ static_assert(HF_HANDLE_LIMIT == handle_limit && HF_LAYER_COUNT == layer_limit, 
 struct PoseObject final : Object {
   static constexpr Kind kind_of = Kind::pose;
   PoseObject(std::shared_ptr<Memory> owner, std::shared_ptr<PoseStack> given)
-      : Object(kind_of),
-        memory(std::move(owner)),
+      : Object(kind_of, std::move(owner)),
         pose(std::move(given)),
         keeps_order(keeps_vertices(pose->core().mesh)),
         handle_count(pose->handle_count()) {}
-  std::shared_ptr<Memory> memory;  // outlives the pose
   std::shared_ptr<PoseStack> pose;
   hf_pose_statistics last{};  // of the last deform
   bool keeps_order;           // the library's vertices are the caller's: none welded, none isolated

@@ -12,7 +12,7 @@ namespace {
 struct QuadsObject final : Object {
   static constexpr Kind kind_of = Kind::quads;
   QuadsObject(std::shared_ptr<const Core> shared, QuadResult&& made, double length)
-      : Object(kind_of), core(std::move(shared)), result(std::move(made)), edge_length(length) {}
+      : Object(kind_of, shared->memory), core(std::move(shared)), result(std::move(made)), edge_length(length) {}
   std::shared_ptr<const Core> core;  // outlives the result, which lies in its memory
   QuadResult result;
   double edge_length;
@@ -22,8 +22,7 @@ struct QuadsObject final : Object {
 struct FlowObject final : Object {
   static constexpr Kind kind_of = Kind::flow;
   explicit FlowObject(std::shared_ptr<const Core> core)
-      : Object(kind_of), memory(core->memory), tracer(std::move(core)) {}
-  std::shared_ptr<Memory> memory;  // outlives what follows
+      : Object(kind_of, core->memory), tracer(std::move(core)) {}
   FlowTracer tracer;
 };
 

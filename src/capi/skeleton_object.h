@@ -9,7 +9,8 @@ namespace hf_inner::capi {
 
 struct SkeletonObject final : Object {
   static constexpr Kind kind_of = Kind::skeleton;
-  explicit SkeletonObject(std::shared_ptr<const KnownSkeleton> known) : Object(kind_of), skeleton(std::move(known)) {}
+  explicit SkeletonObject(std::shared_ptr<const KnownSkeleton> known)
+      : Object(kind_of, known->memory), skeleton(std::move(known)) {}
   const std::shared_ptr<const KnownSkeleton> skeleton;
 };
 
@@ -27,15 +28,13 @@ struct RetargetParts {
 struct RetargetObject final : Object {
   static constexpr Kind kind_of = Kind::retarget;
   explicit RetargetObject(const RetargetParts& given)
-      : Object(kind_of),
-        memory(given.target->memory),
+      : Object(kind_of, given.target->memory),
         parts(given),
         retarget(given.side(*given.source, given.source_rest), given.side(*given.target, given.target_rest),
                  given.options, *memory),
         source_pose(10 * std::size_t{given.source->input.joint_count}, 0.0, memory.get()),
         target_pose(10 * std::size_t{given.target->input.joint_count}, 0.0, memory.get()) {}
   RetargetObject(const RetargetObject& other) : RetargetObject(other.parts) { retarget.copy_state(other.retarget); }
-  std::shared_ptr<Memory> memory;  // outlives what follows
   const RetargetParts parts;
   Retarget retarget;
   Vector<double> source_pose, target_pose;  // of a frame

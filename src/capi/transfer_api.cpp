@@ -24,13 +24,12 @@ struct NormalRoom {
 struct TransferObject final : Object {
   static constexpr Kind kind_of = Kind::transfer;
   TransferObject(std::shared_ptr<const Core> source, std::shared_ptr<const Core> target, const TransferOptions& options)
-      : Object(kind_of),
-        memory(target->memory),
+      : Object(kind_of, target->memory),
         source_memory(source->memory),
         transfer(std::move(source), std::move(target), options),
         source_posed(*memory, static_cast<std::size_t>(transfer.source().size())),
         target_posed(*memory, static_cast<std::size_t>(transfer.target().size())) {}
-  std::shared_ptr<Memory> memory, source_memory;  // outlive the transfer
+  std::shared_ptr<Memory> source_memory;  // outlives the transfer
   Transfer transfer;
   OwnedMutex preparing;  // readers that solve the fields of new pairs take turns
   Buffer<Vec3> source_posed, target_posed;

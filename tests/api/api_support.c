@@ -227,6 +227,14 @@ static void counting_release(void* user, void* block, size_t size, size_t alignm
   free(head.base);
 }
 
+double memory_in_use(hf_surface surface) {
+  hf_surface_statistics statistics = HF_INIT(hf_surface_statistics);
+  assert_ok(hf_surface_get_statistics(surface, &statistics));
+  return statistics.memory_bytes;
+}
+
+void give_kept_back(hf_surface surface) { hf_solver_destroy(solver_on(surface)); }
+
 hf_allocator counting_hooks(CountingAllocator* allocator) {
   hf_allocator hooks;
   hooks.allocate = counting_allocate;

@@ -91,6 +91,10 @@ typedef struct CountingAllocator {
   int refuse_on, mismatches;
 } CountingAllocator;
 hf_allocator counting_hooks(CountingAllocator* allocator);
+/* hf_surface_statistics::memory_bytes. The host's count has the blocks that are kept for the next call on top. */
+double memory_in_use(hf_surface surface);
+/* Has the kept blocks given back: they go with any object of the surface that is destroyed. */
+void give_kept_back(hf_surface surface);
 
 /* One row of a bad-input table: checks code, index and that the detail names the function and says something on one
  * line. call: the text of the call, whose first word is the function. Failures are printed and counted. */

@@ -108,8 +108,9 @@ static void hf_surface_create_graph_refuses_bad_options(void** state) {
   CREATE("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, desc.struct_size = 0);
   CREATE("allocator without release", HF_ERROR_NULL_POINTER, NO_INDEX, desc.allocator.release = NULL);
   CREATE("allocator that refuses at once", HF_ERROR_OUT_OF_MEMORY, NO_INDEX, counter.refuse_at = counter.calls + 1);
-  CREATE("allocator that refuses later", HF_ERROR_OUT_OF_MEMORY, NO_INDEX, counter.refuse_at = counter.calls + 20);
+  CREATE("allocator that refuses later", HF_ERROR_OUT_OF_MEMORY, NO_INDEX, (counter.refuse_at = counter.calls + 20, counter.refuse_on = 1));
   counter.refuse_at = 0;
+  counter.refuse_on = 0;
   CREATE("progress destroyed", HF_ERROR_INVALID_OBJECT, NO_INDEX, desc.progress = scene.stale_progress);
   CREATE("progress cancelled before", HF_ERROR_CANCELLED, NO_INDEX,
          (desc.progress = scene.progress, hf_progress_cancel(scene.progress)));
@@ -132,6 +133,7 @@ static void hf_surface_create_graph_survives_every_refused_allocation(void** sta
   scene_create(&scene);
   good_input();
   size_t at = 1;
+  counter.refuse_on = 1;
   for (;; ++at) {
     counter.calls = 0;
     counter.refuse_at = at;

@@ -410,15 +410,14 @@ static void cancelling_leaves_nothing_and_stops_one_call(void** state) {
   surface_free(&mesh);
 }
 
-/* A host's allocator that looks at the progress whenever the library asks for memory. */
+/* A host's allocator that looks at the progress whenever the library asks for memory or gives some back. */
 typedef struct Watcher {
   hf_progress progress;
   double last, largest_step, cancel_at;
   unsigned values, falls;
 } Watcher;
 
-static void* watch(void* user, size_t size, size_t alignment) {
-  Watcher* watcher = user;
+static void look_at_progress(Watcher* watcher) {
   double now = 0;
   if (watcher->progress && hf_progress_get_fraction(watcher->progress, &now) == HF_OK) {
     if (now < watcher->last) ++watcher->falls;
@@ -429,6 +428,10 @@ static void* watch(void* user, size_t size, size_t alignment) {
     }
     if (now >= watcher->cancel_at) hf_progress_cancel(watcher->progress);
   }
+}
+
+static void* watch(void* user, size_t size, size_t alignment) {
+  look_at_progress(user);
   /* the block that malloc gave stands in front of the aligned one */
   char* base = malloc(size + alignment + sizeof(void*));
   if (!base) return NULL;
@@ -438,7 +441,8 @@ static void* watch(void* user, size_t size, size_t alignment) {
   return block;
 }
 static void let_go(void* user, void* block, size_t size, size_t alignment) {
-  (void)user, (void)size, (void)alignment;
+  (void)size, (void)alignment;
+  look_at_progress(user);
   char* base = NULL;
   memcpy(&base, (char*)block - sizeof(void*), sizeof(void*));
   free(base);
@@ -465,7 +469,7 @@ static void progress_rises_in_small_steps_and_stops_where_it_is_cancelled(void**
     assert_ok(hf_quads_create(surface, &desc, &quads));
     assert_int_equal(watcher.falls, 0);
     assert_true(watcher.values >= 10);
-    assert_true(watcher.largest_step <= 0.4); /* trials that are not needed are passed over */
+    assert_true(watcher.largest_step <= 0.5); /* trials that are not needed are passed over, and kept blocks not seen */
     hf_quads_destroy(quads);
     quads = NULL;
     for (double at = 0.05; at < 0.5; at += 0.2) { /* it passes 0.6 in one step where nothing is left to fit */

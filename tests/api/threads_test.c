@@ -274,8 +274,9 @@ static void calls_during_a_change_are_busy_and_destroy_waits_for_it(void** state
   desc.surface.allocator.allocate = gate_allocate;
   desc.surface.allocator.release = gate_release;
   desc.surface.allocator.user = &gate;
+  hf_surface surface = NULL;
   hf_solver solver = NULL, copy = NULL;
-  assert_ok(make(&desc, NULL, &solver));
+  assert_ok(make(&desc, &surface, &solver));
   const uint32_t site = add_site(solver, 0, 1);
   double* field = malloc(sizeof(double) * VERTICES);
   const double value = 1;
@@ -293,16 +294,19 @@ static void calls_during_a_change_are_busy_and_destroy_waits_for_it(void** state
   let_it_go(&gate, &w);
   assert_int_equal(hf_solver_get_site_count(solver), 2);
 
+  give_kept_back(surface); /* so that the call asks for memory */
   hold_a_call(&gate, &w, held_solve);
   assert_code(HF_ERROR_BUSY, hf_solver_set_values(solver, 1, &site, &value));
   assert_int_equal(hf_solver_get_site_count(solver), 2);
   let_it_go(&gate, &w);
   assert_ok(hf_solver_set_values(solver, 1, &site, &value));
 
+  give_kept_back(surface); /* so that the call asks for memory */
   hold_a_call(&gate, &w, held_solve);
   hf_solver_destroy(solver); /* the call that is under way is finished first */
   assert_code(HF_ERROR_INVALID_OBJECT, hf_solver_release_preview(solver));
   let_it_go(&gate, &w);
+  hf_surface_destroy(surface);
   assert_int_equal(gate.memory.live_blocks, 0);
   free(field);
   pthread_mutex_destroy(&gate.mutex);

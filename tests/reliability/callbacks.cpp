@@ -115,6 +115,7 @@ int main() {
       hf_solver_desc bent = desc<hf_solver_desc>();
       bent.field_kind = HF_FIELD_BIHARMONIC;
       for (long at = 0;; at += 1 + at / 3) {  // the factor that the surface lacks
+        hf_solver_destroy(make_solver(surface));  // kept blocks go back with it
         const long before = host.live;
         hf_solver second = nullptr;
         host.until_throw = at;

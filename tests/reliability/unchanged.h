@@ -93,6 +93,7 @@ struct World {
   Allocator memory;
   const Shape* shape = nullptr;
   hf_surface surface = nullptr;
+  hf_surface graph = nullptr;  // of the subject, which works on it instead; it destroys it
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   ~World() { hf_surface_destroy(surface); }
   // The progress object of a cancelled call, else none.

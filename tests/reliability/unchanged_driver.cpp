@@ -10,9 +10,17 @@ namespace {
 // numbers may grow by them, and nothing else may.
 constexpr std::size_t work_bytes = 256u << 10;
 
-struct Memory {
+struct Memory {  // of the host, after kept blocks are given back: they go with any object that is destroyed
   std::size_t plain, numeric;
-  explicit Memory(const Allocator& a) : plain(a.live_bytes - a.numeric_bytes), numeric(a.numeric_bytes) {}
+  explicit Memory(const World& world) {
+    hf_solver passing = nullptr;
+    hf_solver_desc own = HF_INIT(hf_solver_desc);
+    own.field_kind = world.desc.field_kind;  // its factor is there
+    hf_create(world.graph ? world.graph : world.surface, &own, &passing);
+    hf_solver_destroy(passing);
+    numeric = world.memory.numeric_bytes;
+    plain = world.memory.live_bytes - numeric;
+  }
 };
 
 bool make_surface(World& world, Random& random) {
@@ -118,7 +126,7 @@ class Player {
     if (!seen_) look();
     State before;
     subject_.glance(before);
-    const Memory held(world_.memory);
+    const Memory held(world_);
     const std::size_t refused = world_.memory.refused;
     fault.arm(world_.memory);
     const hf_result result = command.call(subject_, random);
@@ -148,7 +156,7 @@ class Player {
   std::string compare(const State& before, const Memory& held, bool caches) {
     State after;
     subject_.glance(after);
-    const Memory now(world_.memory);
+    const Memory now(world_);
     std::string part = before.difference(after);
     if (!part.empty()) return part + " changed";
     if (now.plain != held.plain && !caches)

@@ -70,6 +70,7 @@ void Solvers::make_graph(Random& random) {
   desc.allocator = world.memory.hooks();
   desc.memory_limit_mb = world.desc.memory_limit_mb;
   if (hf_surface_create_graph(&desc, &graph_) != HF_OK) graph_ = nullptr;
+  world.graph = graph_;
 }
 
 std::unique_ptr<Subject> make_solvers(World& world, Random& random) {

@@ -34,22 +34,22 @@ TEST(Hypotenuse, is_that_of_the_c_library_to_two_units_wherever_it_lies) {
 TEST(Memory, counts_live_and_peak_bytes_and_gives_everything_back) {
   hf_inner::Memory memory;
   {
-    hf_inner::Buffer<double> buffer(memory, 1000);
+    hf_inner::Buffer<double> buffer(memory, 1024);  // sizes that are not rounded
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(buffer.data()) % hf_inner::Buffer<double>::alignment, 0u);
-    hf_inner::Vector<int> vector(10, 7, &memory);
-    EXPECT_EQ(memory.live_bytes(), 8000u + 40u);
+    hf_inner::Vector<int> vector(12, 7, &memory);
+    EXPECT_EQ(memory.live_bytes(), 8192u + 48u);
   }
   EXPECT_EQ(memory.live_bytes(), 0u);
-  EXPECT_EQ(memory.peak_bytes(), 8040u);
+  EXPECT_EQ(memory.peak_bytes(), 8240u);
 }
 
 TEST(Memory, refuses_beyond_its_limit_and_stays_usable) {
-  hf_inner::Memory memory(hf_allocator{}, 1000);
-  EXPECT_THROW(hf_inner::Buffer<double>(memory, 126), std::bad_alloc);
+  hf_inner::Memory memory(hf_allocator{}, 1024);
+  EXPECT_THROW(hf_inner::Buffer<double>(memory, 129), std::bad_alloc);
   EXPECT_EQ(memory.live_bytes(), 0u);
-  hf_inner::Buffer<double> fits(memory, 125);
+  hf_inner::Buffer<double> fits(memory, 128);
   EXPECT_THROW(fits.allocate(memory, 1u << 20), std::bad_alloc);
-  EXPECT_EQ(fits.size(), 125u);
+  EXPECT_EQ(fits.size(), 128u);
   EXPECT_THROW(hf_inner::Buffer<double>(memory, SIZE_MAX / 4), std::bad_alloc);
 }
 

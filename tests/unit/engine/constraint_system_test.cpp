@@ -30,8 +30,8 @@ TEST(Workspaces, keep_no_buffer_under_a_memory_limit) {
     hf_inner::Memory memory({}, limit);
     hf_inner::WorkspacePool pool(memory);
     const std::uint64_t before = memory.live_bytes();
-    { hf_inner::Workspace(pool, 1000).data()[999] = 1; }
-    EXPECT_EQ(memory.live_bytes() - before, limit ? 0u : 8000u);
+    { hf_inner::Workspace(pool, 1024).data()[1023] = 1; }
+    EXPECT_EQ(memory.live_bytes() - before, limit ? 0u : 8192u);
   }
 }
 
