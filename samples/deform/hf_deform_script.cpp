@@ -34,6 +34,7 @@ const char* usage =
     "  --frames-obj DIR   every key frame as DIR/frame_0000.obj ..., in the vertex order of MESH\n"
     "  --mode MODE        smooth or paper, instead of the script's\n"
     "  --given-rotations  a drag without a turn keeps the rotation of its handle; otherwise the rotation is free\n"
+    "  --following S      how much follows what is dragged: 0 its limb alone, 1 all of the surface (default 1)\n"
     "  --no-links         pieces of the surface stay apart; otherwise links join them\n"
     "  --refine           one full-mesh step on every frame\n"
     "  --lengths          keeps lengths: the full-mesh steps go on from frame to frame\n"
@@ -45,7 +46,7 @@ const char* usage =
 struct Command {
   std::filesystem::path mesh, script, output, sheet, frames;
   std::string mode;
-  double keys = 8;
+  double keys = 8, following = 1;
   uint32_t tiles = 7, threads = 1;
   glm::dvec3 up{0, 1, 0};
   bool propose = false, refine = false, lengths = false, links = true, given_rotations = false, quiet = false,
@@ -93,6 +94,8 @@ Command parse(Words words) {
       out.lengths = true;
     } else if (words.is("--given-rotations")) {
       out.given_rotations = true;
+    } else if (words.is("--following")) {
+      out.following = words.number(0, 1);
     } else if (words.is("--no-links")) {
       out.links = false;
     } else if (words.is("--quiet")) {
@@ -255,6 +258,7 @@ void run(const Command& command) {
   options.paper = script.paper;
   options.threads = command.threads;
   options.links = command.links;
+  options.following = command.following;
   options.given_rotations = command.given_rotations;
   options.model = mesh.model.skins.empty() ? nullptr : &mesh.model;
   Posable posable(mesh.flat, options);

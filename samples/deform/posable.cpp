@@ -52,6 +52,7 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   diagonal_ = box.diagonal();
   own_ = !options.on;
   frees_ = !options.given_rotations && !options.paper;
+  following_ = options.following;
   if (own_)
     make_surface(mesh, options);
   else
@@ -172,6 +173,10 @@ void Posable::begin(const Step& step) {
     found->from = found->now;
     found->moving = true;
     found->from_place = false;
+    if (following_ < 1 && !found->follows) {
+      expect_ok(hf_pose_set_following(pose_, 1, &found->number, following_), "dragging \"" + name + "\"");
+      found->follows = true;
+    }
     const bool free = frees_ && motion.degrees == 0 && !motion.bend;
     if (free == found->free_rotation) continue;
     expect_ok(hf_pose_set_free_rotations(pose_, 1, &found->number, free), "dragging \"" + name + "\"");

@@ -42,6 +42,7 @@ class Posable {
   struct Options {
     bool paper = false, links = true;
     bool given_rotations = false;  // a drag without a turn keeps the rotation of its handle
+    double following = 1;          // of dragged handles: how much of the surface follows
     uint32_t bands = 0, threads = 1;
     const Model* model = nullptr;  // its skin helps to link pieces; may be NULL
     const Posable* on = nullptr;   // of the same mesh: its surface is used again, and it outlives this object
@@ -83,7 +84,7 @@ class Posable {
     glm::dvec3 centroid;
     MotionEntry motion;     // asked for last
     HandlePlace from, now;  // where the drag at hand began
-    bool moving = false, from_rest = true, from_place = false, free_rotation = false;
+    bool moving = false, from_rest = true, from_place = false, free_rotation = false, follows = false;
     MotionEntry before;
   };
   const std::vector<Live>& handles() const { return live_; }
@@ -103,6 +104,7 @@ class Posable {
   hf_surface surface_ = nullptr;
   bool own_ = true;  // the surface
   bool frees_ = true;
+  double following_ = 1;
   hf_pose pose_ = nullptr;
   glm::dvec3 lower_{0}, upper_{0};
   double diagonal_ = 1;

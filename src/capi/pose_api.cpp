@@ -240,6 +240,16 @@ hf_result hf_pose_set_free_rotations(hf_pose handle, uint32_t handle_count, cons
   });
 }
 
+hf_result hf_pose_set_following(hf_pose handle, uint32_t handle_count, const uint32_t* handles, double following) {
+  return guarded("hf_pose_set_following", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    check_handles(handle_count, handles);
+    check_following(following);
+    const Changing changing(*pose);
+    pose->pose->set_following({handles, handle_count}, following);
+  });
+}
+
 hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* out_info) {
   return guarded("hf_pose_get_handle", [&] {
     const auto pose = get<PoseObject>(handle, "pose");
@@ -257,6 +267,7 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
     put(placed.translation, info.translation);
     info.layer = pose->pose->layer_of(number);
     info.free_rotation = pose->pose->free_turn(number);
+    info.following = pose->pose->following(number);
     write_struct(out_info, info);
   });
 }

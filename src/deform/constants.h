@@ -220,6 +220,16 @@ constexpr double crossfade_turn = 0.25;
 // double change the moves above by at most 0.0009, on a human whose pose settles slowly.
 constexpr std::uint32_t crossfade_iterations = 20;
 
+// ---- holds.cpp, pose_following.cpp ----
+
+// TODO figures
+constexpr double hold_strength = 1;
+constexpr double hold_power = 2;
+// A share below it holds as if it were this: an infinite strength would hold the limb too.
+constexpr double least_following = 1e-2;
+// Pins in all, and at least in a component: more hold every limb, fewer take less time.
+constexpr std::int32_t most_holds = 96, least_component_holds = 4;
+
 // ---- groups.cpp ----
 
 // The vertices of a component form groups that share a rotation. Larger components get more groups, but each gets at

@@ -101,6 +101,11 @@ class Pose {
   void set_free_turns(Span<const std::uint32_t> numbers, bool free_turn, bool in_place = true);
   bool free_turn(std::uint32_t number) const;
 
+  // Sets how much of the surface follows handles: 1 all of it, 0 their limbs (holds.h). Throws HF_ERROR_EMPTY,
+  // _NO_SUCH_HANDLE (index: position), or HF_ERROR_UNSUPPORTED in the paper's mode.
+  void set_following(Span<const std::uint32_t> numbers, double following);
+  double following(std::uint32_t number) const;
+
   // Solves the pose and writes the surface. Throws HF_ERROR_EMPTY when the pose has no handle. The returned spans stay
   // valid until the next change of the pose.
   DeformReport deform(const DeformRequest& request);
@@ -156,6 +161,7 @@ class Pose {
     Quaternion solved;    // rotation in the last solve
     Vec3 solved_turn;
     bool free_turn = false;  // rotation and turn are those of the last solve
+    double following = 1;    // below 1: the rest of the surface is held back (holds.h)
   };
   struct State {
     explicit State(Memory& memory) : handles(&memory), transforms(&memory), smooth(memory), paper(memory) {}
@@ -171,6 +177,7 @@ class Pose {
           idle_iterations(other.idle_iterations),
           crossfade(other.crossfade) {
       if (other.followed) followed = make_shared_in<Followed>(memory, *other.followed, memory);
+      if (other.without) without = other.without->clone();
     }
     Vector<HandleState> handles;  // like Layout::handles
     Vector<Affine> transforms;    // per cluster (handle or overlapping band of vertices)
@@ -183,6 +190,7 @@ class Pose {
     std::uint32_t idle_iterations = 0;           // iterations since the last change
     std::shared_ptr<const Crossfade> crossfade;  // null: the surface is that of the transforms
     std::shared_ptr<Followed> followed;          // null: full-mesh steps begin at the blended pose
+    std::shared_ptr<Pose> without;  // without the handles that are held back; null: nothing is, or rest is meant
   };
 
   Memory& memory() const noexcept { return *core_->memory; }
@@ -196,6 +204,8 @@ class Pose {
   // their motions, so the surface does not jump.
   std::shared_ptr<State> carry_over(const Layout& layout, bool free_turn = false) const;
   void prepare_turns(const Layout& layout, State& state) const;
+  void prepare_holds(const Layout& layout, State& state) const;
+  bool pull_to_others(State& state, const DeformRequest& request) const;
   void start_turns(State& state) const noexcept;
   void take_turns(State& state) const noexcept;
   void follow_turns(State& state, Span<Vec3> turns, bool whole) const noexcept;

@@ -283,8 +283,9 @@ DeformReport Pose::deform(const DeformRequest& request) {
   DeformReport report;
   const Timer solve_timer;
   if (state.changed) state.idle_iterations = 0;
+  const bool pulled = pull_to_others(state, request);
   const std::uint32_t idle_limit = layout_->smooth ? idle_limit_smooth : idle_limit_paper;
-  if (state.changed || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
+  if (state.changed || pulled || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
     const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
     place_handles(*layout_, state);
     if (layout_->smooth) {

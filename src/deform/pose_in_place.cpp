@@ -37,6 +37,9 @@ void Pose::keep_in_place(const Layout& layout, State& state, bool fades_at_rest)
   for (const HandleState& handle : state.handles) turns.push_back(handle.turn);
   set_turn_limit(*layout.smooth, turns, state.smooth);
   start_turns(state);
+  DeformRequest others;
+  others.iteration_count = crossfade_iterations;
+  pull_to_others(state, others);
   solve_pose(*layout.smooth, crossfade_iterations, settled_change, state.smooth, state.transforms.data());
   take_turns(state);
   state.started = true;

@@ -50,6 +50,10 @@ class PoseStack {
   void set_free_turns(Span<const std::uint32_t> numbers, bool free_turn);
   bool free_turn(std::uint32_t number) const { return entries_[require(number, HF_NO_INDEX)].free_turn; }
 
+  // Sets how much of the surface follows handles of layer 0. Throws HF_ERROR_UNSUPPORTED for others (index: position).
+  void set_following(Span<const std::uint32_t> numbers, double following);
+  double following(std::uint32_t number) const;
+
   // Solves all layers that changed and writes the surface. request.surface = false only has an effect while there is
   // one layer.
   DeformReport deform(const DeformRequest& request);

@@ -23,6 +23,7 @@ void Pose::set_free_turns(Span<const std::uint32_t> numbers, bool free_turn, boo
     handle.free_turn = free_turn;
   }
   if (!changed) return;
+  prepare_holds(*layout_, *state);
   prepare_turns(*layout_, *state);
   // A rotation that is given as it stands changes nothing. Handles that moved since the last frame leave the surface.
   const bool stands = posed_ && !state->changed;
@@ -43,7 +44,8 @@ void Pose::prepare_turns(const Layout& layout, State& state) const {
   }
   if (!any) return;
   state.smooth.turns = make_shared_in<FreeTurns>(
-      memory(), make_free_turns(layout.smooth->subspace, layout.handles, free, layout.smooth->seed_field, memory()));
+      memory(), make_free_turns(layout.smooth->subspace, layout.handles, free, layout.smooth->seed_field,
+                                state.smooth.holds.get(), memory()));
   state.smooth.free.fit(state.smooth.turns->count());
 }
 
