@@ -2205,6 +2205,23 @@ class Pose {
     check(hf_pose_set_free_rotations(get(), c.count("handle_count", 1), handles_, free_rotation ? 1 : 0));
   }
 
+  // Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where it
+  // would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the body:
+  // give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short gets
+  // longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a change at
+  // once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean again.
+  //
+  // handles: `[handle_count]`.
+  // following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone follows, an
+  // arm for example.
+  //
+  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+  void set_following(const std::vector<uint32_t>& handles, double following = 0) {
+    Call c(counts_);
+    const uint32_t* handles_ = c.array(handles, true, "handles", {"handle_count"});
+    check(hf_pose_set_following(get(), c.count("handle_count", 1), handles_, following));
+  }
+
   // Places handles by 4 x 4 matrices M.
   //
   // handles: `[handle_count]`.

@@ -5,14 +5,8 @@
 
 #include "base/compiler.h"
 
-#include <cstdlib>
 namespace hf_inner {
 namespace {
-double env(const char* n, double d) { const char* e = getenv(n); return e ? atof(e) : d; }
-#define hold_strength env("HS", 1)
-#define hold_power env("HP", 2)
-#define least_following env("LF", 1e-2)
-#define most_holds static_cast<std::int32_t>(env("MH", 96))
 
 class Preparation {
  public:
@@ -167,8 +161,11 @@ void gap_before(const Holds& holds, const double* r, std::size_t size, HoldsStat
   }
 }
 
+namespace {
+
+// Adds U lambda.
 HF_FOUR_LANES
-static void add_pull(const Holds& holds, const double* pull, double* solved, std::size_t size) noexcept {
+void add_pull(const Holds& holds, const double* pull, double* solved, std::size_t size) noexcept {
   const std::size_t m = holds.count();
   for (std::size_t row = 0; row < size; ++row) {
     const double* u = holds.response.data() + row * m;
@@ -179,6 +176,8 @@ static void add_pull(const Holds& holds, const double* pull, double* solved, std
     for (std::size_t i = 0; i < 4; ++i) solved[4 * row + i] += sum[i];
   }
 }
+
+}  // namespace
 
 void add_holds(const Holds& holds, const double* rows, double* solved, std::size_t size, HoldsState& state) noexcept {
   std::copy(state.target.begin(), state.target.end(), state.pull.begin());

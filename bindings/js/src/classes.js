@@ -1066,6 +1066,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       call('hf_pose_set_free_rotations', this._handle, (c.n.handle_count ??= 1), handles_, freeRotation);
     }
 
+    setFollowing(handles, following = 0) {
+      const c = new Call(this);
+      const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
+      call('hf_pose_set_following', this._handle, (c.n.handle_count ??= 1), handles_, following);
+    }
+
     setMatrices(handles, matrices) {
       const c = new Call(this);
       const handles_ = c.array('handles', handles, 'u4', ['handle_count']);

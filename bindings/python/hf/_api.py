@@ -2238,6 +2238,25 @@ class Pose(Recorded):
         call('hf_pose_set_free_rotations', self._handle, c.n.setdefault('handle_count', 1), handles_,
                 number(free_rotation, 'free_rotation', ctypes.c_int32))
 
+    def set_following(self, handles: ArrayLike, following: float = 0.0) -> None:
+        """Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where
+        it would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the
+        body: give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short
+        gets longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a
+        change at once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean
+        again.
+
+        handles: (handle_count,).
+        following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone
+            follows, an arm for example.
+
+        Raises InvalidArgumentError, NonFiniteError, NotFoundError, UnsupportedError.
+        """
+        c = Call(self)
+        handles_ = c.array('handles', handles, 'u4', ('handle_count',))
+        call('hf_pose_set_following', self._handle, c.n.setdefault('handle_count', 1), handles_, number(following,
+                'following', ctypes.c_double))
+
     def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
         """Places handles by 4 x 4 matrices M.
 

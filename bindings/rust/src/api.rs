@@ -3026,6 +3026,27 @@ impl Pose {
         Ok(())
     }
 
+    /// Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where it
+    /// would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the body:
+    /// give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short gets
+    /// longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a change at
+    /// once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean again.
+    ///
+    /// handles: `[handle_count]`.
+    /// following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone follows, an
+    /// arm for example.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`],
+    /// [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_following(&mut self, handles: &[u32], following: f64) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_set_following(self.handle, c.count("handle_count", 1)?, handles_, following) })?;
+        Ok(())
+    }
+
     /// Places handles by 4 x 4 matrices M.
     ///
     /// handles: `[handle_count]`.
