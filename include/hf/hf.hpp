@@ -2222,6 +2222,23 @@ class Pose {
     check(hf_pose_set_following(get(), c.count("handle_count", 1), handles_, following));
   }
 
+  // Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives each
+  // rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it is held
+  // most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a second handle
+  // on the same piece is refused (HF_ERROR_CONFLICT). Call this before such handles are added. Pose::skin writes the
+  // motions without this step.
+  //
+  // vertices: `[vertex_count]`, one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the one
+  // before.
+  //
+  // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+  void set_rigid_pieces(const std::vector<uint32_t>& vertices) {
+    Call c(counts_);
+    c.forget("vertex_count");  // of the list given here
+    const uint32_t* vertices_ = c.array(vertices, true, "vertices", {"vertex_count"});
+    check(hf_pose_set_rigid_pieces(get(), c.count("vertex_count", 1), vertices_));
+  }
+
   // Places handles by 4 x 4 matrices M.
   //
   // handles: `[handle_count]`.

@@ -168,6 +168,18 @@ HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count,
  * higher layer). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_following(hf_pose pose, uint32_t handle_count, const uint32_t* handles, double following);
 
+/* Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. vertices:
+ * uint32_t[vertex_count], one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the one
+ * before.
+ *
+ * A frame gives each rigid piece the one motion that fits it best, also after refine. Where links join the piece to
+ * others it is held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with
+ * it; a second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this before such handles are added.
+ * hf_pose_get_skin writes the motions without this step. Errors: HF_ERROR_CONFLICT (a handle has a part of a piece;
+ * index = position), HF_ERROR_OUT_OF_RANGE and HF_ERROR_INVALID_ARGUMENT (isolated vertex; index = position),
+ * HF_ERROR_TOO_LARGE. Thread safety: changes `pose`. Since 0.1. */
+HF_API hf_result hf_pose_set_rigid_pieces(hf_pose pose, uint32_t vertex_count, const uint32_t* vertices);
+
 /* Places handles by 4 x 4 matrices M. handles: uint32_t[handle_count]. matrices: double[handle_count][16], column by
  * column, elements 12 to 14 the translation. M
  * takes a rest position p to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes

@@ -43,6 +43,7 @@ class Posable {
     bool paper = false, links = true;
     bool given_rotations = false;  // a drag without a turn keeps the rotation of its handle
     double following = 1;          // of dragged handles: how much of the surface follows
+    bool rigid = false;            // pieces whose vertices follow one joint stay rigid
     uint32_t bands = 0, threads = 1;
     const Model* model = nullptr;  // its skin helps to link pieces; may be NULL
     const Posable* on = nullptr;   // of the same mesh: its surface is used again, and it outlives this object
@@ -88,6 +89,8 @@ class Posable {
     MotionEntry before;
   };
   const std::vector<Live>& handles() const { return live_; }
+  // The first vertex of the rigid piece of a vertex, or HF_NO_INDEX.
+  uint32_t rigid_part(uint32_t vertex) const { return rigid_.empty() ? HF_NO_INDEX : rigid_[vertex]; }
   hf_surface surface() const { return surface_; }
   // Returns the vertices of a handle, where its field is 1.
   std::vector<uint32_t> region_of(const Live& live) const;
@@ -95,6 +98,7 @@ class Posable {
   std::vector<std::string> remarks() const;
 
  private:
+  void keep_rigid(const FlatMesh& mesh, const Model* model);
   void make_surface(const FlatMesh& mesh, const Options& options);
   glm::dvec3 at(const glm::dvec3& fraction) const { return lower_ + fraction * (upper_ - lower_); }
   std::vector<uint32_t> vertices_of(const HandleEntry& entry) const;
@@ -105,6 +109,7 @@ class Posable {
   bool own_ = true;  // the surface
   bool frees_ = true;
   double following_ = 1;
+  std::vector<uint32_t> rigid_;  // by vertex; empty: none asked for
   hf_pose pose_ = nullptr;
   glm::dvec3 lower_{0}, upper_{0};
   double diagonal_ = 1;

@@ -104,7 +104,8 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const Core& core = pose->pose->core();
   if (desc.positions) require_float_positions(core.mesh);
   const VertexRange range = read_range(desc, core.mesh.report.vertex_count);
-  request.surface = range.whole || request.normals || request.refine > 0 || pose->pose->has_layers();
+  request.surface = range.whole || request.normals || request.refine > 0 ||
+                    pose->pose->has_layers() || pose->pose->has_rigid_pieces();
   // The library's and the caller's vertices have the same order.
   const bool straight = range.whole && pose->keeps_order;
   const auto packed = [](std::uint32_t stride) { return stride == 0 || stride == 3 * sizeof(float); };
@@ -247,6 +248,14 @@ hf_result hf_pose_set_following(hf_pose handle, uint32_t handle_count, const uin
     check_following(following);
     const Changing changing(*pose);
     pose->pose->set_following({handles, handle_count}, following);
+  });
+}
+
+hf_result hf_pose_set_rigid_pieces(hf_pose handle, uint32_t vertex_count, const uint32_t* vertices) {
+  return guarded("hf_pose_set_rigid_pieces", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    const Changing changing(*pose);
+    pose->pose->set_rigid_pieces(read_rigid_pieces(pose->pose->core(), vertex_count, vertices, *pose->memory));
   });
 }
 

@@ -235,6 +235,12 @@ constexpr double least_following = 0.02;
 // Pins in all, and at least in a component: more hold every limb, fewer take less time and memory.
 constexpr std::int32_t most_holds = 96, least_component_holds = 4;
 
+// ---- rigid_pieces.cpp ----
+
+// How much of the fit of a rigid piece the vertices where links hold it decide; the rest is for its area. With 1 a piece
+// that is held at a point could turn freely; with less it slides in the hand.
+constexpr double rigid_hold_share = 0.9;
+
 // ---- groups.cpp ----
 
 // The vertices of a component form groups that share a rotation. Larger components get more groups, but each gets at

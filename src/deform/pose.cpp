@@ -67,6 +67,7 @@ std::shared_ptr<Pose> Pose::clone() const {
   copy->posed_ = posed_;
   copy->refined_ = refined_;
   copy->report_ = report_;
+  copy->set_rigid(rigid_);
   return copy;
 }
 

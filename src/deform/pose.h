@@ -17,6 +17,7 @@
 #include "deform/paper_scheme.h"
 #include "deform/pose_solver.h"
 #include "deform/refine.h"
+#include "deform/rigid_pieces.h"
 
 namespace hf_inner {
 
@@ -121,6 +122,11 @@ class Pose {
   Span<const Affine> cluster_transforms() const noexcept;
   bool posed() const noexcept { return posed_; }  // transforms() holds a pose
 
+  // The pieces that every frame makes rigid; null: none.
+  void set_rigid(std::shared_ptr<const RigidPieces> rigid);
+  // Throws for regions that add_handles would refuse.
+  void check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const;
+
   // ---- for layers of handles (pose_stack.h), whose poses must depend only on the arguments of these calls ----
 
   // Returns a pose without handles that shares the data prepared from the mesh.
@@ -197,7 +203,6 @@ class Pose {
   std::int32_t find(std::uint32_t number) const noexcept;
   std::int32_t require(std::uint32_t number, std::uint32_t position) const;
   void check_free_turn(bool free_turn) const;
-  void check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const;
   std::shared_ptr<const Groups> meet(const Layout& layout) const;
   std::shared_ptr<const Layout> make_layout(const Handles& handles) const;
   // Returns a state for `layout` (handles and the clusters they make). Handles and clusters of the present state keep
@@ -224,6 +229,7 @@ class Pose {
   void prepare(const DeformRequest& request);
   void write_surface(const DeformRequest& request, DeformReport& report);
   void ensure_surface() const;
+  void make_rigid() const noexcept;
 
   std::shared_ptr<const Core> core_;
   PoseOptions options_;
@@ -234,6 +240,8 @@ class Pose {
   std::shared_ptr<const Layout> previous_layout_;  // layout before the last handles were added
   std::shared_ptr<const State> previous_state_;
   mutable Buffer<Vec3> positions_;
+  std::shared_ptr<const RigidPieces> rigid_;
+  mutable Buffer<Vec3> rigid_scratch_;
   Buffer<Normal> normals_;
   Buffer<NormalSum> normal_sums_;
   Buffer<Vec3> turns_;                      // scratch for handle_limit handles

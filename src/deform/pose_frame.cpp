@@ -204,6 +204,7 @@ void Pose::ensure_surface() const {
         core_->mesh.scale, positions_.data(), nullptr, *core_->jobs);
   if (const double share = crossfade_share(); share > 0)
     add_crossfade(*state_->crossfade, share, positions_.data(), *core_->jobs);
+  make_rigid();
   stale_ = false;
 }
 
@@ -246,7 +247,7 @@ void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   const Timer blend_timer;
   const double share = crossfade_share();
   if (!(share > 0)) state_->crossfade.reset();  // it comes back to nothing
-  float* packed = request.refine > 0 || share > 0 ? nullptr : request.packed_positions;
+  float* packed = request.refine > 0 || share > 0 || rigid_ ? nullptr : request.packed_positions;
   blend(mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), mesh.centre, mesh.scale,
         positions_.data(), packed, *core_->jobs);
   report.packed_positions = packed != nullptr;
@@ -258,6 +259,7 @@ void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
     report.refine_ms = refine_timer.milliseconds();
   }
   if (share > 0) add_crossfade(*state_->crossfade, share, positions_.data(), *core_->jobs);
+  make_rigid();
   report.positions = {positions_.data(), positions_.size()};
   if (request.normals) {
     const Timer normal_timer;

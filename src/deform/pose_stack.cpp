@@ -23,6 +23,8 @@ std::shared_ptr<PoseStack> PoseStack::clone() const {
   for (std::uint32_t k = 1; k < layer_limit; ++k) {
     if (layers_[k]) copy->layers_[k] = make_layer(layers_[k]->plain->clone());
   }
+  copy->rigid_scratch_.allocate(memory(), rigid_scratch_.size());
+  copy->rigid_ = rigid_;
   return copy;
 }
 
@@ -87,6 +89,13 @@ std::shared_ptr<PoseStack::Layer> PoseStack::make_layer(std::shared_ptr<Pose> pl
 
 void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, std::uint32_t layer,
                             Span<std::uint32_t> out_numbers, const HandleKind& kind) {
+  Vector<std::uint32_t> whole_start(&memory());
+  Vector<std::int32_t> whole(&memory());
+  if (rigid_) {
+    take_whole_pieces(start, vertices, whole_start, whole);
+    start = whole_start;
+    vertices = whole;
+  }
   if (layer >= layer_limit)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %u", layer, layer_limit - 1);
   const std::size_t added = start.size() < 2 ? 0 : start.size() - 1, first = entries_.size();
@@ -297,6 +306,7 @@ void PoseStack::combine(Layer& layer, Span<const Vec3> below) noexcept {
       layer.surface[v] = edited[v] + rotate(turn, below[v] - plain[v]);
     }
   });
+  if (rigid_) rigid_->make_rigid(layer.surface.data(), rigid_scratch_.data());
 }
 
 DeformReport PoseStack::deform(const DeformRequest& request) {

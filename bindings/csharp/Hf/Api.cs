@@ -4204,6 +4204,27 @@ namespace Hf
             }
         }
 
+        /// <summary>Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame
+        /// gives each rigid piece the one motion that fits it best, also after refine. Where links join the piece
+        /// to others it is held most. A handle whose region touches a rigid piece takes all of it, so that the
+        /// piece moves with it; a second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this before
+        /// such handles are added. Pose.Skin writes the motions without this step.
+        ///
+        /// vertices: [vertexCount], one or more of each piece; vertex_count 0: no piece is rigid. The list replaces
+        ///     the one before.
+        ///
+        /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        public void SetRigidPieces(uint[] vertices)
+        {
+            using (var c = new Call(this))
+            {
+                c.Forget("vertex_count");  // of the list given here
+                void* vertices_ = c.Array(vertices, "vertices", "vertex_count");
+                HfException.Check(Functions.hf_pose_set_rigid_pieces(RawHandle, (uint)c.Count("vertex_count", 1),
+                    vertices_));
+            }
+        }
+
         /// <summary>Places handles by 4 x 4 matrices M.
         ///
         /// handles: [handleCount].

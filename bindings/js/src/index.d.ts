@@ -1807,6 +1807,19 @@ export interface Pose extends Recorded {
    */
   setFollowing(handles: Rows, following?: number): void;
   /**
+   * Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives
+   * each rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it
+   * is held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a
+   * second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this before such handles are added.
+   * Pose.skin writes the motions without this step.
+   *
+   * vertices: [vertexCount], one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the
+   *     one before.
+   *
+   * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+   */
+  setRigidPieces(vertices: Rows): void;
+  /**
    * Places handles by 4 x 4 matrices M.
    *
    * handles: [handleCount].

@@ -1184,6 +1184,7 @@ export const functions = {
   hf_pose_set_transform: ['i32', ['handle', 'u32', 'ptr']],
   hf_pose_set_free_rotations: ['i32', ['handle', 'u32', 'ptr', 'i32']],
   hf_pose_set_following: ['i32', ['handle', 'u32', 'ptr', 'f64']],
+  hf_pose_set_rigid_pieces: ['i32', ['handle', 'u32', 'ptr']],
   hf_pose_set_matrices: ['i32', ['handle', 'u32', 'ptr', 'ptr']],
   hf_pose_get_handle: ['i32', ['handle', 'u32', 'ptr']],
   hf_pose_get_handle_count: ['u32', ['handle']],

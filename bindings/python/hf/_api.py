@@ -2257,6 +2257,23 @@ class Pose(Recorded):
         call('hf_pose_set_following', self._handle, c.n.setdefault('handle_count', 1), handles_, number(following,
                 'following', ctypes.c_double))
 
+    def set_rigid_pieces(self, vertices: ArrayLike) -> None:
+        """Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives
+        each rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it
+        is held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a
+        second handle on the same piece is refused (ConflictError). Call this before such handles are added. Pose.skin
+        writes the motions without this step.
+
+        vertices: (vertex_count,), one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the
+            one before.
+
+        Raises ConflictError, InvalidArgumentError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        c.n.pop('vertex_count', None)  # of the list given here
+        vertices_ = c.array('vertices', vertices, 'u4', ('vertex_count',))
+        call('hf_pose_set_rigid_pieces', self._handle, c.n.setdefault('vertex_count', 1), vertices_)
+
     def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
         """Places handles by 4 x 4 matrices M.
 

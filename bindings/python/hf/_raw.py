@@ -2287,6 +2287,7 @@ PROTOTYPES = {
     "hf_pose_set_transform": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_set_free_rotations": (c_int32, [c_void_p, c_uint32, c_void_p, c_int32]),
     "hf_pose_set_following": (c_int32, [c_void_p, c_uint32, c_void_p, c_double]),
+    "hf_pose_set_rigid_pieces": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_set_matrices": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_pose_get_handle": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_get_handle_count": (c_uint32, [c_void_p]),

@@ -3047,6 +3047,27 @@ impl Pose {
         Ok(())
     }
 
+    /// Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives
+    /// each rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it is
+    /// held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a second
+    /// handle on the same piece is refused ([`raw::HF_ERROR_CONFLICT`]). Call this before such handles are added.
+    /// `Pose::skin` writes the motions without this step.
+    ///
+    /// vertices: `[vertex_count]`, one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the
+    /// one before.
+    ///
+    /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_rigid_pieces(&mut self, vertices: &[u32]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        c.forget("vertex_count"); // of the list given here
+        let vertices_ = c.array(Some(vertices), "vertices", &["vertex_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_set_rigid_pieces(self.handle, c.count("vertex_count", 1)?, vertices_) })?;
+        Ok(())
+    }
+
     /// Places handles by 4 x 4 matrices M.
     ///
     /// handles: `[handle_count]`.

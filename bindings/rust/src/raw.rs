@@ -2633,6 +2633,7 @@ extern "C" {
     pub fn hf_pose_set_transform(pose: hf_pose, handle: u32, transform: *const hf_transform) -> i32;
     pub fn hf_pose_set_free_rotations(pose: hf_pose, handle_count: u32, handles: *const u32, free_rotation: i32) -> i32;
     pub fn hf_pose_set_following(pose: hf_pose, handle_count: u32, handles: *const u32, following: f64) -> i32;
+    pub fn hf_pose_set_rigid_pieces(pose: hf_pose, vertex_count: u32, vertices: *const u32) -> i32;
     pub fn hf_pose_set_matrices(pose: hf_pose, handle_count: u32, handles: *const u32, matrices: *const f64) -> i32;
     pub fn hf_pose_get_handle(pose: hf_pose, handle: u32, out_info: *mut hf_handle_info) -> i32;
     pub fn hf_pose_get_handle_count(pose: hf_pose) -> u32;
