@@ -93,6 +93,13 @@ std::vector<ProposedHandle> propose(const PosableMesh& mesh, const Posable& posa
     if (!named || number > 1) handle.entry.name += " " + std::to_string(number);
     out.push_back(std::move(handle));
   }
+  // a body of arms alone stands on what the library says
+  if (std::none_of(out.begin(), out.end(), [](const ProposedHandle& handle) { return handle.pinned; })) {
+    for (ProposedHandle& handle : out) {
+      handle.pinned = handle.proposal.pinned != 0;
+      handle.entry.offered = !handle.pinned;
+    }
+  }
   return out;
 }
 
