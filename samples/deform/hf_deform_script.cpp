@@ -51,8 +51,8 @@ struct Command {
   double keys = 8, following = 1;
   uint32_t tiles = 7, threads = 1;
   glm::dvec3 up{0, 1, 0};
-  bool rigid = false, propose = false, refine = false, lengths = false, links = true, given_rotations = false, quiet = false,
-       help = false;
+  bool rigid = false, propose = false, refine = false, lengths = false, links = true, given_rotations = false,
+       quiet = false, help = false;
 };
 
 glm::dvec3 axis_of(const std::string& word) {

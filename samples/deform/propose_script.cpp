@@ -71,7 +71,8 @@ std::vector<ProposedHandle> propose(const PosableMesh& mesh, const Posable& posa
   for (int c = 0; c < 3; ++c) desc.up[c] = up[c];
   std::vector<hf_handle_proposal> found(HF_HANDLE_LIMIT);
   uint32_t count = 0;
-  expect_ok(hf_surface_propose_handles(posable.surface(), &desc, HF_HANDLE_LIMIT, found.data(), &count), "the proposals");
+  expect_ok(hf_surface_propose_handles(posable.surface(), &desc, HF_HANDLE_LIMIT, found.data(), &count),
+            "the proposals");
   found.resize(count);
   const RegionOwners owners(mesh);
   std::map<std::string, int> numbers;

@@ -104,8 +104,8 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const Core& core = pose->pose->core();
   if (desc.positions) require_float_positions(core.mesh);
   const VertexRange range = read_range(desc, core.mesh.report.vertex_count);
-  request.surface = range.whole || request.normals || request.refine > 0 ||
-                    pose->pose->has_layers() || pose->pose->has_rigid_pieces();
+  request.surface = range.whole || request.normals || request.refine > 0 || pose->pose->has_layers() ||
+                    pose->pose->has_rigid_pieces();
   // The library's and the caller's vertices have the same order.
   const bool straight = range.whole && pose->keeps_order;
   const auto packed = [](std::uint32_t stride) { return stride == 0 || stride == 3 * sizeof(float); };

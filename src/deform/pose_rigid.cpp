@@ -37,9 +37,10 @@ void PoseStack::check_rigid(const RigidPieces& rigid, Span<const std::int32_t> v
     for (std::uint32_t k = 0; k < vertices.size(); ++k) {
       const std::size_t p = static_cast<std::size_t>(rigid.piece_of(vertices[k])), part = inside[p];
       if (part > 0 && part < rigid.vertices_of(p).size())
-        fail(HF_ERROR_CONFLICT, k,
-             "entry %u is on a piece of which handle %u has a part; remove the handle, and add it again after this call",
-             k, entry.number);
+        fail(
+            HF_ERROR_CONFLICT, k,
+            "entry %u is on a piece of which handle %u has a part; remove the handle, and add it again after this call",
+            k, entry.number);
     }
     for (const std::int32_t v : region) {
       if (const std::int32_t p = rigid.piece_of(v); p >= 0) inside[p] = 0;

@@ -220,21 +220,6 @@ HandleTransform PoseStack::placed(std::uint32_t number) const {
 
 // ---- the pose ----
 
-// Fits a rigid motion to a region: the rotation of the edges at its vertices, and the mean of its vertices.
-RigidMotion PoseStack::fit_region(const Entry& entry, Span<const std::int32_t> region,
-                                  const Vec3* surface) const noexcept {
-  Mat3 sum;
-  Vec3 mean;
-  for (const std::int32_t v : region) {
-    add_ring(*core_, base_->rest(), surface, v, sum);
-    mean = mean + surface[v];
-  }
-  RigidMotion motion;
-  motion.rotation = best_rotation(sum, Quaternion());
-  motion.translation = (1.0 / static_cast<double>(region.size())) * mean - rotate(motion.rotation, entry.centroid);
-  return motion;
-}
-
 bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_changed, const DeformRequest& request) {
   Layer& layer = *layers_[k];
   layer.plain_stale = layer.plain_stale || below_changed;

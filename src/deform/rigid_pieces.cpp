@@ -64,8 +64,8 @@ void RigidPieces::make_rigid(Vec3* positions, Vec3* scratch) const noexcept {
   for (std::size_t p = 0; p < count(); ++p) {
     const std::size_t first = static_cast<std::size_t>(start_[p]), size = vertices_of(p).size();
     for (std::size_t k = 0; k < size; ++k) scratch[k] = positions[vertex_[first + k]];
-    const RigidMotion motion = fit_rigid({rest_.data() + first, size}, {scratch, size}, {weight_.data() + first, size},
-                                         Quaternion());
+    const RigidMotion motion =
+        fit_rigid({rest_.data() + first, size}, {scratch, size}, {weight_.data() + first, size}, Quaternion());
     for (std::size_t k = 0; k < size; ++k) positions[vertex_[first + k]] = apply(motion, rest_[first + k]);
   }
 }

@@ -1,9 +1,9 @@
 // How much follows a handle: the body stays with a small share, all follows with 1, and the pins solve their equations.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <cstring>
+#include <Eigen/Dense>
 #include <random>
 
 #include "assets/creature.h"
@@ -86,7 +86,6 @@ double moved(const Surface& x, const Surface& y, const Region& region) {
   for (const std::int32_t v : region) largest = std::max(largest, norm(x[v] - y[v]));
   return largest;
 }
-
 
 // The hand is pulled up by a quarter of the box; feet stand.
 struct Drag {
@@ -327,9 +326,8 @@ TEST(Following, ThePinsSolveTheSystemThatHasThemInItsMatrix) {
     }
   }
   const Eigen::VectorXd strength = Eigen::Map<const Eigen::VectorXd>(holds.strength.data(), m);
-  const Eigen::MatrixXd wanted = (s.matrix + z * strength.asDiagonal() * z.transpose())
-                                     .ldlt()
-                                     .solve(r + z * strength.asDiagonal() * gap);
+  const Eigen::MatrixXd wanted =
+      (s.matrix + z * strength.asDiagonal() * z.transpose()).ldlt().solve(r + z * strength.asDiagonal() * gap);
   double* const solved = rows.data() + handles;
   s.smooth->subspace.factor.solve(solved);
   const Eigen::MatrixXd plain = s.matrix.ldlt().solve(r);
