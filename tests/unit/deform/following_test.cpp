@@ -355,23 +355,4 @@ TEST(Following, ThePinsSolveTheSystemThatHasThemInItsMatrix) {
   EXPECT_GT((wanted - plain).cwiseAbs().maxCoeff(), 1e-3 * wanted.cwiseAbs().maxCoeff());
 }
 
-// A rotation that was found and is then given leaves the pose as it is: so the step for free rotations knows the pins.
-TEST(Following, GivingTheRotationThatWasFoundChangesNothing) {
-  Body body;
-  for (const char* joint : {"foot_L", "foot_R", "hand_L", "hand_R"}) body.add(joint, {false, joint[0] == 'h'});
-  body.follow(2, 0.05);
-  body.drag(2, {0, 0.2, 0.2});
-  body.drag(3, {0, 0.1, 0.2});
-  DeformRequest request;
-  request.iteration_count = 1000;
-  body.pose->deform(request);
-  const Surface found = body.settle();
-  const Quaternion first = body.pose->placed(2).rotation;
-  body.settle();
-  EXPECT_LT(angle_between(first, body.pose->placed(2).rotation), 1e-6);
-  EXPECT_GT(angle_between(first, Quaternion()), 0.1);
-  for (const std::uint32_t h : {2u, 3u}) body.pose->set_free_turns({&h, 1}, false);
-  EXPECT_LT(largest_distance(found, body.settle()), 1e-6 * body.box);
-}
-
 }  // namespace
