@@ -2226,6 +2226,40 @@ class Pose {
     check(hf_pose_set_free_rotations(get(), c.count("handle_count", 1), handles_, free_rotation ? 1 : 0));
   }
 
+  // Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where it
+  // would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the body:
+  // give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short gets
+  // longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a change at
+  // once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean again.
+  //
+  // handles: `[handle_count]`.
+  // following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone follows, an
+  // arm for example.
+  //
+  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+  void set_following(const std::vector<uint32_t>& handles, double following = 0) {
+    Call c(counts_);
+    const uint32_t* handles_ = c.array(handles, true, "handles", {"handle_count"});
+    check(hf_pose_set_following(get(), c.count("handle_count", 1), handles_, following));
+  }
+
+  // Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives each
+  // rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it is held
+  // most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a second handle
+  // on the same piece is refused (HF_ERROR_CONFLICT). Call this before such handles are added. Pose::skin writes the
+  // motions without this step.
+  //
+  // vertices: `[vertex_count]`, one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the one
+  // before.
+  //
+  // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+  void set_rigid_pieces(const std::vector<uint32_t>& vertices) {
+    Call c(counts_);
+    c.forget("vertex_count");  // of the list given here
+    const uint32_t* vertices_ = c.array(vertices, true, "vertices", {"vertex_count"});
+    check(hf_pose_set_rigid_pieces(get(), c.count("vertex_count", 1), vertices_));
+  }
+
   // Places handles by 4 x 4 matrices M.
   //
   // handles: `[handle_count]`.

@@ -147,6 +147,32 @@ HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_t
 HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
                                             int32_t free_rotation);
 
+/* Says how much of the surface follows handles of layer 0. handles: uint32_t[handle_count]. following: 0 to 1: at 1 all
+ * of the surface follows a handle, as without this call; at 0 its limb alone follows, an arm for example.
+ *
+ * Below 1 soft pins hold the rest of the surface where it would be without these handles, so that a body does not lean
+ * after a hand. Handles of following 1 carry the body: give less to a handle that is dragged. The handles themselves
+ * land exactly, and a limb that is too short gets longer. The fields tell the limb: on it the field of the handle is
+ * near 1. The next hf_deform shows a change at once. Full-mesh steps (refine) do not know the pins; with
+ * refine_from_last they let the body lean again. Cost: at this call, and when handles are added or removed, one field
+ * solve for the other handles and as many solves of the reduced system as in a few frames; a frame takes up to twice
+ * the time of the pose solve while other handles move. No factor is made anew. Errors: HF_ERROR_NOT_FOUND,
+ * HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (following), HF_ERROR_UNSUPPORTED (a handle of a higher
+ * layer). Thread safety: changes `pose`. Since 0.1. */
+HF_API hf_result hf_pose_set_following(hf_pose pose, uint32_t handle_count, const uint32_t* handles, double following);
+
+/* Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. vertices:
+ * uint32_t[vertex_count], one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the one
+ * before.
+ *
+ * A frame gives each rigid piece the one motion that fits it best, also after refine. Where links join the piece to
+ * others it is held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with
+ * it; a second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this before such handles are added.
+ * hf_pose_get_skin writes the motions without this step. Errors: HF_ERROR_CONFLICT (a handle has a part of a piece;
+ * index = position), HF_ERROR_OUT_OF_RANGE and HF_ERROR_INVALID_ARGUMENT (isolated vertex; index = position),
+ * HF_ERROR_TOO_LARGE. Thread safety: changes `pose`. Since 0.1. */
+HF_API hf_result hf_pose_set_rigid_pieces(hf_pose pose, uint32_t vertex_count, const uint32_t* vertices);
+
 /* Places handles by 4 x 4 matrices M. handles: uint32_t[handle_count]. matrices: double[handle_count][16], column by
  * column, elements 12 to 14 the translation. M
  * takes a rest position p to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes
@@ -168,6 +194,7 @@ typedef struct hf_handle_info {
   double translation[3]; /* the same of its translation */
   uint32_t layer;
   int32_t free_rotation; /* 1: the solve finds the rotation */
+  double following;      /* how much of the surface follows; see hf_pose_set_following */
 } hf_handle_info;
 
 /* Writes the info of a handle. Errors: HF_ERROR_NOT_FOUND. Thread safety: reads `pose`. Since 0.1. */

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <stdexcept>
 
 #include "common/links.h"
@@ -34,6 +35,8 @@ const char* usage =
     "  --frames-obj DIR   every key frame as DIR/frame_0000.obj ..., in the vertex order of MESH\n"
     "  --mode MODE        smooth, or paper in builds with HF_WITH_PEERS; instead of the script's\n"
     "  --given-rotations  a drag without a turn keeps the rotation of its handle; otherwise the rotation is free\n"
+    "  --following S      how much follows what is dragged: 0 its limb alone, 1 all of the surface (default 1)\n"
+    "  --rigid            pieces whose vertices follow one joint stay rigid, a sword for example\n"
     "  --no-links         pieces of the surface stay apart; otherwise links join them\n"
     "  --refine           one full-mesh step on every frame\n"
     "  --lengths          keeps lengths: the full-mesh steps go on from frame to frame\n"
@@ -45,11 +48,11 @@ const char* usage =
 struct Command {
   std::filesystem::path mesh, script, output, sheet, frames;
   std::string mode;
-  double keys = 8;
+  double keys = 8, following = 1;
   uint32_t tiles = 7, threads = 1;
   glm::dvec3 up{0, 1, 0};
-  bool propose = false, refine = false, lengths = false, links = true, given_rotations = false, quiet = false,
-       help = false;
+  bool rigid = false, propose = false, refine = false, lengths = false, links = true, given_rotations = false,
+       quiet = false, help = false;
 };
 
 glm::dvec3 axis_of(const std::string& word) {
@@ -93,6 +96,10 @@ Command parse(Words words) {
       out.lengths = true;
     } else if (words.is("--given-rotations")) {
       out.given_rotations = true;
+    } else if (words.is("--following")) {
+      out.following = words.number(0, 1);
+    } else if (words.is("--rigid")) {
+      out.rigid = true;
     } else if (words.is("--no-links")) {
       out.links = false;
     } else if (words.is("--quiet")) {
@@ -229,7 +236,13 @@ Model animated(const PosableMesh& mesh, const std::vector<Key>& keys) {
 
 // Lists the proposals. What holds is added before the script; without one, tips are dragged. False: nothing to play.
 bool add_proposals(const Command& command, const PosableMesh& mesh, const Posable& posable, ScriptFile& script) {
-  const std::vector<ProposedHandle> handles = propose(mesh, posable, command.up);
+  std::vector<ProposedHandle> handles = propose(mesh, posable, command.up);
+  std::set<uint32_t> taken;  // one handle moves all of a rigid piece
+  const auto is_second = [&](const ProposedHandle& handle) {
+    const uint32_t part = posable.rigid_part(handle.proposal.vertex);
+    return part != HF_NO_INDEX && !taken.insert(part).second;
+  };
+  handles.erase(std::remove_if(handles.begin(), handles.end(), is_second), handles.end());
   std::printf("%zu proposed handles\n%s", handles.size(), list_of(handles).c_str());
   if (command.output.empty() && command.sheet.empty() && command.frames.empty()) return false;
   if (command.script.empty()) {
@@ -255,6 +268,8 @@ void run(const Command& command) {
   options.paper = script.paper;
   options.threads = command.threads;
   options.links = command.links;
+  options.rigid = command.rigid;
+  options.following = command.following;
   options.given_rotations = command.given_rotations;
   options.model = mesh.model.skins.empty() ? nullptr : &mesh.model;
   Posable posable(mesh.flat, options);

@@ -10,6 +10,7 @@
 #include "common/limits.h"
 #include "common/links.h"
 #include "common/peers.h"
+#include "deform/rigid_parts.h"
 #include "gltf/file_kind.h"
 #include "gltf/gltf_read.h"
 
@@ -53,6 +54,7 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   diagonal_ = box.diagonal();
   own_ = !options.on;
   frees_ = !options.given_rotations && !options.paper;
+  following_ = options.following;
   if (own_)
     make_surface(mesh, options);
   else
@@ -64,6 +66,24 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
     if (own_) hf_surface_destroy(surface_);
     expect_ok(result, "the pose");
   }
+  if (options.rigid) keep_rigid(mesh, options.model);
+}
+
+void Posable::keep_rigid(const FlatMesh& mesh, const Model* model) {
+  rigid_ = rigid_parts(mesh, ModelLinks(model, mesh));
+  const std::set<uint32_t> used(mesh.triangles.begin(), mesh.triangles.end());
+  std::map<uint32_t, uint32_t> vertex_of;
+  for (const uint32_t v : used) {
+    if (rigid_[v] != HF_NO_INDEX) vertex_of.try_emplace(rigid_[v], v);
+  }
+  std::vector<uint32_t> vertices;
+  for (const auto& [part, v] : vertex_of) vertices.push_back(v);
+  const hf_result result = hf_pose_set_rigid_pieces(pose_, static_cast<uint32_t>(vertices.size()), vertices.data());
+  std::printf("%zu rigid pieces\n", vertices.size());
+  if (result == HF_OK) return;
+  hf_pose_destroy(pose_);
+  if (own_) hf_surface_destroy(surface_);
+  expect_ok(result, "the rigid pieces");
 }
 
 void Posable::make_surface(const FlatMesh& mesh, const Options& options) {
@@ -170,6 +190,10 @@ void Posable::begin(const Step& step) {
     found->from = found->now;
     found->moving = true;
     found->from_place = false;
+    if (following_ < 1 && !found->follows) {
+      expect_ok(hf_pose_set_following(pose_, 1, &found->number, following_), "dragging \"" + name + "\"");
+      found->follows = true;
+    }
     const bool free = frees_ && motion.degrees == 0 && !motion.bend;
     if (free == found->free_rotation) continue;
     expect_ok(hf_pose_set_free_rotations(pose_, 1, &found->number, free), "dragging \"" + name + "\"");

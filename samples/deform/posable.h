@@ -42,6 +42,8 @@ class Posable {
   struct Options {
     bool paper = false, links = true;
     bool given_rotations = false;  // a drag without a turn keeps the rotation of its handle
+    double following = 1;          // of dragged handles: how much of the surface follows
+    bool rigid = false;            // pieces whose vertices follow one joint stay rigid
     uint32_t bands = 0, threads = 1;
     const Model* model = nullptr;  // its skin helps to link pieces; may be NULL
     const Posable* on = nullptr;   // of the same mesh: its surface is used again, and it outlives this object
@@ -83,10 +85,12 @@ class Posable {
     glm::dvec3 centroid;
     MotionEntry motion;     // asked for last
     HandlePlace from, now;  // where the drag at hand began
-    bool moving = false, from_rest = true, from_place = false, free_rotation = false;
+    bool moving = false, from_rest = true, from_place = false, free_rotation = false, follows = false;
     MotionEntry before;
   };
   const std::vector<Live>& handles() const { return live_; }
+  // The first vertex of the rigid piece of a vertex, or HF_NO_INDEX.
+  uint32_t rigid_part(uint32_t vertex) const { return rigid_.empty() ? HF_NO_INDEX : rigid_[vertex]; }
   hf_surface surface() const { return surface_; }
   // Returns the vertices of a handle, where its field is 1.
   std::vector<uint32_t> region_of(const Live& live) const;
@@ -94,6 +98,7 @@ class Posable {
   std::vector<std::string> remarks() const;
 
  private:
+  void keep_rigid(const FlatMesh& mesh, const Model* model);
   void make_surface(const FlatMesh& mesh, const Options& options);
   glm::dvec3 at(const glm::dvec3& fraction) const { return lower_ + fraction * (upper_ - lower_); }
   std::vector<uint32_t> vertices_of(const HandleEntry& entry) const;
@@ -103,6 +108,8 @@ class Posable {
   hf_surface surface_ = nullptr;
   bool own_ = true;  // the surface
   bool frees_ = true;
+  double following_ = 1;
+  std::vector<uint32_t> rigid_;  // by vertex; empty: none asked for
   hf_pose pose_ = nullptr;
   glm::dvec3 lower_{0}, upper_{0};
   double diagonal_ = 1;

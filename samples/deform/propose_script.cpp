@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "deform/propose_names.h"
 #include "gltf/animate.h"
 
 namespace samples {
@@ -70,21 +71,35 @@ std::vector<ProposedHandle> propose(const PosableMesh& mesh, const Posable& posa
   for (int c = 0; c < 3; ++c) desc.up[c] = up[c];
   std::vector<hf_handle_proposal> found(HF_HANDLE_LIMIT);
   uint32_t count = 0;
-  expect_ok(hf_surface_propose_handles(posable.surface(), &desc, HF_HANDLE_LIMIT, found.data(), &count), "the proposals");
+  expect_ok(hf_surface_propose_handles(posable.surface(), &desc, HF_HANDLE_LIMIT, found.data(), &count),
+            "the proposals");
   found.resize(count);
-  std::map<int32_t, int> numbers;
+  const RegionOwners owners(mesh);
+  std::map<std::string, int> numbers;
   std::vector<ProposedHandle> out;
   for (const hf_handle_proposal& proposal : found) {
     ProposedHandle handle;
     handle.proposal = proposal;
-    handle.pinned = proposal.pinned != 0;
     if (proposal.joint != HF_NO_INDEX) handle.joint = skeleton.names[proposal.joint];
-    handle.entry.name = std::string(reason_name(proposal.reason)) + " " + std::to_string(++numbers[proposal.reason]);
     handle.entry.has_point = handle.entry.absolute = true;
-    handle.entry.offered = !handle.pinned;
     handle.entry.point = {proposal.position[0], proposal.position[1], proposal.position[2]};
     handle.entry.radius = proposal.radius;
+    const int owner = owners.owner(handle.entry.point, proposal.radius);
+    handle.pinned = proposal.pinned != 0 && !owners.hangs_free(owner);
+    handle.entry.offered = !handle.pinned;
+    handle.entry.name = owners.name(owner);
+    const bool named = !handle.entry.name.empty();
+    if (!named) handle.entry.name = reason_name(proposal.reason);
+    const int number = ++numbers[handle.entry.name];
+    if (!named || number > 1) handle.entry.name += " " + std::to_string(number);
     out.push_back(std::move(handle));
+  }
+  // a body of arms alone stands on what the library says
+  if (std::none_of(out.begin(), out.end(), [](const ProposedHandle& handle) { return handle.pinned; })) {
+    for (ProposedHandle& handle : out) {
+      handle.pinned = handle.proposal.pinned != 0;
+      handle.entry.offered = !handle.pinned;
+    }
   }
   return out;
 }

@@ -10,7 +10,8 @@
 namespace samples {
 
 struct ProposedHandle {
-  HandleEntry entry;  // "foot 1", "tip 2", ...; its place is in the unit of the mesh
+  // Named after the joint that moves most of it, else "foot 1", "tip 2", ...; its place is in the unit of the mesh.
+  HandleEntry entry;
   bool pinned = false;
   std::string joint;  // name of the joint nearby, or empty
   hf_handle_proposal proposal;

@@ -113,7 +113,8 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const VertexRange range = read_range(desc, core.mesh.report.vertex_count);
   const PointsOut out = read_points_out(desc, range.count);
   if (out.positions && !out.positions.is_double()) require_float_positions(core.mesh);
-  request.surface = range.whole || request.normals || request.refine > 0 || pose->pose->has_layers();
+  request.surface = range.whole || request.normals || request.refine > 0 || pose->pose->has_layers() ||
+                    pose->pose->has_rigid_pieces();
   // The library's and the caller's vertices have the same order.
   const bool straight = range.whole && pose->keeps_order;
   if (straight) {
@@ -251,6 +252,24 @@ hf_result hf_pose_set_free_rotations(hf_pose handle, uint32_t handle_count, cons
   });
 }
 
+hf_result hf_pose_set_following(hf_pose handle, uint32_t handle_count, const uint32_t* handles, double following) {
+  return guarded("hf_pose_set_following", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    check_handles(handle_count, handles);
+    check_following(following);
+    const Changing changing(*pose);
+    pose->pose->set_following({handles, handle_count}, following);
+  });
+}
+
+hf_result hf_pose_set_rigid_pieces(hf_pose handle, uint32_t vertex_count, const uint32_t* vertices) {
+  return guarded("hf_pose_set_rigid_pieces", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    const Changing changing(*pose);
+    pose->pose->set_rigid_pieces(read_rigid_pieces(pose->pose->core(), vertex_count, vertices, *pose->memory));
+  });
+}
+
 hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* out_info) {
   return guarded("hf_pose_get_handle", [&] {
     const auto pose = get<PoseObject>(handle, "pose");
@@ -268,6 +287,7 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
     put(placed.translation, info.translation);
     info.layer = pose->pose->layer_of(number);
     info.free_rotation = pose->pose->free_turn(number);
+    info.following = pose->pose->following(number);
     write_struct(out_info, info);
   });
 }

@@ -49,10 +49,12 @@ void write_turned(const FreeTurns& turns, std::size_t k, const FreeTurnsState& s
 
 class Preparation {
  public:
-  Preparation(const Subspace& subspace, FreeTurns& out, Memory& memory)
+  Preparation(const Subspace& subspace, const Holds* holds, FreeTurns& out, Memory& memory)
       : subspace_(subspace),
+        holds_(holds),
         size_(static_cast<std::size_t>(subspace.factor.size())),
         out_(out),
+        memory_(memory),
         pull_(memory, out.count() * 4 * size_) {
     out.response.allocate(memory, out.count() * 4 * size_);
   }
@@ -63,6 +65,7 @@ class Preparation {
     for (std::size_t h = 0; h < out_.count(); ++h) {
       for (std::size_t k = 0; k < out_.count(); ++k) out_.cross.push_back(h == k ? Mat3() : cross(h, k));
     }
+    if (holds_) add_holds();
   }
 
  private:
@@ -96,6 +99,43 @@ class Preparation {
     return result;
   }
 
+  // The pins: J_h V_h T, and J_h V_h T V_k' J_k' to the cross terms.
+  void add_holds() {
+    const std::size_t m = holds_->count(), all = 4 * m;
+    out_.hold_count = m;
+    out_.hold_pull.allocate(memory_, out_.count() * all);
+    std::fill(out_.hold_pull.begin(), out_.hold_pull.end(), 0.0);
+    for (std::size_t k = 0; k < out_.count(); ++k) see_pins(k, out_.hold_pull.data() + k * all);
+    Buffer<double> seen(memory_, out_.hold_pull.size());
+    std::copy(out_.hold_pull.begin(), out_.hold_pull.end(), seen.begin());
+    for (std::size_t k = 0; k < out_.count(); ++k) holds_->system.solve(out_.hold_pull.data() + k * all);
+    for (std::size_t h = 0; h < out_.count(); ++h) {
+      for (std::size_t k = 0; k < out_.count(); ++k) {
+        if (h != k)
+          add_product(out_.hold_pull.data() + h * all, seen.data() + k * all, m, out_.cross[h * out_.count() + k]);
+      }
+    }
+  }
+
+  // (J_k V_k)'
+  void see_pins(std::size_t k, double* seen) const noexcept {
+    const std::size_t m = holds_->count();
+    const double c[3] = {out_.centroid[k].x, out_.centroid[k].y, out_.centroid[k].z};
+    for (std::size_t j = 0; j < m; ++j) {
+      for (std::int32_t e = holds_->row_start[j]; e < holds_->row_start[j + 1]; ++e) {
+        const Holds::Part& part = holds_->row[e];
+        if (part.cluster != out_.handle[k]) continue;
+        for (std::size_t a = 0; a < 3; ++a) seen[4 * j + a] += part.z[a] - c[a] * part.z[3];
+      }
+    }
+    const double* pull = pull_.data() + 4 * size_ * k;
+    for (std::size_t row = 0; row < size_; ++row) {
+      for (std::size_t j = 0; j < m; ++j) {
+        for (std::size_t a = 0; a < 3; ++a) seen[4 * j + a] -= pull[4 * row + a] * holds_->response[row * m + j];
+      }
+    }
+  }
+
   void list_moments() {
     out_.moment_start.push_back(0);
     for (std::size_t k = 0; k < out_.count(); ++k) {
@@ -116,8 +156,10 @@ class Preparation {
   }
 
   const Subspace& subspace_;
+  const Holds* holds_;
   std::size_t size_;
   FreeTurns& out_;
+  Memory& memory_;
   Buffer<double> pull_;
 };
 
@@ -142,7 +184,7 @@ void list_follow(const Vector<double>& seed_field, Span<const std::uint8_t> free
 }  // namespace
 
 FreeTurns make_free_turns(const Subspace& subspace, const Handles& handles, Span<const std::uint8_t> free_turn,
-                          const Vector<double>& seed_field, Memory& memory) {
+                          const Vector<double>& seed_field, const Holds* holds, Memory& memory) {
   FreeTurns turns(memory);
   for (std::size_t i = 0; i < handles.size(); ++i) {
     if (!free_turn[i]) continue;
@@ -150,7 +192,7 @@ FreeTurns make_free_turns(const Subspace& subspace, const Handles& handles, Span
     turns.centroid.push_back(handles[i].region->centroid);
   }
   turns.handle_count = handles.size();
-  Preparation(subspace, turns, memory).run();
+  Preparation(subspace, holds, turns, memory).run();
   list_follow(seed_field, free_turn, turns);
   return turns;
 }
@@ -180,8 +222,8 @@ void begin_turns(const FreeTurns& turns, const Subspace& subspace, double* rows,
   }
 }
 
-void find_turns(const FreeTurns& turns, const double* r, std::size_t size, const double* columns, double* rows,
-                FreeTurnsState& state) noexcept {
+void find_turns(const FreeTurns& turns, const double* r, std::size_t size, const double* columns, const double* gap,
+                double* rows, FreeTurnsState& state) noexcept {
   const std::size_t count = turns.count();
   for (std::size_t h = 0; h < count; ++h) {
     Mat3& fixed = state.fixed[h];
@@ -195,6 +237,10 @@ void find_turns(const FreeTurns& turns, const double* r, std::size_t size, const
           fixed(a, i) -= moment.q[a][0] * target[i] + moment.q[a][1] * target[4 + i] + moment.q[a][2] * target[8 + i];
       }
     }
+    if (turns.hold_count == 0) continue;
+    Mat3 held;
+    add_product(turns.hold_pull.data() + 4 * turns.hold_count * h, gap, turns.hold_count, held);
+    fixed += -held;
   }
   for (int round = 0; round < (count > 1 ? turn_rounds : 1); ++round) {
     for (std::size_t h = 0; h < count; ++h) {

@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "deform/handles.h"
+#include "deform/holds.h"
 #include "deform/rotation.h"
 #include "deform/subspace.h"
 
@@ -38,14 +39,16 @@ struct FreeTurns {
   Vector<Moment> moment;
   Buffer<double> response;  // U_h: per handle of the set size rows of four numbers, the fourth is padding
   Vector<Mat3> cross;       // C_hk: [h * count + k]
+  std::size_t hold_count = 0;
+  Buffer<double> hold_pull;  // J_h V_h T (holds.h): per handle of the set four numbers a pin, the fourth is padding
   // The share of each handle of given rotation in the start rotation of handle h: [h * handle_count + i]. All 0 if no
   // handle of given rotation meets h.
   Vector<double> follow;
 };
 
-// seed_field: as SmoothSystem has it. free_turn: per handle, 1 for free rotation.
+// seed_field: as SmoothSystem has it. free_turn: per handle, 1 for free rotation. holds: null, or the pins.
 FreeTurns make_free_turns(const Subspace& subspace, const Handles& handles, Span<const std::uint8_t> free_turn,
-                          const Vector<double>& seed_field, Memory& memory);
+                          const Vector<double>& seed_field, const Holds* holds, Memory& memory);
 
 // What the solve for the rotations reads and writes.
 struct FreeTurnsState {
@@ -71,9 +74,9 @@ struct FreeTurnsState {
 // solve.
 void begin_turns(const FreeTurns& turns, const Subspace& subspace, double* rows, FreeTurnsState& state) noexcept;
 // Finds the rotations for the right-hand side r (`size` unknowns, four numbers each) and the columns of the groups
-// (SmoothState::columns), and writes the transforms of the handles into rows.
-void find_turns(const FreeTurns& turns, const double* r, std::size_t size, const double* columns, double* rows,
-                FreeTurnsState& state) noexcept;
+// (SmoothState::columns), and writes the transforms of the handles into rows. gap: of the pins, four numbers each.
+void find_turns(const FreeTurns& turns, const double* r, std::size_t size, const double* columns, const double* gap,
+                double* rows, FreeTurnsState& state) noexcept;
 // Subtracts sum_h U_h R_h' from the solved X_f.
 void respond_to_turns(const FreeTurns& turns, const FreeTurnsState& state, double* solved, std::size_t size) noexcept;
 

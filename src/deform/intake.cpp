@@ -84,6 +84,23 @@ void check_handles(std::uint32_t count, const std::uint32_t* handles) {
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "%u handles; a pose has at most %d", count, HF_HANDLE_LIMIT);
 }
 
+Vector<std::int32_t> read_rigid_pieces(const Core& core, std::uint32_t count, const std::uint32_t* vertices,
+                                       Memory& memory) {
+  Vector<std::int32_t> inner(&memory);
+  if (count == 0) return inner;
+  require(vertices, "vertices");
+  check_vertex_count(core.mesh, count, "vertex_count");
+  append_usable(core.mesh, count, vertices, "vertices", inner);
+  return inner;
+}
+
+void check_following(double following) {
+  check_finite(following, "following");
+  if (following < 0 || following > 1)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "following is %g; it must be 0 (the limb alone) to 1 (all)",
+         following);
+}
+
 HandleTransform read_transform(const hf_transform& given) noexcept {
   HandleTransform out;
   const double* q = given.rotation;

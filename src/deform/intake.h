@@ -24,6 +24,12 @@ void add_handles(PoseStack& pose, const HandleInput& input, Span<std::uint32_t> 
 
 // Checks a list of handles. Throws HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER or HF_ERROR_TOO_LARGE.
 void check_handles(std::uint32_t count, const std::uint32_t* handles);
+// Returns the inner vertices of a list, which may be empty. Throws HF_ERROR_NULL_POINTER, HF_ERROR_TOO_LARGE,
+// HF_ERROR_OUT_OF_RANGE, HF_ERROR_INVALID_ARGUMENT.
+Vector<std::int32_t> read_rigid_pieces(const Core& core, std::uint32_t count, const std::uint32_t* vertices,
+                                       Memory& memory);
+// Throws HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT.
+void check_following(double following);
 HandleTransform read_transform(const hf_transform& given) noexcept;
 
 // The vertices as given that hf_pose_deform writes.

@@ -65,6 +65,7 @@ std::shared_ptr<Pose> Pose::clone() const {
   copy->posed_ = posed_;
   copy->refined_ = refined_;
   copy->report_ = report_;
+  copy->set_rigid(rigid_);
   return copy;
 }
 
@@ -179,6 +180,7 @@ bool Pose::restore_previous(const Handles& remaining) {
       return false;
   }
   auto state = make_shared_in<State>(memory(), *previous_state_, memory());
+  bool other_following = false;
   for (std::size_t i = 0; i < remaining.size(); ++i) {
     const HandleState& now = state_->handles[find(remaining[i].number)];
     HandleState& then = state->handles[i];
@@ -190,7 +192,11 @@ bool Pose::restore_previous(const Handles& remaining) {
     then.turn = now.turn;
     state->changed = state->changed || then.free_turn != now.free_turn;
     then.free_turn = now.free_turn;
+    other_following = other_following || then.following != now.following;
+    then.following = now.following;
   }
+  if (other_following) prepare_holds(*previous_layout_, *state);
+  state->changed = state->changed || other_following;
   prepare_turns(*previous_layout_, *state);
   std::shared_ptr<const Layout> layout = std::move(previous_layout_);
   previous_layout_.reset();
@@ -298,6 +304,7 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout, bool free_tu
   }
   if (state_) state->smooth.rotation.assign(state_->smooth.rotation.begin(), state_->smooth.rotation.end());
   state->smooth.fit(*layout.smooth, *layout.groups);
+  prepare_holds(layout, *state);
   prepare_turns(layout, *state);
   // In components with a single handle so far, rotations start from the handles' whole turns and fields.
   Vector<Vec3> turns(&memory());

@@ -17,6 +17,7 @@
 #include "deform/pose_scheme.h"
 #include "deform/pose_solver.h"
 #include "deform/refine.h"
+#include "deform/rigid_pieces.h"
 
 namespace hf_inner {
 
@@ -100,6 +101,11 @@ class Pose {
   void set_free_turns(Span<const std::uint32_t> numbers, bool free_turn, bool in_place = true);
   bool free_turn(std::uint32_t number) const;
 
+  // Sets how much of the surface follows handles: 1 all of it, 0 their limbs (holds.h). Throws HF_ERROR_EMPTY,
+  // _NO_SUCH_HANDLE (index: position), or HF_ERROR_UNSUPPORTED in the paper's mode.
+  void set_following(Span<const std::uint32_t> numbers, double following);
+  double following(std::uint32_t number) const;
+
   // Solves the pose and writes the surface. Throws HF_ERROR_EMPTY when the pose has no handle. The returned spans stay
   // valid until the next change of the pose.
   DeformReport deform(const DeformRequest& request);
@@ -114,6 +120,11 @@ class Pose {
   const ClusterWeights* weights() const noexcept;
   Span<const Affine> cluster_transforms() const noexcept;
   bool posed() const noexcept { return posed_; }  // transforms() holds a pose
+
+  // The pieces that every frame makes rigid; null: none.
+  void set_rigid(std::shared_ptr<const RigidPieces> rigid);
+  // Throws for regions that add_handles would refuse.
+  void check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const;
 
   // ---- for layers of handles (pose_stack.h), whose poses must depend only on the arguments of these calls ----
 
@@ -155,6 +166,7 @@ class Pose {
     Quaternion solved;    // rotation in the last solve
     Vec3 solved_turn;
     bool free_turn = false;  // rotation and turn are those of the last solve
+    double following = 1;    // below 1: the rest of the surface is held back (holds.h)
   };
   struct State {
     explicit State(Memory& memory) : handles(&memory), transforms(&memory), smooth(memory) {}
@@ -170,6 +182,7 @@ class Pose {
           idle_iterations(other.idle_iterations),
           crossfade(other.crossfade) {
       if (other.followed) followed = make_shared_in<Followed>(memory, *other.followed, memory);
+      if (other.without) without = other.without->clone();
     }
     Vector<HandleState> handles;  // like Layout::handles
     Vector<Affine> transforms;    // per cluster (handle or overlapping band of vertices)
@@ -182,19 +195,21 @@ class Pose {
     std::uint32_t idle_iterations = 0;           // iterations since the last change
     std::shared_ptr<const Crossfade> crossfade;  // null: the surface is that of the transforms
     std::shared_ptr<Followed> followed;          // null: full-mesh steps begin at the blended pose
+    std::shared_ptr<Pose> without;  // without the handles that are held back; null: nothing is, or rest is meant
   };
 
   Memory& memory() const noexcept { return *core_->memory; }
   std::int32_t find(std::uint32_t number) const noexcept;
   std::int32_t require(std::uint32_t number, std::uint32_t position) const;
   void check_free_turn(bool free_turn) const;
-  void check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const;
   std::shared_ptr<const Groups> meet(const Layout& layout) const;
   std::shared_ptr<const Layout> make_layout(const Handles& handles) const;
   // Returns a state for `layout` (handles and the clusters they make). Handles and clusters of the present state keep
   // their motions, so the surface does not jump.
   std::shared_ptr<State> carry_over(const Layout& layout, bool free_turn = false) const;
   void prepare_turns(const Layout& layout, State& state) const;
+  void prepare_holds(const Layout& layout, State& state) const;
+  bool pull_to_others(State& state, const DeformRequest& request) const;
   void start_turns(State& state) const noexcept;
   void take_turns(State& state) const noexcept;
   void follow_turns(State& state, Span<Vec3> turns, bool whole) const noexcept;
@@ -213,6 +228,7 @@ class Pose {
   void prepare(const DeformRequest& request);
   void write_surface(const DeformRequest& request, DeformReport& report);
   void ensure_surface() const;
+  void make_rigid() const noexcept;
 
   std::shared_ptr<const Core> core_;
   PoseOptions options_;
@@ -223,6 +239,8 @@ class Pose {
   std::shared_ptr<const Layout> previous_layout_;  // layout before the last handles were added
   std::shared_ptr<const State> previous_state_;
   mutable Buffer<Vec3> positions_;
+  std::shared_ptr<const RigidPieces> rigid_;
+  mutable Buffer<Vec3> rigid_scratch_;
   Buffer<Normal> normals_;
   Buffer<NormalSum> normal_sums_;
   Buffer<Vec3> turns_;                      // scratch for handle_limit handles

@@ -204,6 +204,7 @@ void Pose::ensure_surface() const {
         core_->mesh.scale, positions_.data(), nullptr, *core_->jobs);
   if (const double share = crossfade_share(); share > 0)
     add_crossfade(*state_->crossfade, share, positions_.data(), *core_->jobs);
+  make_rigid();
   stale_ = false;
 }
 
@@ -246,7 +247,7 @@ void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   const Timer blend_timer;
   const double share = crossfade_share();
   if (!(share > 0)) state_->crossfade.reset();  // it comes back to nothing
-  float* packed = request.refine > 0 || share > 0 ? nullptr : request.packed_positions;
+  float* packed = request.refine > 0 || share > 0 || rigid_ ? nullptr : request.packed_positions;
   blend(mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), mesh.centre, mesh.scale,
         positions_.data(), packed, *core_->jobs);
   report.packed_positions = packed != nullptr;
@@ -258,6 +259,7 @@ void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
     report.refine_ms = refine_timer.milliseconds();
   }
   if (share > 0) add_crossfade(*state_->crossfade, share, positions_.data(), *core_->jobs);
+  make_rigid();
   report.positions = {positions_.data(), positions_.size()};
   if (request.normals) {
     const Timer normal_timer;
@@ -283,8 +285,9 @@ DeformReport Pose::deform(const DeformRequest& request) {
   DeformReport report;
   const Timer solve_timer;
   if (state.changed) state.idle_iterations = 0;
+  const bool pulled = pull_to_others(state, request);
   const std::uint32_t idle_limit = options_.scheme ? options_.scheme->idle_limit : pose_idle_limit;
-  if (state.changed || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
+  if (state.changed || pulled || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
     const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
     place_handles(*layout_, state);
     if (layout_->smooth) {

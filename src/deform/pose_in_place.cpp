@@ -1,5 +1,6 @@
 // Handles that begin where the posed surface stands: the surface stays there at first (crossfade.h).
 #include "deform/pose_layout.h"
+#include "deform/pose_stack.h"
 
 namespace hf_inner {
 
@@ -37,6 +38,9 @@ void Pose::keep_in_place(const Layout& layout, State& state, bool fades_at_rest)
   for (const HandleState& handle : state.handles) turns.push_back(handle.turn);
   set_turn_limit(*layout.smooth, turns, state.smooth);
   start_turns(state);
+  DeformRequest others;
+  others.iteration_count = idle_limit_smooth;  // the pins stand still afterwards
+  pull_to_others(state, others);
   solve_pose(*layout.smooth, crossfade_iterations, settled_change, state.smooth, state.transforms.data());
   take_turns(state);
   state.started = true;
@@ -66,6 +70,23 @@ void Pose::keep_in_place(const Layout& layout, State& state, bool fades_at_rest)
     offset[2] = static_cast<float>(d.z);
   }
   state.crossfade = std::move(crossfade);
+}
+
+// ---- layers ----
+
+// Fits a rigid motion to a region: the rotation of the edges at its vertices, and the mean of its vertices.
+RigidMotion PoseStack::fit_region(const Entry& entry, Span<const std::int32_t> region,
+                                  const Vec3* surface) const noexcept {
+  Mat3 sum;
+  Vec3 mean;
+  for (const std::int32_t v : region) {
+    add_ring(*core_, base_->rest(), surface, v, sum);
+    mean = mean + surface[v];
+  }
+  RigidMotion motion;
+  motion.rotation = best_rotation(sum, Quaternion());
+  motion.translation = (1.0 / static_cast<double>(region.size())) * mean - rotate(motion.rotation, entry.centroid);
+  return motion;
 }
 
 }  // namespace hf_inner

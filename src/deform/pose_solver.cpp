@@ -341,16 +341,22 @@ SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, dou
   state.anderson.break_off();
   set_handle_rows(system, transforms, state);
   const FreeTurns* const turns = state.turns.get();
+  const Holds* const holds = state.holds.get();
   if (turns) begin_turns(*turns, s, state.rows.data(), state.free);
+  if (holds) begin_holds(*holds, static_cast<std::size_t>(system.handle_count), state.rows.data(), state.held);
   set_known(system, state);
   double* const solved = state.rows.data() + 16 * static_cast<std::size_t>(system.handle_count);
   const std::size_t size = 4 * static_cast<std::size_t>(system.free_count);
   while (report.iterations < iterations) {
     ++report.iterations;
     set_right_hand_side(system, state);
-    if (turns) find_turns(*turns, solved, size, state.columns.data(), state.rows.data(), state.free);
+    if (turns) {
+      if (holds) gap_before(*holds, solved, size, state.held);
+      find_turns(*turns, solved, size, state.columns.data(), state.held.pull.data(), state.rows.data(), state.free);
+    }
     s.factor.solve(solved);
     if (turns) respond_to_turns(*turns, state.free, solved, size);
+    if (holds) add_holds(*holds, state.rows.data(), solved, size, state.held);
     report.last_change = fit_rotations(system, state);
     if (report.last_change < tolerance) break;
   }

@@ -15,6 +15,7 @@
 #include "deform/anderson.h"
 #include "deform/blend.h"
 #include "deform/free_turns.h"
+#include "deform/holds.h"
 #include "deform/strain.h"
 #include "deform/subspace.h"
 
@@ -43,7 +44,8 @@ struct SmoothState {
         iterate(&memory),
         residual(&memory),
         anderson(memory),
-        free(memory) {}
+        free(memory),
+        held(memory) {}
   SmoothState(const SmoothState& other, Memory& memory)
       : rotation(other.rotation, &memory),
         anchor(other.anchor, &memory),
@@ -56,7 +58,9 @@ struct SmoothState {
         anderson(other.anderson, memory),
         turn_limit(other.turn_limit),
         turns(other.turns),
-        free(other.free, memory) {}
+        free(other.free, memory),
+        holds(other.holds),
+        held(other.held, memory) {}
   // Makes room for a system. Groups of vertices that existed before keep their rotations, and no group has a stress.
   void fit(const SmoothSystem& system, const Groups& groups);
   Vector<Quaternion> rotation;       // per group of vertices (groups.h)
@@ -70,6 +74,8 @@ struct SmoothState {
   double turn_limit = no_turn_limit;       // radians between a rotation and its anchor
   std::shared_ptr<const FreeTurns> turns;  // null: the rotations of all handles are given
   FreeTurnsState free;
+  std::shared_ptr<const Holds> holds;  // null: nothing is held back
+  HoldsState held;
 };
 
 struct SolveReport {

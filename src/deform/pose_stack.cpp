@@ -23,6 +23,8 @@ std::shared_ptr<PoseStack> PoseStack::clone() const {
   for (std::uint32_t k = 1; k < layer_limit; ++k) {
     if (layers_[k]) copy->layers_[k] = make_layer(layers_[k]->plain->clone());
   }
+  copy->rigid_scratch_.allocate(memory(), rigid_scratch_.size());
+  copy->rigid_ = rigid_;
   return copy;
 }
 
@@ -87,6 +89,13 @@ std::shared_ptr<PoseStack::Layer> PoseStack::make_layer(std::shared_ptr<Pose> pl
 
 void PoseStack::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t> vertices, std::uint32_t layer,
                             Span<std::uint32_t> out_numbers, const HandleKind& kind) {
+  Vector<std::uint32_t> whole_start(&memory());
+  Vector<std::int32_t> whole(&memory());
+  if (rigid_) {
+    take_whole_pieces(start, vertices, whole_start, whole);
+    start = whole_start;
+    vertices = whole;
+  }
   if (layer >= layer_limit)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "layer is %u; it must be 0 to %u", layer, layer_limit - 1);
   const std::size_t added = start.size() < 2 ? 0 : start.size() - 1, first = entries_.size();
@@ -211,21 +220,6 @@ HandleTransform PoseStack::placed(std::uint32_t number) const {
 
 // ---- the pose ----
 
-// Fits a rigid motion to a region: the rotation of the edges at its vertices, and the mean of its vertices.
-RigidMotion PoseStack::fit_region(const Entry& entry, Span<const std::int32_t> region,
-                                  const Vec3* surface) const noexcept {
-  Mat3 sum;
-  Vec3 mean;
-  for (const std::int32_t v : region) {
-    add_ring(*core_, base_->rest(), surface, v, sum);
-    mean = mean + surface[v];
-  }
-  RigidMotion motion;
-  motion.rotation = best_rotation(sum, Quaternion());
-  motion.translation = (1.0 / static_cast<double>(region.size())) * mean - rotate(motion.rotation, entry.centroid);
-  return motion;
-}
-
 bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_changed, const DeformRequest& request) {
   Layer& layer = *layers_[k];
   layer.plain_stale = layer.plain_stale || below_changed;
@@ -297,6 +291,7 @@ void PoseStack::combine(Layer& layer, Span<const Vec3> below) noexcept {
       layer.surface[v] = edited[v] + rotate(turn, below[v] - plain[v]);
     }
   });
+  if (rigid_) rigid_->make_rigid(layer.surface.data(), rigid_scratch_.data());
 }
 
 DeformReport PoseStack::deform(const DeformRequest& request) {

@@ -50,6 +50,15 @@ class PoseStack {
   void set_free_turns(Span<const std::uint32_t> numbers, bool free_turn);
   bool free_turn(std::uint32_t number) const { return entries_[require(number, HF_NO_INDEX)].free_turn; }
 
+  // Sets how much of the surface follows handles of layer 0. Throws HF_ERROR_UNSUPPORTED for others (index: position).
+  void set_following(Span<const std::uint32_t> numbers, double following);
+  double following(std::uint32_t number) const;
+
+  // The pieces of these inner vertices are rigid from now on, no others. A handle on one takes all of it. Throws
+  // HF_ERROR_CONFLICT where a handle has a part of one (index: position).
+  void set_rigid_pieces(Span<const std::int32_t> vertices);
+  bool has_rigid_pieces() const noexcept { return rigid_ != nullptr; }
+
   // Solves all layers that changed and writes the surface. request.surface = false only has an effect while there is
   // one layer.
   DeformReport deform(const DeformRequest& request);
@@ -96,6 +105,9 @@ class PoseStack {
   // Makes a pose with the handles of `entries` up to layer k, and writes their numbers in that pose into `entries`.
   std::shared_ptr<Pose> make_plain(Vector<Entry>& entries, std::uint32_t k) const;
   std::shared_ptr<Layer> make_layer(std::shared_ptr<Pose> plain) const;
+  void check_rigid(const RigidPieces& rigid, Span<const std::int32_t> vertices) const;
+  void take_whole_pieces(Span<const std::uint32_t> start, Span<const std::int32_t> vertices,
+                         Vector<std::uint32_t>& whole_start, Vector<std::int32_t>& whole) const;
   void mark_stale(std::uint32_t layer) noexcept;
   void take_base_turns();
   void take_turns(std::uint32_t k);
@@ -109,6 +121,8 @@ class PoseStack {
   std::shared_ptr<Pose> base_;
   Vector<Entry> entries_;
   std::array<std::shared_ptr<Layer>, layer_limit> layers_;  // [0] unused
+  std::shared_ptr<const RigidPieces> rigid_;  // null: none
+  Buffer<Vec3> rigid_scratch_;
   Buffer<Vec3> rest_;
   Buffer<Normal> normals_;
   Buffer<NormalSum> normal_sums_;

@@ -17,13 +17,16 @@ void Pose::set_free_turns(Span<const std::uint32_t> numbers, bool free_turn, boo
   for (std::uint32_t k = 0; k < numbers.size(); ++k) require(numbers[k], k);
   check_free_turn(free_turn);
   auto state = make_shared_in<State>(memory(), *state_, memory());
-  bool changed = false;
+  bool changed = false, carries = false;
   for (const std::uint32_t number : numbers) {
     HandleState& handle = state->handles[find(number)];
-    changed = changed || handle.free_turn != free_turn;
+    const bool other = handle.free_turn != free_turn;
+    changed = changed || other;
+    carries = carries || (other && handle.following == 1);
     handle.free_turn = free_turn;
   }
   if (!changed) return;
+  if (carries && state->without) prepare_holds(*layout_, *state);
   prepare_turns(*layout_, *state);
   // A rotation that is given as it stands changes nothing. Handles that moved since the last frame leave the surface.
   const bool stands = posed_ && !state->changed;
@@ -44,7 +47,8 @@ void Pose::prepare_turns(const Layout& layout, State& state) const {
   }
   if (!any) return;
   state.smooth.turns = make_shared_in<FreeTurns>(
-      memory(), make_free_turns(layout.smooth->subspace, layout.handles, free, layout.smooth->seed_field, memory()));
+      memory(), make_free_turns(layout.smooth->subspace, layout.handles, free, layout.smooth->seed_field,
+                                state.smooth.holds.get(), memory()));
   state.smooth.free.fit(state.smooth.turns->count());
 }
 

@@ -239,6 +239,8 @@ static hf_result pose_set_matrices(void* h) {
   return hf_pose_set_matrices(h, 1, scene.handles, unit);
 }
 static hf_result pose_set_free_rotations(void* h) { return hf_pose_set_free_rotations(h, 1, scene.handles, 1); }
+static hf_result pose_set_rigid_pieces(void* h) { return hf_pose_set_rigid_pieces(h, 0, NULL); }
+static hf_result pose_set_following(void* h) { return hf_pose_set_following(h, 1, scene.handles, 0.5); }
 static hf_result pose_get_skin(void* h) {
   hf_skin_info info = HF_INIT(hf_skin_info);
   return hf_pose_get_skin(h, &info);
@@ -424,6 +426,8 @@ static const struct {
     {"hf_pose_set_transforms", POSE, pose_set_transforms, NO_INDEX},
     {"hf_pose_set_matrices", POSE, pose_set_matrices, NO_INDEX},
     {"hf_pose_set_free_rotations", POSE, pose_set_free_rotations, NO_INDEX},
+    {"hf_pose_set_following", POSE, pose_set_following, NO_INDEX},
+    {"hf_pose_set_rigid_pieces", POSE, pose_set_rigid_pieces, NO_INDEX},
     {"hf_pose_get_skin", POSE, pose_get_skin, NO_INDEX},
     {"hf_pose_get_handle", POSE, pose_get_handle, NO_INDEX},
     {"hf_pose_get_field", POSE, pose_get_field, NO_INDEX},

@@ -337,6 +337,23 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   FREE("free_rotation -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, 2, numbers, -1);
   FREE("no such handle", HF_ERROR_NOT_FOUND, 1, numbers[1] = 9, 2, numbers, 1);
 
+#define FOLLOW(what, expected, index, change, count, list, share) \
+  ROW(what, expected, index, change, hf_pose_set_following(scene.pose, count, list, share))
+  FOLLOW("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, 0, numbers, 0.5);
+  FOLLOW("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, 2, NULL, 0.5);
+  FOLLOW("257 of them", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, 257, numbers, 0.5);
+  FOLLOW("following NaN", HF_ERROR_NON_FINITE, NO_INDEX, (void)0, 2, numbers, (double)NAN);
+  FOLLOW("following -0.1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, 2, numbers, -0.1);
+  FOLLOW("following 1.1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, 2, numbers, 1.1);
+  FOLLOW("no such handle", HF_ERROR_NOT_FOUND, 1, numbers[1] = 9, 2, numbers, 0.5);
+
+#define RIGID(what, expected, index, change, count, list) \
+  ROW(what, expected, index, change, hf_pose_set_rigid_pieces(scene.pose, count, list))
+  RIGID("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, 2, NULL);
+  RIGID("too many", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, UINT32_MAX, numbers);
+  RIGID("no such vertex", HF_ERROR_OUT_OF_RANGE, 1, numbers[1] = UINT32_MAX, 2, numbers);
+  RIGID("a handle has a part", HF_ERROR_CONFLICT, 0, (void)0, 1, numbers);
+
 #define POSE_SKIN(what, expected, change) ROW(what, expected, NO_INDEX, change, hf_pose_get_skin(scene.pose, &skin))
   POSE_SKIN("5 weights", HF_ERROR_INVALID_ARGUMENT, skin.influence_count = 5);
   POSE_SKIN("no room for the joints", HF_ERROR_TOO_SMALL, skin.pivots = doubles);

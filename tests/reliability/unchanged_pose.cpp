@@ -15,6 +15,7 @@ struct Handle {
   double point[3] = {0, 0, 0}, radius = 0;
   hf_transform transform = {{0, 0, 0, 1}, {0, 0, 0}};
   bool free_rotation = false;
+  double following = 1;
   std::vector<double> matrix;  // 16 numbers instead of the transform, or none
 };
 
@@ -198,6 +199,7 @@ hf_result fill(hf_pose fresh, const PoseBranch& b, bool batches) {
   for (std::size_t i = 0; i < numbers.size() && result == HF_OK; ++i) {
     const Handle& h = b.handles[i];
     if (h.free_rotation) result = hf_pose_set_free_rotations(fresh, 1, &numbers[i], 1);
+    if (result == HF_OK && h.following < 1) result = hf_pose_set_following(fresh, 1, &numbers[i], h.following);
     if (result != HF_OK) break;
     result = h.matrix.empty() ? hf_pose_set_transform(fresh, numbers[i], &h.transform)
                               : hf_pose_set_matrices(fresh, 1, &numbers[i], h.matrix.data());
@@ -364,6 +366,17 @@ struct PoseCalls {
     }
     return result;
   }
+  static hf_result follow(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    PoseBranch& b = s.any(random);
+    const std::uint32_t number = s.number(b, random);
+    const double wanted = random.pick({0.0, 0.2, 0.7, 1.0, 1.5});
+    const hf_result result = hf_pose_set_following(b.handle, 1, &number, wanted);
+    for (Handle& h : b.handles) {
+      if (result == HF_OK && h.number == number) h.following = wanted;
+    }
+    return result;
+  }
   static hf_result deform(Subject& subject, Random& random) {
     Poses& s = of(subject);
     PoseBranch& b = s.any(random);
@@ -429,6 +442,7 @@ const std::vector<Command>& Poses::commands() const {
       {"hf_pose_set_transforms", 5, PoseCalls::place},
       {"hf_pose_set_matrices", 1, PoseCalls::matrices},
       {"hf_pose_set_free_rotations", 4, PoseCalls::free},
+      {"hf_pose_set_following", 3, PoseCalls::follow},
       {"hf_pose_deform", 8, PoseCalls::deform},
       {"hf_pose_clone", 2, PoseCalls::clone},
       {"hf_pose_create", 1, PoseCalls::make},

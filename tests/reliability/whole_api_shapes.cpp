@@ -61,6 +61,10 @@ void Run::pose_and_transfer() {
     call(hf_pose_set_free_rotations(copy, 1, &handles[1], 1), "hf_pose_set_free_rotations",
          smooth ? HF_OK : HF_ERROR_UNSUPPORTED);
     call(hf_pose_deform(copy, &deform, nullptr), "hf_pose_deform, a free rotation");
+    call(hf_pose_set_rigid_pieces(copy, 0, nullptr), "hf_pose_set_rigid_pieces");
+    call(hf_pose_set_following(copy, 1, &handles[1], 0.3), "hf_pose_set_following",
+         smooth ? HF_OK : HF_ERROR_UNSUPPORTED);
+    call(hf_pose_deform(copy, &deform, nullptr), "hf_pose_deform, a limb that follows alone");
     hf_pose_destroy(pose);
     hf_pose_destroy(copy);
   }

@@ -1087,6 +1087,8 @@ namespace Hf
         public uint Layer;
         /// <summary>1: the solve finds the rotation</summary>
         public bool FreeRotation;
+        /// <summary>how much of the surface follows; see Pose.SetFollowing</summary>
+        public double Following;
 
         internal HandleInfo(hf_handle_info* raw)
         {
@@ -1099,6 +1101,7 @@ namespace Hf
             for (int i = 0; i < 3; ++i) Translation[i] = raw->translation[i];
             Layer = raw->layer;
             FreeRotation = raw->free_rotation != 0;
+            Following = raw->following;
         }
     }
 
@@ -4305,6 +4308,49 @@ namespace Hf
                 void* handles_ = c.Array(handles, "handles", "handle_count");
                 HfException.Check(Functions.hf_pose_set_free_rotations(RawHandle, (uint)c.Count("handle_count", 1),
                     handles_, freeRotation ? 1 : 0));
+            }
+        }
+
+        /// <summary>Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface
+        /// where it would be without these handles, so that a body does not lean after a hand. Handles of following
+        /// 1 carry the body: give less to a handle that is dragged. The handles themselves land exactly, and a limb
+        /// that is too short gets longer. The fields tell the limb: on it the field of the handle is near 1. The
+        /// next Pose.Deform shows a change at once. Full-mesh steps (refine) do not know the pins; with
+        /// refine_from_last they let the body lean again.
+        ///
+        /// handles: [handleCount].
+        /// following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone
+        ///     follows, an arm for example.
+        ///
+        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
+        public void SetFollowing(uint[] handles, double following = 0)
+        {
+            using (var c = new Call(this))
+            {
+                void* handles_ = c.Array(handles, "handles", "handle_count");
+                HfException.Check(Functions.hf_pose_set_following(RawHandle, (uint)c.Count("handle_count", 1), handles_,
+                    following));
+            }
+        }
+
+        /// <summary>Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame
+        /// gives each rigid piece the one motion that fits it best, also after refine. Where links join the piece
+        /// to others it is held most. A handle whose region touches a rigid piece takes all of it, so that the
+        /// piece moves with it; a second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this before
+        /// such handles are added. Pose.Skin writes the motions without this step.
+        ///
+        /// vertices: [vertexCount], one or more of each piece; vertex_count 0: no piece is rigid. The list replaces
+        ///     the one before.
+        ///
+        /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        public void SetRigidPieces(uint[] vertices)
+        {
+            using (var c = new Call(this))
+            {
+                c.Forget("vertex_count");  // of the list given here
+                void* vertices_ = c.Array(vertices, "vertices", "vertex_count");
+                HfException.Check(Functions.hf_pose_set_rigid_pieces(RawHandle, (uint)c.Count("vertex_count", 1),
+                    vertices_));
             }
         }
 

@@ -1071,6 +1071,19 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       call('hf_pose_set_free_rotations', this._handle, (c.n.handle_count ??= 1), handles_, freeRotation);
     }
 
+    setFollowing(handles, following = 0) {
+      const c = new Call(this);
+      const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
+      call('hf_pose_set_following', this._handle, (c.n.handle_count ??= 1), handles_, following);
+    }
+
+    setRigidPieces(vertices) {
+      const c = new Call(this);
+      delete c.n.vertex_count; // of the list given here
+      const vertices_ = c.array('vertices', vertices, 'u4', ['vertex_count']);
+      call('hf_pose_set_rigid_pieces', this._handle, (c.n.vertex_count ??= 1), vertices_);
+    }
+
     setMatrices(handles, matrices) {
       const c = new Call(this);
       const handles_ = c.array('handles', handles, 'u4', ['handle_count']);

@@ -529,6 +529,8 @@ export interface HandleInfo {
   layer: number;
   /** 1: the solve finds the rotation */
   freeRotation: number;
+  /** how much of the surface follows; see Pose.setFollowing */
+  following: number;
 }
 
 /** What a deform did. */
@@ -1832,6 +1834,34 @@ export interface Pose extends Recorded {
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND.
    */
   setFreeRotations(handles: Rows, freeRotation?: boolean | number): void;
+  /**
+   * Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where
+   * it would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the
+   * body: give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short
+   * gets longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a
+   * change at once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean
+   * again.
+   *
+   * handles: [handleCount].
+   * following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone
+   *     follows, an arm for example.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+   */
+  setFollowing(handles: Rows, following?: number): void;
+  /**
+   * Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives
+   * each rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it
+   * is held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a
+   * second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this before such handles are added.
+   * Pose.skin writes the motions without this step.
+   *
+   * vertices: [vertexCount], one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the
+   *     one before.
+   *
+   * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+   */
+  setRigidPieces(vertices: Rows): void;
   /**
    * Places handles by 4 x 4 matrices M.
    *

@@ -602,7 +602,7 @@ export const layouts = {
     rotation: ['f64', [0, 0], 4],
     translation: ['f64', [32, 32], 3],
   } },
-  hf_handle_info: { size: [112, 112], fields: {
+  hf_handle_info: { size: [120, 120], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     site_count: ['u32', [8, 8], 0],
@@ -613,6 +613,7 @@ export const layouts = {
     translation: ['f64', [80, 80], 3],
     layer: ['u32', [104, 104], 0],
     free_rotation: ['i32', [108, 108], 0],
+    following: ['f64', [112, 112], 0],
   } },
   hf_deform_info: { size: [24, 24], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -1165,6 +1166,8 @@ export const functions = {
   hf_pose_set_transforms: ['i32', ['handle', 'u32', 'ptr', 'ptr']],
   hf_pose_set_transform: ['i32', ['handle', 'u32', 'ptr']],
   hf_pose_set_free_rotations: ['i32', ['handle', 'u32', 'ptr', 'i32']],
+  hf_pose_set_following: ['i32', ['handle', 'u32', 'ptr', 'f64']],
+  hf_pose_set_rigid_pieces: ['i32', ['handle', 'u32', 'ptr']],
   hf_pose_set_matrices: ['i32', ['handle', 'u32', 'ptr', 'ptr']],
   hf_pose_get_handle: ['i32', ['handle', 'u32', 'ptr']],
   hf_pose_get_handle_count: ['u32', ['handle']],

@@ -2222,6 +2222,42 @@ class Pose(Recorded):
         call('hf_pose_set_free_rotations', self._handle, c.n.setdefault('handle_count', 1), handles_,
                 number(free_rotation, 'free_rotation', ctypes.c_int32))
 
+    def set_following(self, handles: ArrayLike, following: float = 0.0) -> None:
+        """Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where
+        it would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the
+        body: give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short
+        gets longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a
+        change at once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean
+        again.
+
+        handles: (handle_count,).
+        following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone
+            follows, an arm for example.
+
+        Raises InvalidArgumentError, NonFiniteError, NotFoundError, UnsupportedError.
+        """
+        c = Call(self)
+        handles_ = c.array('handles', handles, 'u4', ('handle_count',))
+        call('hf_pose_set_following', self._handle, c.n.setdefault('handle_count', 1), handles_, number(following,
+                'following', ctypes.c_double))
+
+    def set_rigid_pieces(self, vertices: ArrayLike) -> None:
+        """Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives
+        each rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it
+        is held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a
+        second handle on the same piece is refused (ConflictError). Call this before such handles are added. Pose.skin
+        writes the motions without this step.
+
+        vertices: (vertex_count,), one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the
+            one before.
+
+        Raises ConflictError, InvalidArgumentError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        c.n.pop('vertex_count', None)  # of the list given here
+        vertices_ = c.array('vertices', vertices, 'u4', ('vertex_count',))
+        call('hf_pose_set_rigid_pieces', self._handle, c.n.setdefault('vertex_count', 1), vertices_)
+
     def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
         """Places handles by 4 x 4 matrices M.
 

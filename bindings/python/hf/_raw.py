@@ -1159,6 +1159,7 @@ class hf_handle_info(Struct):
     translation: object
     layer: int
     free_rotation: int
+    following: float
     _fields_ = [
         ("struct_size", c_uint32),
         ("vertex_count", c_uint32),
@@ -1170,6 +1171,7 @@ class hf_handle_info(Struct):
         ("translation", c_double * 3),
         ("layer", c_uint32),
         ("free_rotation", c_int32),
+        ("following", c_double),
     ]
 
 
@@ -2271,6 +2273,8 @@ PROTOTYPES = {
     "hf_pose_set_transforms": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_pose_set_transform": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_set_free_rotations": (c_int32, [c_void_p, c_uint32, c_void_p, c_int32]),
+    "hf_pose_set_following": (c_int32, [c_void_p, c_uint32, c_void_p, c_double]),
+    "hf_pose_set_rigid_pieces": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_set_matrices": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_pose_get_handle": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_get_handle_count": (c_uint32, [c_void_p]),

@@ -3030,6 +3030,48 @@ impl Pose {
         Ok(())
     }
 
+    /// Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where it
+    /// would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the body:
+    /// give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short gets
+    /// longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a change at
+    /// once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean again.
+    ///
+    /// handles: `[handle_count]`.
+    /// following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone follows, an
+    /// arm for example.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`],
+    /// [`raw::HF_ERROR_UNSUPPORTED`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_following(&mut self, handles: &[u32], following: f64) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_set_following(self.handle, c.count("handle_count", 1)?, handles_, following) })?;
+        Ok(())
+    }
+
+    /// Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives
+    /// each rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it is
+    /// held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a second
+    /// handle on the same piece is refused ([`raw::HF_ERROR_CONFLICT`]). Call this before such handles are added.
+    /// `Pose::skin` writes the motions without this step.
+    ///
+    /// vertices: `[vertex_count]`, one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the
+    /// one before.
+    ///
+    /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`].
+    #[allow(unused_mut, unused_variables, clippy::all)]
+    pub fn set_rigid_pieces(&mut self, vertices: &[u32]) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        c.forget("vertex_count"); // of the list given here
+        let vertices_ = c.array(Some(vertices), "vertices", &["vertex_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_set_rigid_pieces(self.handle, c.count("vertex_count", 1)?, vertices_) })?;
+        Ok(())
+    }
+
     /// Places handles by 4 x 4 matrices M.
     ///
     /// handles: `[handle_count]`.

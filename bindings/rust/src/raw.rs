@@ -1425,6 +1425,7 @@ pub struct hf_handle_info {
     pub translation: [f64; 3],
     pub layer: u32,
     pub free_rotation: i32,
+    pub following: f64,
 }
 impl Default for hf_handle_info {
     fn default() -> Self {
@@ -1445,6 +1446,7 @@ impl hf_handle_info {
             "leak" => self.leak,
             "layer" => f64::from(self.layer),
             "free_rotation" => f64::from(self.free_rotation),
+            "following" => self.following,
             _ => return None,
         })
     }
@@ -2765,6 +2767,8 @@ extern "C" {
     pub fn hf_pose_set_transforms(pose: hf_pose, handle_count: u32, handles: *const u32, transforms: *const hf_transform) -> i32;
     pub fn hf_pose_set_transform(pose: hf_pose, handle: u32, transform: *const hf_transform) -> i32;
     pub fn hf_pose_set_free_rotations(pose: hf_pose, handle_count: u32, handles: *const u32, free_rotation: i32) -> i32;
+    pub fn hf_pose_set_following(pose: hf_pose, handle_count: u32, handles: *const u32, following: f64) -> i32;
+    pub fn hf_pose_set_rigid_pieces(pose: hf_pose, vertex_count: u32, vertices: *const u32) -> i32;
     pub fn hf_pose_set_matrices(pose: hf_pose, handle_count: u32, handles: *const u32, matrices: *const f64) -> i32;
     pub fn hf_pose_get_handle(pose: hf_pose, handle: u32, out_info: *mut hf_handle_info) -> i32;
     pub fn hf_pose_get_handle_count(pose: hf_pose) -> u32;

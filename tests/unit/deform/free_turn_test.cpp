@@ -77,8 +77,9 @@ const HandleTransform pulled{{}, {0.5, 0.35, 0.3}};
 // The reduced energy of a surface (subspace.h), edge by edge, with the best rotation of each group.
 class Energy {
  public:
-  explicit Energy(const Plant& plant, const std::vector<Region>& regions)
-      : core_(*plant.core), rest_(core_, *core_.memory) {
+  // following: of the last handle; the others stand at rest where it is below 1, so that its pins pull to rest.
+  explicit Energy(const Plant& plant, const std::vector<Region>& regions, double following = 1)
+      : core_(*plant.core), rest_(core_, *core_.memory), holds_(*core_.memory) {
     Handles handles(core_.memory.get());
     for (const Region& region : regions)
       handles.push_back({static_cast<std::uint32_t>(handles.size()), make_region(core_, region, 0, *core_.memory)});
@@ -98,6 +99,10 @@ class Energy {
     groups_ = Groups::with(nullptr, core_, rest_, Vector<std::int32_t>(1, 0, core_.memory.get()), default_groups,
                            *core_.memory);
     system_ = std::make_unique<SmoothSystem>(core_, rest_, weights, *groups_, fields, *core_.memory);
+    std::vector<double> follow(regions.size(), 1.0);
+    follow.back() = following;
+    if (following < 1)
+      holds_ = make_holds({core_.mesh, system_->subspace, weights, *groups_, fields, reach, follow}, *core_.memory);
   }
 
   // transforms: of the clusters. Those that the surface leaves free are held near the mean of the rotations.
@@ -128,6 +133,10 @@ class Energy {
           sum += subspace.stiffness[f] / 2 * std::pow(transforms[system_->handle_count + f].a[i][a] - held(i, a), 2);
       }
     }
+    for (std::size_t j = 0; j < holds_.count(); ++j) {
+      const Vec3 off = at(surface, holds_.vertex[j]) - core_.mesh.positions[holds_.vertex[j]];
+      sum += holds_.strength[j] / 2 * dot(off, off);
+    }
     return sum;
   }
 
@@ -148,6 +157,7 @@ class Energy {
   std::unique_ptr<SmoothSystem> system_;
   std::vector<double> close_;
   double gain_ = 0;
+  Holds holds_;
 };
 
 // A pattern search: along each axis to the lowest of three, then with half the step. Returns the least value and where.
@@ -182,20 +192,24 @@ TEST(FreeTurn, TheRotationsAreThoseOfLeastEnergy) {
     Region pulled_region;
     HandleTransform move;
     bool both;
+    double following = 1;
   };
   for (const Try& one :
        {Try{crown_region(), {{}, {0.3, -0.1, 0.2}}, false}, Try{arm_region(), {{}, {0.03, 0.03, 0.04}}, false},
-        Try{crown_region(), {{}, {0.3, 0, 0.2}}, true}}) {
+        Try{crown_region(), {{}, {0.3, 0, 0.2}}, true}, Try{crown_region(), {{}, {0.3, -0.1, 0.2}}, false, 0.4}}) {
     const std::vector<Region> regions{base_region(), one.pulled_region};
     Plant plant, given;
     plant.add(regions[0], {false, one.both});
     plant.add(regions[1], free_kind);
     plant.put(1, one.move);
+    constexpr std::uint32_t second = 1;
+    plant.pose->set_following({&second, 1}, one.following);
     const Surface found = plant.settle();
-    const Energy energy(plant, regions);
+    const Energy energy(plant, regions, one.following);
     Quaternion rotation[2];
     for (std::uint32_t h = 0; h < 2; ++h) rotation[h] = plant.pose->placed(h).rotation;
     for (const Region& region : regions) given.add(region);
+    given.pose->set_following({&second, 1}, one.following);
     const auto energy_at = [&](const std::vector<double>& turn) {
       for (std::uint32_t h = one.both ? 0 : 1; h < 2; ++h) {
         const double* t = turn.data() + turn.size() - 3 * (2 - h);

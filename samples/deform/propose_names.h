@@ -1,0 +1,31 @@
+// What the skeleton of a model says about proposed handles: the joint that moves most of a region names the handle, and
+// a hand, a head, a tail or what they hold is dragged, not pinned.
+#ifndef HF_SAMPLES_DEFORM_PROPOSE_NAMES_H
+#define HF_SAMPLES_DEFORM_PROPOSE_NAMES_H
+
+#include <string>
+
+#include "common/links.h"
+#include "deform/posable.h"
+#include "gltf/known_body.h"
+
+namespace samples {
+
+class RegionOwners {
+ public:
+  explicit RegionOwners(const PosableMesh& mesh);
+  // The node that moves most of the vertices within the radius, or -1.
+  int owner(const glm::dvec3& point, double radius) const;
+  std::string name(int node) const;
+  // Whether a node belongs to an arm, a head or a tail, or hangs on one, as a sword does.
+  bool hangs_free(int node) const;
+
+ private:
+  const PosableMesh& mesh_;
+  ModelLinks skin_;
+  KnownBody body_;
+};
+
+}  // namespace samples
+
+#endif

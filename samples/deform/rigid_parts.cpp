@@ -1,0 +1,65 @@
+#include "deform/rigid_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace samples {
+namespace {
+
+// A weight above it is all of a vertex; files round weights to 8 bits.
+constexpr float all = 0.995f;
+
+// The piece of every vertex by its first vertex. Vertices at one place are one, as in the library.
+std::vector<uint32_t> pieces_of(const FlatMesh& mesh) {
+  std::vector<uint32_t> root(mesh.positions.size());
+  for (uint32_t v = 0; v < root.size(); ++v) root[v] = v;
+  const auto find = [&](uint32_t v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  const auto join = [&](uint32_t a, uint32_t b) {
+    a = find(a);
+    b = find(b);
+    root[std::max(a, b)] = std::min(a, b);
+  };
+  std::map<std::array<double, 3>, uint32_t> at;
+  for (uint32_t v = 0; v < root.size(); ++v) {
+    const glm::dvec3& p = mesh.positions[v];
+    join(v, at.try_emplace({p.x, p.y, p.z}, v).first->second);
+  }
+  for (size_t c = 0; c + 2 < mesh.triangles.size(); c += 3) {
+    join(mesh.triangles[c], mesh.triangles[c + 1]);
+    join(mesh.triangles[c], mesh.triangles[c + 2]);
+  }
+  for (uint32_t v = 0; v < root.size(); ++v) root[v] = find(v);
+  return root;
+}
+
+}  // namespace
+
+std::vector<uint32_t> rigid_parts(const FlatMesh& mesh, const ModelLinks& skin) {
+  std::vector<uint32_t> part(mesh.positions.size(), HF_NO_INDEX);
+  if (skin.joints.empty()) return part;
+  const std::vector<uint32_t> piece = pieces_of(mesh);
+  const size_t width = skin.joints.size() / part.size();
+  constexpr int none = -1, several = -2;
+  std::vector<int> joint(part.size(), none);
+  std::vector<size_t> size(part.size(), 0);
+  uint32_t largest = 0;
+  for (uint32_t v = 0; v < part.size(); ++v) {
+    int own = several;
+    for (size_t k = v * width; k < (v + 1) * width; ++k) {
+      if (skin.weights[k] >= all) own = skin.joints[k];
+    }
+    int& of_piece = joint[piece[v]];
+    of_piece = of_piece == none || of_piece == own ? own : several;
+    if (++size[piece[v]] > size[largest]) largest = piece[v];
+  }
+  for (uint32_t v = 0; v < part.size(); ++v) {
+    if (joint[piece[v]] >= 0 && piece[v] != largest) part[v] = piece[v];
+  }
+  return part;
+}
+
+}  // namespace samples

@@ -1,0 +1,18 @@
+// Pieces of a model that its skin calls rigid: every vertex of the piece follows one joint.
+#ifndef HF_SAMPLES_DEFORM_RIGID_PARTS_H
+#define HF_SAMPLES_DEFORM_RIGID_PARTS_H
+
+#include <cstdint>
+#include <vector>
+
+#include "common/links.h"
+
+namespace samples {
+
+// Returns by vertex the first vertex of its rigid piece, or HF_NO_INDEX where the piece bends. The largest piece and
+// models without a skin have none.
+std::vector<uint32_t> rigid_parts(const FlatMesh& mesh, const ModelLinks& skin);
+
+}  // namespace samples
+
+#endif
