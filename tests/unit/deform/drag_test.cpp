@@ -76,7 +76,7 @@ TEST(Drag, OutAndBackLeadsBackToRest) {
     for (const Case& c : {cactus_bend(70, 4000), cylinder_bend(120, 8, 80), bar_twist(180, 10)}) {
       PoseOptions options;
       options.scheme = hf_test::scheme_of(static_cast<hf_test::DeformMode>(mode));
-      const std::uint32_t iterations = mode == 0 ? default_iterations_smooth : default_iterations_paper;
+      const std::uint32_t iterations = options.scheme ? options.scheme->default_iterations : default_pose_iterations;
       Dragged d = drag(c, options, 30, iterations);
       const std::vector<Vec3> held = positions(d.report);
       for (int i = 0; i < 20; ++i) d.report = d.pose->deform({false, iterations, false});
