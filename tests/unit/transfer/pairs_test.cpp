@@ -313,7 +313,8 @@ TEST(TransferPairs, KernelsOfTheSourceAreNormalisedAndLocal) {
              target_area = hf_inner::area_shares(a.bull.core->mesh, memory);
   for (const bool paper : {false, true}) {
     hf_inner::ClusterOptions options;
-    options.paper_bands = paper;
+    const auto scheme = hf_inner::paper_clusters();
+    if (paper) options.scheme = scheme.get();
     const hf_inner::Clusters clusters = hf_inner::make_clusters(
         options, static_cast<int32_t>(width), {source_field.data(), source_field.size()}, source_area, *a.horse.core,
         {target_field.data(), target_field.size()}, target_area, a.bull.core->mesh, memory, *a.world.jobs);
