@@ -12,6 +12,7 @@
 #include "gltf/key_reduce.h"
 #include "gltf/landmarks.h"
 #include "gltf/node_match.h"
+#include "gltf/pose_numbers.h"
 #include "transfer/clip_sheet.h"
 #include "transfer/faults.h"
 #include "transfer/outputs.h"

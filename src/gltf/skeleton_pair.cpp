@@ -4,178 +4,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 
-#include "base/error.h"
-#include "gltf/character_arrays.h"
 #include "gltf/clip_binding.h"
-#include "retarget/retarget.h"
-#include "skeleton/character.h"
+#include "gltf/skeleton_body.h"
 
 namespace hf_gltf {
 namespace {
 
-using hf_inner::Chain;
-using hf_inner::Character;
-using hf_inner::CharacterInput;
-using hf_inner::Role;
-using hf_inner::Side;
-
-// What the skeleton says is taken from here on. Below, it is a guess.
-constexpr double enough = 0.5;
-// A trunk that rises by this cosine stands upright: 53 degrees.
-constexpr double upright_trunk = 0.6;
 constexpr double degree = 3.14159265358979323846 / 180;
-
-glm::dvec3 vector_of(const hf_inner::Vec3& v) { return {v.x, v.y, v.z}; }
-
-// 10 numbers a node: translation, rotation x y z w, scale.
-void append_trs(const Pose& pose, std::vector<double>& out) {
-  for (const NodePose& node : pose) {
-    NodePose p = node;
-    if (node.fixed) {
-      Node whole;
-      whole.matrix = node.matrix;
-      split_matrix(whole);
-      p.translation = whole.translation;
-      p.rotation = glm::dquat(whole.rotation);
-      p.scale = glm::dvec3(whole.scale);
-    }
-    const glm::dvec3 &t = p.translation, &s = p.scale;
-    const glm::dquat& q = p.rotation;
-    for (const double number : {t.x, t.y, t.z, q.x, q.y, q.z, q.w, s.x, s.y, s.z}) out.push_back(number);
-  }
-}
-
-Pose pose_of(const Pose& rest, const std::vector<double>& trs) {
-  Pose out = rest;
-  for (size_t n = 0; n < out.size(); ++n) {
-    const double* p = &trs[10 * n];
-    out[n].fixed = false;
-    out[n].translation = {p[0], p[1], p[2]};
-    out[n].rotation = glm::dquat(p[6], p[3], p[4], p[5]);
-    out[n].scale = {p[7], p[8], p[9]};
-  }
-  return out;
-}
-
-glm::dvec3 place_of(const std::vector<glm::dmat4>& globals, int node) {
-  return glm::dvec3(globals[static_cast<size_t>(node)][3]);
-}
-
-// An arm or a leg as two bones: root, the joint nearest to half its length, and the end.
-struct Limb {
-  Role role = Role::other;
-  Side side = Side::middle;
-  std::uint32_t number = 0;
-  int nodes[3] = {-1, -1, -1};
-  std::vector<int> path;       // from root to end
-  std::vector<double> shares;  // of its length, from root to each
-};
-
-struct Body {
-  const JointSide side;
-  CharacterArrays arrays;
-  CharacterInput input;
-  std::optional<Character> character;
-  std::vector<Limb> limbs;
-  std::vector<double> rest;  // 10 numbers a node, or empty
-  size_t leg_pairs = 0;
-  bool upright = false;
-  std::string doubt;  // why it is not understood
-
-  Body(const JointSide& given, hf_inner::Memory& memory)
-      : side(given), arrays(given.model, given.mesh), input(arrays.input<CharacterInput>()) {
-    if (given.axes) {
-      input.up = &given.axes->up.x;
-      input.forward = &given.axes->forward.x;
-    }
-    if (given.rest) append_trs(*given.rest, rest);
-    try {
-      character.emplace(know_character(input, memory));
-    } catch (const hf_inner::Error& error) {
-      doubt = given.model.name + ": " + error.what();
-      return;
-    }
-    look();
-  }
-  hf_inner::RetargetSide retarget_side() const { return {input, *character, rest.empty() ? nullptr : rest.data()}; }
-  Pose rest_of() const { return side.rest ? *side.rest : rest_pose(side.model); }
-
-  void look() {
-    const Character& c = *character;
-    if (c.role_confidence < enough || c.up_confidence < enough || c.forward_confidence < enough)
-      doubt = "the skeleton of " + side.model.name + " is not understood";
-    size_t left = 0, right = 0;
-    const std::vector<glm::dmat4> globals = global_matrices(side.model, rest_of());
-    for (const Chain& chain : c.chains) {
-      if (chain.role != Role::arm && chain.role != Role::leg) continue;
-      if (chain.role == Role::leg) ++(chain.side == Side::left ? left : right);
-      limbs.push_back(limb_of(chain, globals));
-    }
-    leg_pairs = std::min(left, right);
-    upright = c.trunk > upright_trunk && leg_pairs <= 1;
-  }
-
-  Limb limb_of(const Chain& chain, const std::vector<glm::dmat4>& globals) const {
-    const Character& c = *character;
-    Limb out{chain.role, chain.side, chain.number, {-1, -1, -1}, {}, {}};
-    std::vector<int> path;
-    for (std::uint32_t k = 0; k < chain.count; ++k) path.push_back(static_cast<int>(c.chain_joints[chain.first + k]));
-    const auto index = static_cast<std::int32_t>(&chain - c.chains.data());
-    const Role end = chain.role == Role::arm ? Role::hand : Role::foot;
-    bool ended = false;
-    for (const Chain& next : c.chains) {
-      if (ended || next.parent != index || next.role != end) continue;
-      path.push_back(static_cast<int>(c.chain_joints[next.first]));
-      ended = true;
-    }
-    out.nodes[0] = path[0];
-    if (path.size() < 2) return out;
-    // A limb without a hand or foot, of two joints: where its second bone ends is not known.
-    if (!ended && path.size() == 2) {
-      out.nodes[1] = path[1];
-      return out;
-    }
-    std::vector<double> along(1, 0.0);
-    for (size_t k = 1; k < path.size(); ++k)
-      along.push_back(along.back() + glm::distance(place_of(globals, path[k]), place_of(globals, path[k - 1])));
-    size_t middle = 0;
-    for (size_t k = 1; k + 1 < path.size(); ++k)
-      if (middle == 0 || std::abs(along[k] - along.back() / 2) < std::abs(along[middle] - along.back() / 2)) middle = k;
-    if (middle > 0) out.nodes[1] = path[middle];
-    out.nodes[2] = path.back();
-    out.path = std::move(path);
-    for (const double length : along) out.shares.push_back(along.back() > 0 ? length / along.back() : 0);
-    return out;
-  }
-
-  // Left, up and forward as columns.
-  glm::dmat3 axes() const {
-    return {vector_of(character->left), vector_of(character->up), vector_of(character->forward)};
-  }
-  // From the middle of the legs' roots, or of the hips, to the middle of the arms' roots, or of the neck.
-  glm::dvec3 trunk(const std::vector<glm::dmat4>& globals) const {
-    glm::dvec3 low(0), high(0);
-    double lows = 0, highs = 0;
-    for (const Limb& limb : limbs) {
-      const glm::dvec3 place = place_of(globals, limb.nodes[0]);
-      if (limb.role == Role::leg && limb.number + 1 >= leg_pairs) {
-        low += place;
-        lows += 1;
-      }
-      if (limb.role == Role::arm || (limb.role == Role::leg && leg_pairs > 1 && limb.number == 0)) {
-        high += place;
-        highs += 1;
-      }
-    }
-    return lows > 0 && highs > 0 ? high / highs - low / lows : glm::dvec3(0);
-  }
-};
 
 // The joint of a limb that stands for the middle one of its partner. Limbs whose joints lie at about the same shares
 // are the same bones, though the joint nearest to the middle may be another in each.
-int middle_of(const Limb& limb, const Limb& partner) {
+int middle_of(const BodyLimb& limb, const BodyLimb& partner) {
   constexpr double same_share = 0.15;
   if (partner.nodes[1] < 0 || limb.path.empty() || limb.path.size() != partner.path.size()) return limb.nodes[1];
   for (size_t k = 0; k < limb.shares.size(); ++k)
@@ -202,7 +42,7 @@ glm::dquat turn_between(const glm::dvec3& a, const glm::dvec3& b) {
 
 struct SkeletonPair::Inside {
   mutable hf_inner::Memory memory;
-  Body source, target;
+  SkeletonBody source, target;
   std::string refusal;
   Inside(const JointSide& s, const JointSide& t) : source(s, memory), target(t, memory) {}
 
@@ -211,11 +51,11 @@ struct SkeletonPair::Inside {
   }
   size_t matched() const {
     size_t out = 0;
-    for (const Limb& b : target.limbs) out += partner(b) != nullptr;
+    for (const BodyLimb& b : target.limbs) out += partner(b) != nullptr;
     return out;
   }
-  const Limb* partner(const Limb& b) const {
-    for (const Limb& a : source.limbs)
+  const BodyLimb* partner(const BodyLimb& b) const {
+    for (const BodyLimb& a : source.limbs)
       if (a.role == b.role && a.side == b.side && a.number == b.number) return &a;
     return nullptr;
   }
@@ -223,7 +63,7 @@ struct SkeletonPair::Inside {
 
 SkeletonPair::SkeletonPair(const JointSide& source, const JointSide& target)
     : in_(std::make_unique<Inside>(source, target)) {
-  const Body &a = in_->source, &b = in_->target;
+  const SkeletonBody &a = in_->source, &b = in_->target;
   if (!in_->understood())
     in_->refusal = a.doubt.empty() ? b.doubt : a.doubt;
   else if (a.leg_pairs != b.leg_pairs)
@@ -240,7 +80,7 @@ bool SkeletonPair::two_legged() const { return in_->source.leg_pairs <= 1 && in_
 
 std::string SkeletonPair::limbs_text() const {
   size_t legs = 0, arms = 0;
-  for (const Limb& limb : in_->target.limbs)
+  for (const BodyLimb& limb : in_->target.limbs)
     if (in_->partner(limb)) ++(limb.role == Role::leg ? legs : arms);
   return std::to_string(legs) + " legs and " + std::to_string(arms) + " arms";
 }
@@ -256,12 +96,12 @@ int SkeletonPair::target_root() const {
 namespace {
 
 // The straight way of the body along the ground, taken out of the poses.
-glm::dvec3 take_travel(const Body& body, const std::vector<double>& times, std::vector<Pose>& poses) {
+glm::dvec3 take_travel(const SkeletonBody& body, const std::vector<double>& times, std::vector<Pose>& poses) {
   const auto middle = [&](const Pose& pose) {
     const std::vector<glm::dmat4> globals = global_matrices(body.side.model, pose);
     glm::dvec3 sum(0);
     double count = 0;
-    for (const Limb& limb : body.limbs) {
+    for (const BodyLimb& limb : body.limbs) {
       if (limb.role != body.limbs.front().role) continue;
       sum += place_of(globals, limb.nodes[0]);
       count += 1;
@@ -287,7 +127,7 @@ glm::dvec3 take_travel(const Body& body, const std::vector<double>& times, std::
 
 JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& times,
                              const JointOptions& options) const {
-  const Body &source = in_->source, &target = in_->target;
+  const SkeletonBody &source = in_->source, &target = in_->target;
   hf_inner::Memory& memory = in_->memory;
   JointClip out;
   out.times = times;
@@ -329,7 +169,7 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
   out.frame_ms = ms / static_cast<double>(std::max<size_t>(times.size(), 1));
   out.travel = out.scale * (target.axes() * (glm::transpose(source.axes()) * travel));
   for (size_t f = 1; f < out.source.size() && !out.moves; ++f) {
-    for (const Limb& limb : source.limbs) {
+    for (const BodyLimb& limb : source.limbs) {
       for (const int node : limb.nodes) {
         if (node < 0) continue;
         const auto n = static_cast<size_t>(node);
@@ -344,7 +184,7 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
 PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pose>& target) const {
   PoseFit out;
   if (!in_->source.character || !in_->target.character) return out;
-  const Body &a = in_->source, &b = in_->target;
+  const SkeletonBody &a = in_->source, &b = in_->target;
   out.source_limbs = a.limbs.size();
   out.target_limbs = b.limbs.size();
   const glm::dmat3 across = b.axes() * glm::transpose(a.axes());
@@ -361,8 +201,8 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
     int a[2], b[2];
   };
   std::vector<Bone> bones;
-  for (const Limb& limb : b.limbs) {
-    const Limb* by = in_->partner(limb);
+  for (const BodyLimb& limb : b.limbs) {
+    const BodyLimb* by = in_->partner(limb);
     if (!by) continue;
     out.limbs.push_back({std::string(side_word(limb.side)) + role_name(limb.role) +
                              (b.leg_pairs > 1 && limb.role == Role::leg ? " " + std::to_string(limb.number + 1) : ""),
@@ -408,61 +248,6 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
     out.worst = std::max(out.worst, out.limbs[k].worst);
   }
   if (out.compared > 0) out.degrees = sum / static_cast<double>(out.compared);
-  return out;
-}
-
-namespace {
-
-void add_key(Channel& channel, const glm::dvec3& v) {
-  for (int c = 0; c < 3; ++c) channel.values.push_back(static_cast<float>(v[c]));
-}
-
-// The same rotation with the sign that lies nearer to the key before.
-void add_key(Channel& channel, const glm::dquat& q) {
-  double cosine = 1;
-  if (const size_t at = channel.values.size(); at >= 4)
-    cosine = channel.values[at - 4] * q.x + channel.values[at - 3] * q.y + channel.values[at - 2] * q.z +
-             channel.values[at - 1] * q.w;
-  const double sign = cosine < 0 ? -1 : 1;
-  for (const double x : {q.x, q.y, q.z, q.w}) channel.values.push_back(static_cast<float>(sign * x));
-}
-
-}  // namespace
-
-Animation clip_of_poses(const Model& model, const std::string& name, const std::vector<double>& times,
-                        const std::vector<Pose>& poses) {
-  // Below this a float does not tell two numbers apart.
-  constexpr double equal = 1e-7;
-  Animation out;
-  out.name = name;
-  std::vector<double> rest_trs;
-  append_trs(rest_pose(model), rest_trs);
-  const Pose rest = pose_of(rest_pose(model), rest_trs);
-  for (size_t n = 0; n < model.nodes.size(); ++n) {
-    Channel move, turn, grow;
-    move.node = turn.node = grow.node = static_cast<int>(n);
-    turn.path = Path::rotation;
-    turn.width = 4;
-    grow.path = Path::scale;
-    bool moves = false, turns = false, grows = false;
-    for (const Pose& pose : poses) {
-      moves = moves || glm::distance(pose[n].translation, rest[n].translation) >
-                           equal * (1e-3 + glm::length(rest[n].translation));
-      turns = turns || std::abs(glm::dot(pose[n].rotation, rest[n].rotation)) < 1 - equal * equal ||
-              glm::length(glm::dvec4(pose[n].rotation.x, pose[n].rotation.y, pose[n].rotation.z, pose[n].rotation.w) -
-                          glm::dvec4(rest[n].rotation.x, rest[n].rotation.y, rest[n].rotation.z, rest[n].rotation.w)) >
-                  equal;
-      grows = grows || glm::distance(pose[n].scale, rest[n].scale) > 1e-6 * glm::length(rest[n].scale);
-      add_key(move, pose[n].translation);
-      add_key(turn, pose[n].rotation);
-      add_key(grow, pose[n].scale);
-    }
-    for (auto& [used, channel] : {std::pair<bool, Channel*>(moves, &move), {turns, &turn}, {grows, &grow}}) {
-      if (!used) continue;
-      channel->times.assign(times.begin(), times.end());
-      out.channels.push_back(std::move(*channel));
-    }
-  }
   return out;
 }
 

@@ -81,10 +81,6 @@ class SkeletonPair {
   std::unique_ptr<Inside> in_;
 };
 
-// The clip of the poses: channels for nodes that leave the pose of the file.
-Animation clip_of_poses(const Model& model, const std::string& name, const std::vector<double>& times,
-                        const std::vector<Pose>& poses);
-
 }  // namespace hf_gltf
 
 #endif

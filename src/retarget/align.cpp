@@ -25,6 +25,33 @@ Turn bend_turn(Vec3 line, Vec3 bend, Vec3 wanted, double length) noexcept {
   return turn_about(line, weight * arc_tangent(dot(line, cross(a, b)), dot(a, b)));
 }
 
+// Where the knee of a leg bends: to where its foot points, across the line from hip to ankle. 0: not known.
+Vec3 hinge_side(const Rig& rig, const Segments& chain, Vec3 line) noexcept {
+  Vec3 foot = rig.forward;
+  for (const RigLeg& leg : rig.legs) {
+    if (leg.segments.joints[0] == chain.joints[0] && leg.toe >= 0)
+      foot = rig.level(rig.rest.place[at(leg.toe)] - rig.rest.place[at(leg.foot)]);
+  }
+  const Vec3 side = across_line(unit_vector(foot), line);
+  return norm(side) > hinge_seen ? unit_vector(side) : Vec3{};
+}
+
+// A knee that stands aside of its hinge's plane is the build of a body, not its pose: thighs of stout bodies run
+// outward to legs that are apart. So the target keeps what is its own aside of the plane.
+Vec3 wanted_knee(const Retargeter& r, const ChainPair& pair, Turn turn, Vec3 whole) noexcept {
+  const Vec3 by = segment_place(r.source, pair.source, 1) - segment_place(r.source, pair.source, 0);
+  const Vec3 knee = r.across * by;
+  const Vec3 own = segment_place(r.target, pair.target, 1) - segment_place(r.target, pair.target, 0);
+  const Vec3 length = segment_place(r.target, pair.target, 2) - segment_place(r.target, pair.target, 0);
+  const Vec3 line = unit_vector(whole), own_line = unit_vector(length);
+  const Vec3 side = r.across * hinge_side(r.source, pair.source, inverse(r.across) * line);
+  const Vec3 own_side = turn * hinge_side(r.target, pair.target, own_line);
+  if (!(norm(side) > 0) || !(norm(own_side) > 0) || !(norm(length) > 0)) return knee;
+  const Vec3 aside = cross(line, side);
+  const double kept = dot(turn * own, cross(line, own_side)) * norm(whole) / norm(length);
+  return knee + (kept - dot(knee, aside)) * aside;
+}
+
 }  // namespace
 
 void align_chain(const Retargeter& r, ChainPair& pair, Aligning how, Turn before) {
@@ -37,15 +64,18 @@ void align_chain(const Retargeter& r, ChainPair& pair, Aligning how, Turn before
   const auto own = [&](std::size_t k) { return segment_place(r.target, pair.target, k); };
   const Vec3 whole = wanted(equal ? bones : ns) - wanted(0);
   Turn turn = shortest_turn(before * (own(equal ? bones : nt) - own(0)), whole) * before;
+  Vec3 first = wanted(1) - wanted(0);  // of the bones of the source
   if (equal && bones > 1 && norm(whole) > 0) {
+    if (pair.role == Role::leg && bones == 2) first = wanted_knee(r, pair, turn, whole);
     const Vec3 line = unit_vector(whole);
-    turn = bend_turn(line, turn * (own(1) - own(0)),
-                     (norm(own(bones) - own(0)) / norm(whole)) * (wanted(1) - wanted(0)), norm(own(bones) - own(0))) *
-           turn;
+    const double length = norm(own(bones) - own(0));
+    turn = bend_turn(line, turn * (own(1) - own(0)), (length / norm(whole)) * first, length) * turn;
   }
   for (std::size_t k = 0; k < pair.target.count(); ++k) {
-    if (how == Aligning::segments && equal && k < bones)
-      turn = shortest_turn(turn * (own(k + 1) - own(k)), wanted(k + 1) - wanted(k)) * turn;
+    if (how == Aligning::segments && equal && k < bones) {
+      const Vec3 bone = k == 0 ? first : k == 1 ? wanted(2) - wanted(0) - first : wanted(k + 1) - wanted(k);
+      turn = shortest_turn(turn * (own(k + 1) - own(k)), bone) * turn;
+    }
     pair.align[k] = turn;
   }
 }

@@ -10,6 +10,8 @@ constexpr double segment_bend = 0.94;
 // The plane in which a limb bends at rest counts in full above this share of its length, and not at all below the
 // other.
 constexpr double bend_seen = 0.1, bend_unseen = 0.04;
+// A leg that lies within this sine of the direction of its foot, as on a chair, does not say where its knee bends.
+constexpr double hinge_seen = 0.5;
 // A foot is planted if its lowest point is below the first, and is free above the second. Toes of a swinging foot pass
 // the ground at about the second.
 constexpr double standing_height = 0.03, free_height = 0.06;

@@ -38,7 +38,7 @@ double stands(const Retargeter& r, const FootPair& foot, double seconds) noexcep
 Vec3 turned_ankle(const Retargeter& r, const FootPair& foot) {
   if (foot.aligned) return foot.places.back();
   const RigLeg& by = r.source.legs[at(foot.source)];
-  const Vec3 v = r.from.place[at(by.segments.tip.joint)] - r.from.place[at(by.segments.joints[0])];
+  const Vec3 v = r.source.tip_place(by.segments.tip, r.from) - r.from.place[at(by.segments.joints[0])];
   const Turn body = r.to.turn[at(r.target.mover)] * inverse(r.target.rest.turn[at(r.target.mover)]);
   return foot.places[0] + r.height_scale * (r.across * v) + r.target.level(body * foot.stance);
 }
@@ -48,7 +48,7 @@ Vec3 turned_ankle(const Retargeter& r, const FootPair& foot) {
 double follows_down(const Retargeter& r, FootPair& foot) {
   const RigLeg& leg = r.target.legs[at(foot.target)];
   read_sole(leg, r.to, foot.target_now);
-  const double ankle = dot(turned_ankle(r, foot) - r.to.place[at(leg.foot)], r.target.up);
+  const double ankle = dot(turned_ankle(r, foot) - r.target.tip_place(leg.segments.tip, r.to), r.target.up);
   const double own = ankle + lowest(r.target, foot.target_now) - r.target.ground;
   const double lift = own - r.height_scale * r.source.leg_length * foot.height;
   return 1 - smooth_step(0, free_lift, lift / leg.length);
@@ -63,7 +63,7 @@ void read_foot(const Retargeter& r, FootPair& foot, double seconds) {
     foot.step = sole_step(r.source, foot.source_was, foot.source_now, sole_softness * r.source.leg_length);
   const std::size_t n = leg.segments.count();
   for (std::size_t k = 0; k < n; ++k) foot.places[k] = r.to.place[at(leg.segments.first(k))];
-  foot.places[n] = r.to.place[at(leg.foot)];
+  foot.places[n] = r.target.tip_place(leg.segments.tip, r.to);
   const double stand = stands(r, foot, seconds) * follows_down(r, foot);
   const bool at_once = !foot.known || !r.options.lock_feet;
   foot.standing += (stand - foot.standing) * (at_once ? 1 : 1 - exponential(-seconds / standing_time));
@@ -84,7 +84,7 @@ double highest_ankle(const Retargeter& r, const FootPair& foot, Vec3 turned) noe
 void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
   const Rig& rig = r.target;
   const RigLeg& leg = rig.legs[at(foot.target)];
-  const Vec3 now = r.to.place[at(leg.foot)];
+  const Vec3 now = r.target.tip_place(leg.segments.tip, r.to);
   read_sole(leg, r.to, foot.target_now);
   const double below = lowest(rig, foot.target_now) - dot(now, rig.up);  // of the sole from the ankle
   Vec3 goal = turned_ankle(r, foot);

@@ -49,7 +49,7 @@ void Retargeter::find_feet() {
     for (std::size_t s = 0; s < source.legs.size(); ++s) {
       const RigLeg& by = source.legs[s];
       if (by.side != leg.side || place-- > 0) continue;
-      if (leg.foot < 0 || leg.sole.empty() || by.sole.empty() || !wanted[at(leg.foot)] || leg.segments.count() < 2 ||
+      if (leg.sole.empty() || by.sole.empty() || !wanted[at(leg.segments.tip.joint)] || leg.segments.count() < 2 ||
           !(leg.length > 0) || !(by.length > 0))
         break;
       FootPair foot(memory);
@@ -66,7 +66,7 @@ void Retargeter::find_feet() {
       // A longer foot that tilts alike lifts its heel or digs in its toes by so much more.
       if (std::isfinite(rho) && rho > 1) foot.tilt = 1 / rho;
       for (Index j = 0; j < target.count; ++j) {
-        if (wanted[at(j)] && target.is_below(j, leg.foot)) foot.below.push_back(j);
+        if (leg.foot >= 0 && wanted[at(j)] && target.is_below(j, leg.foot)) foot.below.push_back(j);
       }
       foot.source_now.resize(by.sole.size());
       foot.source_was.resize(by.sole.size());

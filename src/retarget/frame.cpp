@@ -90,9 +90,18 @@ void Retargeter::find_root() {
   }
 }
 
+// What takes the line from root to tip of a limb of the source from where its first bone turned it to where it is.
+Turn Retargeter::line_turn(const Segments& limb) const {
+  const std::size_t root = at(limb.joints[0]);
+  const Vec3 was = source.tip_place(limb.tip, source.rest) - source.rest.place[root];
+  const Vec3 now = source.tip_place(limb.tip, from) - from.place[root];
+  return shortest_turn(from.turn[root] * (inverse(source.rest.turn[root]) * was), now);
+}
+
 void Retargeter::turn_joints() {
   for (const Follow& f : follows) {
-    const Turn a = across * (from.turn[at(f.a)] * f.post_a);
+    const Turn further = f.line < 0 ? Turn{} : line_turn(pairs[at(f.line)].source);
+    const Turn a = across * (further * (from.turn[at(f.a)] * f.post_a));
     to.turn[at(f.target)] =
         f.a == f.b ? unit_turn(a) : unit_turn(between(a, across * (from.turn[at(f.b)] * f.post_b), f.share));
   }

@@ -70,12 +70,24 @@ void follow_arcs(Matcher& m, const ChainPair& pair) {
   }
 }
 
+// A limb of one bone points where the hand or foot of the source is. The last bone of the source would kick it.
+bool follows_line(const ChainPair& pair) {
+  return (pair.role == Role::arm || pair.role == Role::leg) && pair.target.count() == 1 && pair.source.count() > 1 &&
+         pair.source.tip.joint >= 0;
+}
+
 }  // namespace
 
 void Matcher::add_pair(ChainPair pair, Aligning how, Turn before) {
   align_chain(r, pair, how, before);
   if (pair.source.count() == pair.target.count()) {
     for (std::size_t k = 0; k < pair.target.count(); ++k) follow_pieces(*this, pair, k);
+  } else if (follows_line(pair)) {
+    const std::size_t first = r.follows.size();
+    for (const Index joint : pair.target.joints)
+      follow(joint, pair.source.joints[0], pair.source.joints[0], 0, pair.align[0]);
+    for (std::size_t k = first; k < r.follows.size(); ++k) r.follows[k].line = static_cast<Index>(r.pairs.size());
+    for (const Index joint : pair.source.joints) used[at(joint)] = 1;
   } else {
     follow_arcs(*this, pair);
   }

@@ -4,11 +4,13 @@
 
 namespace hf_inner {
 
-// A joint of the target turns as one joint of the source, or between two: across x turn x post.
+// A joint of the target turns as one joint of the source, or between two: across x turn x post. A limb of one bone
+// turns further, to the line from root to tip of the source's limb.
 struct Follow {
   Index target = -1, a = -1, b = -1;
   double share = 0;
   Turn post_a, post_b;
+  Index line = -1;  // the chain pair of that limb
 };
 
 // Two chains whose bones are compared for the report, and how the bones of the target are turned at rest.
@@ -97,6 +99,7 @@ class Retargeter {
   void find_same(const RetargetSide& source, const RetargetSide& target);     // same.cpp
   void copy_same(const double* source, double* target);                       // same.cpp
   void turn_joints();                                                         // frame.cpp
+  Turn line_turn(const Segments& limb) const;                                 // frame.cpp
   void find_root();                                                           // frame.cpp
   void move_root();                                                           // frame.cpp
   void move_travel();                                                         // frame.cpp

@@ -100,20 +100,22 @@ void add_bare_sole(const Rig& rig, const Stance& rest, RigLeg& leg) {
 
 }  // namespace
 
-// The lowest points of what the foot owns, and of what the shin owns below the ankle.
+// The lowest points of what the foot owns, and of what the shin owns below the ankle. A shin without a foot stands on
+// its lower half.
 void find_soles(Rig& rig, const RetargetSide& side, Memory& memory) {
   const Stance& file_rest = rig.file_rest;
   for (RigLeg& leg : rig.legs) {
-    if (leg.foot < 0) continue;
-    const Vec3 ankle = file_rest.place[at(leg.foot)];
+    const Vec3 ankle = rig.tip_place(leg.segments.tip, file_rest);
     const Index shin = leg.segments.first(leg.segments.count() - 1);
+    const Vec3 top = leg.foot < 0 ? 0.5 * (file_rest.place[at(shin)] + ankle) : ankle;
     const auto takes = [&](Index j, Vec3 p) {
-      return rig.is_below(j, leg.foot) || (rig.is_below(j, shin) && dot(p - ankle, rig.up) < 0);
+      return (leg.foot >= 0 && rig.is_below(j, leg.foot)) || (rig.is_below(j, shin) && dot(p - top, rig.up) < 0);
     };
     leg.sole = outermost(side.input, file_rest, sole_directions, rig.up, true, takes, memory);
     if (leg.sole.size() < 3) add_bare_sole(rig, file_rest, leg);
     for (const SkinPoint& p : leg.sole)
-      leg.sole_length = std::max(leg.sole_length, norm(rig.level(p.at(rig.rest) - rig.rest.place[at(leg.foot)])));
+      leg.sole_length =
+          std::max(leg.sole_length, norm(rig.level(p.at(rig.rest) - rig.tip_place(leg.segments.tip, rig.rest))));
   }
 }
 

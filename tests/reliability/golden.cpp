@@ -1,5 +1,5 @@
-// Compares hashes of fields, poses, transfers, directions and quads with golden.txt, on 1 to 8 threads and on each kind
-// of processor. All systems, build types and compilers share the hashes. Usage: reliability_golden
+// Compares hashes of fields, poses, transfers, directions, quads and retargets with golden.txt, on 1 to 8 threads and
+// on each kind of processor. All systems, build types and compilers share the hashes. Usage: reliability_golden
 // [--full | --quick] (1 and 3 threads alone, for emulators) | --print (the lines of golden.txt)
 //
 // The program holds the static library, because it hides features of an x86 processor from the library's dispatch.
@@ -13,6 +13,7 @@
 #include <string>
 
 #include "base/elementary.h"
+#include "golden_retarget.h"
 #include "report.h"
 #include "support/arrays.h"
 #include "surfaces.h"
@@ -413,7 +414,7 @@ int main(int argc, char** argv) {
       if ((seen > 1 || quick) && !full && threads != 1 && threads != 3) continue;
       const std::string kind = std::string(" ") + processor.kind,
                         run = std::string(processor.name) + ", " + std::to_string(threads) + " threads";
-      Hash field, operators, analysis, poses, transfers, directions, quads, elementary;
+      Hash field, operators, analysis, poses, transfers, directions, quads, elementary, retargets;
       Stages stages(sheet, threads), small_stages(small, threads), smooth_stages(smooth, threads);
       stages.field(field);
       golden.compare("field" + kind, run, field.value);
@@ -431,6 +432,9 @@ int main(int argc, char** argv) {
       golden.compare("quads" + kind, run, quads.value);
       functions(elementary);
       golden.compare("functions" + kind, run, elementary.value);
+      const std::vector<float> retargeted = retargeted_poses();
+      retargets.take(retargeted.data(), retargeted.size());
+      golden.compare("retargets" + kind, run, retargets.value);
       Options options;
       options.threads = threads;
       options.paper_engine = false;
@@ -445,8 +449,8 @@ int main(int argc, char** argv) {
     return golden.different > 0;
   }
   if (golden.right.size() != listed) fprintf(stderr, "stages that golden.txt does not name\n");
-  report_at_least("GOLDEN_STAGES_LISTED", static_cast<double>(listed), 16);
-  report_at_least("GOLDEN_HASHES_COMPARED", golden.compared, 16 * seen + (quick ? 0 : 48));
+  report_at_least("GOLDEN_STAGES_LISTED", static_cast<double>(listed), 18);
+  report_at_least("GOLDEN_HASHES_COMPARED", golden.compared, 18 * seen + (quick ? 0 : 54));
   report_at_most("GOLDEN_HASHES_THAT_DIFFER", golden.different + golden.right.size() - listed, 0);
   report_at_most("GOLDEN_PROCESSORS_OF_A_KIND_THAT_DIFFER", library.different, 0);
   report_at_most("GOLDEN_UNEXPECTED_ANSWERS", unexpected, 0);

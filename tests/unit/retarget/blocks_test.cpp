@@ -119,6 +119,70 @@ TEST(Blocks, LegsWithoutFeetMeetByTheirVertices) {
   }
 }
 
+// Turns a joint of a pose in the space of the model, from where it is.
+void turn_joint(const Blocks& body, const std::string& name, Turn turn, std::vector<double>& pose) {
+  const auto j = static_cast<std::size_t>(body.rig.find(name));
+  const auto world = world_of(body.placed->parents, pose.data());
+  const auto turn_at = [&](std::size_t k) {
+    const double* p = &world[12 * k];
+    return hf_inner::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
+  };
+  const Turn q = inverse(turn_at(static_cast<std::size_t>(body.placed->parents[j]))) * (turn * turn_at(j));
+  const double numbers[] = {q.x, q.y, q.z, q.w};
+  std::copy(numbers, numbers + 4, &pose[10 * j + 3]);
+}
+
+// A shin that is lifted behind does not kick a leg of one bone up: the leg points where the shin ends.
+TEST(Blocks, ALegOfOneBonePointsToTheEndOfTheLegItFollows) {
+  const Blocks source(0, 0.1, 1e-9), target(0);
+  Memory memory;
+  hf_inner::RetargetOptions options;
+  options.goals = false;
+  Retarget retarget(source.side(), target.side(), options, memory);
+  std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
+  turn_joint(source, "leg.l", hf_inner::turn_about({1, 0, 0}, -40 * degree), pose);
+  turn_joint(source, "shin.l", hf_inner::turn_about({1, 0, 0}, 100 * degree), pose);
+  retarget.frame(pose.data(), 0, out.data());
+  const auto world = world_of(source.placed->parents, pose.data());
+  const double* leg = &world[12 * static_cast<std::size_t>(source.rig.find("leg.l")) + 9];
+  const double* shin = &world[12 * static_cast<std::size_t>(source.rig.find("shin.l")) + 9];
+  const Vec3 thigh{shin[0] - leg[0], shin[1] - leg[1], shin[2] - leg[2]};
+  const Vec3 wanted = thigh + 2.0 * source.bone("shin.l", pose), is = target.bone("leg.l", out);
+  EXPECT_LT(std::atan2(norm(cross(is, wanted)), dot(is, wanted)) / degree, 1);
+}
+
+// A shin without a foot stands: its end stays where it is while the body passes over it, at any scale of the travel.
+TEST(Blocks, ALegWithoutAFootStaysWhereItStands) {
+  const Blocks body(0, 0.02, 1e-9);
+  Memory memory;
+  hf_inner::RetargetOptions options;
+  options.scale = 0.5;
+  const auto slide = [&](bool goals) {
+    options.goals = goals;
+    Retarget retarget(body.side(), body.side(), options, memory);
+    std::vector<double> out(10 * body.placed->parents.size());
+    double least = 1e300, most = -1e300;
+    for (int f = 0; f <= 8; ++f) {
+      std::vector<double> pose = rest_trs(body.input);
+      const double angle = (f - 4) * 5 * degree;
+      turn_joint(body, "leg.l", hf_inner::turn_about({1, 0, 0}, angle), pose);
+      pose[1] += 0.4 * (std::cos(angle) - 1);
+      pose[2] += 0.4 * std::sin(angle);
+      retarget.frame(pose.data(), f == 0 ? 0 : 0.1, out.data());
+      const std::vector<Vec3> points = body.posed(out);
+      double end = 0;
+      for (std::size_t v = 0; v < points.size(); ++v) {
+        if (body.rig.owners[v] == body.rig.find("shin.l") && body.rig.points[v].y < 0.1) end += points[v].z / 4;
+      }
+      least = std::min(least, end);
+      most = std::max(most, end);
+    }
+    return most - least;
+  };
+  EXPECT_GT(slide(false), 0.1);
+  EXPECT_LT(slide(true), 0.1);  // its offset stays below a share of the leg
+}
+
 TEST(Blocks, LegsOfOneBoneLiftTheBodyOverTheGround) {
   const Blocks source(0), target(70, 0.4);
   Memory memory;

@@ -68,6 +68,51 @@ TEST(Identity, RestInIsAlignedRestOut) {
   EXPECT_LT(worst_place(out, truth), 1e-6 * target.height());
 }
 
+// The thighs of a stout body run outward to shins that are upright. That is its build: the knee of a slim body does not
+// turn outward, and legs that are apart are apart.
+TEST(Identity, AKneeAsideOfItsFootIsABuildAndNoPose) {
+  for (const char* convention : {"mixamo", "none"}) {  // with names and without
+    const RigActor slim(convention, {}), plain(convention, {0.5}), stout(convention, {0.5, 1, 1, 3, Rest::t, 0.15});
+    const auto left_leg = [](const RigActor& actor) {
+      std::vector<std::size_t> out;
+      for (std::size_t j = 0; j < actor.rig().joints.size(); ++j) {
+        const RigJoint& joint = actor.rig().joints[j];
+        if (joint.side == Side::left && !joint.helper && (joint.role == Role::leg || joint.role == Role::foot))
+          out.push_back(j);
+      }
+      return out;
+    };
+    struct Leg {
+      double bend, aside;  // degrees; of the knee from the line, in lengths of the leg
+      Vec3 line;
+    };
+    const auto leg_of = [&](const RigActor& actor, const std::vector<double>& pose) {
+      const auto world = world_of(actor.parents(), pose.data());
+      const auto joints = left_leg(actor);
+      const Vec3 thigh = place_of(world, joints[1]) - place_of(world, joints[0]);
+      const Vec3 shin = place_of(world, joints[2]) - place_of(world, joints[1]), line = thigh + shin;
+      const Vec3 out = thigh - (dot(thigh, line) / dot(line, line)) * line;
+      return Leg{std::atan2(norm(cross(thigh, shin)), dot(thigh, shin)) * 180 / 3.14159265358979, out.x / norm(line),
+                 (1 / norm(line)) * line};
+    };
+    const auto follow = [&](const RigActor& source, const RigActor& target) {
+      Memory memory;
+      RetargetOptions options;
+      options.goals = false;
+      Retarget retarget(source.side(), target.side(), options, memory);
+      return leg_of(target, run(retarget, rest_trs(source.side().input), target.parents().size()));
+    };
+    ASSERT_EQ(left_leg(slim).size(), 3u);
+    const Leg by = leg_of(stout, rest_trs(stout.side().input)), led = follow(stout, slim),
+              plainly = follow(plain, slim);
+    EXPECT_GT(by.aside, 0.1);
+    EXPECT_NEAR(led.aside, plainly.aside, 0.01) << convention;
+    EXPECT_NEAR(led.bend, plainly.bend, 2) << convention;
+    EXPECT_GT(dot(led.line, by.line), 0.998) << convention;  // 3.6 degrees
+    EXPECT_NEAR(follow(slim, stout).aside, by.aside, 0.02) << convention;
+  }
+}
+
 // A pose that both name as rest takes the place of what their files rest in.
 TEST(Identity, AnyPoseCanBeNamedAsRest) {
   const RigActor source("mixamo", {}), target("unreal", {1, 1, 1, 3, Rest::a});

@@ -109,8 +109,8 @@ struct Builder {
   }
 
   void leg(Side side) {
-    const double s = side == Side::left ? 1 : -1, l = shape.leg, x = s * 0.1;
-    const Vec3 hip{x, 0.95 * l, 0}, knee{x, 0.5 * l, 0.02}, ankle{x, 0.08, -0.02}, ball{x, 0.03, 0.11};
+    const double s = side == Side::left ? 1 : -1, l = shape.leg, x = s * (0.1 + shape.aside);
+    const Vec3 hip{s * 0.1, 0.95 * l, 0}, knee{x, 0.5 * l, 0.02}, ankle{x, 0.08, -0.02}, ball{x, 0.03, 0.11};
     const int thigh = bone("thigh", side, hips, hip, knee, Role::leg, 0.065);
     twist("twist3", side, thigh, hip, knee, 0.4, Role::leg, 0.065);
     const int shin = bone("shin", side, thigh, knee, ankle, Role::leg, 0.05);

@@ -71,6 +71,7 @@ struct BodyShape {
   double leg = 1, arm = 1, head = 1;
   int spine = 3;
   Rest rest = Rest::t;
+  double aside = 0;  // knees and feet stand this much further out than the hips
 };
 
 extern const std::vector<std::string> biped_conventions;

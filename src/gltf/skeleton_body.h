@@ -1,0 +1,65 @@
+// One of the two characters of a SkeletonPair: what its skeleton says, and its arms and legs as bones.
+#ifndef HF_GLTF_SKELETON_BODY_H
+#define HF_GLTF_SKELETON_BODY_H
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gltf/character_arrays.h"
+#include "gltf/pose_numbers.h"
+#include "gltf/skeleton_pair.h"
+#include "retarget/retarget.h"
+#include "skeleton/character.h"
+
+namespace hf_gltf {
+
+using hf_inner::Chain;
+using hf_inner::Character;
+using hf_inner::CharacterInput;
+using hf_inner::Role;
+using hf_inner::Side;
+
+inline glm::dvec3 vector_of(const hf_inner::Vec3& v) { return {v.x, v.y, v.z}; }
+inline glm::dvec3 place_of(const std::vector<glm::dmat4>& globals, int node) {
+  return glm::dvec3(globals[static_cast<size_t>(node)][3]);
+}
+
+// An arm or a leg as two bones: root, the joint nearest to half its length, and the end.
+struct BodyLimb {
+  Role role = Role::other;
+  Side side = Side::middle;
+  std::uint32_t number = 0;
+  int nodes[3] = {-1, -1, -1};
+  std::vector<int> path;       // from root to end
+  std::vector<double> shares;  // of its length, from root to each
+};
+
+struct SkeletonBody {
+  const JointSide side;
+  CharacterArrays arrays;
+  CharacterInput input;
+  std::optional<Character> character;
+  std::vector<BodyLimb> limbs;
+  std::vector<double> rest;  // 10 numbers a node, or empty
+  size_t leg_pairs = 0;
+  bool upright = false;
+  std::string doubt;  // why it is not understood
+
+  SkeletonBody(const JointSide& given, hf_inner::Memory& memory);
+  hf_inner::RetargetSide retarget_side() const { return {input, *character, rest.empty() ? nullptr : rest.data()}; }
+  Pose rest_of() const { return side.rest ? *side.rest : rest_pose(side.model); }
+
+  void look();
+  BodyLimb limb_of(const Chain& chain, const std::vector<glm::dmat4>& globals) const;
+  // Left, up and forward as columns.
+  glm::dmat3 axes() const {
+    return {vector_of(character->left), vector_of(character->up), vector_of(character->forward)};
+  }
+  // From the middle of the legs' roots, or of the hips, to the middle of the arms' roots, or of the neck.
+  glm::dvec3 trunk(const std::vector<glm::dmat4>& globals) const;
+};
+
+}  // namespace hf_gltf
+
+#endif
