@@ -39,7 +39,7 @@ void Pose::keep_in_place(const Layout& layout, State& state, bool fades_at_rest)
   set_turn_limit(*layout.smooth, turns, state.smooth);
   start_turns(state);
   DeformRequest others;
-  others.iteration_count = idle_limit_smooth;  // the pins stand still afterwards
+  others.iteration_count = pose_idle_limit;  // the pins stand still afterwards
   pull_to_others(state, others);
   solve_pose(*layout.smooth, crossfade_iterations, settled_change, state.smooth, state.transforms.data());
   take_turns(state);
