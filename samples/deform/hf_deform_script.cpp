@@ -36,7 +36,7 @@ const char* usage =
     "  --mode MODE        smooth, or paper in builds with HF_WITH_PEERS; instead of the script's\n"
     "  --given-rotations  a drag without a turn keeps the rotation of its handle; otherwise the rotation is free\n"
     "  --following S      how much follows what is dragged: 0 its limb alone, 1 all of the surface (default 1)\n"
-    "  --rigid            pieces whose vertices follow one joint stay rigid, a sword for example\n"
+    "  --rigid            pieces alone on a joint of the skin stay rigid, a sword for example\n"
     "  --no-links         pieces of the surface stay apart; otherwise links join them\n"
     "  --refine           one full-mesh step on every frame\n"
     "  --lengths          keeps lengths: the full-mesh steps go on from frame to frame\n"

@@ -70,7 +70,8 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
 }
 
 void Posable::keep_rigid(const FlatMesh& mesh, const Model* model) {
-  rigid_ = rigid_parts(mesh, ModelLinks(model, mesh));
+  if (!model) return;
+  rigid_ = rigid_parts(mesh, *model, ModelLinks(model, mesh));
   const std::set<uint32_t> used(mesh.triangles.begin(), mesh.triangles.end());
   std::map<uint32_t, uint32_t> vertex_of;
   for (const uint32_t v : used) {

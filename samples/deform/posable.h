@@ -43,7 +43,7 @@ class Posable {
     bool paper = false, links = true;
     bool given_rotations = false;  // a drag without a turn keeps the rotation of its handle
     double following = 1;          // of dragged handles: how much of the surface follows
-    bool rigid = false;            // pieces whose vertices follow one joint stay rigid
+    bool rigid = false;            // pieces that are alone on a joint stay rigid
     uint32_t bands = 0, threads = 1;
     const Model* model = nullptr;  // its skin helps to link pieces; may be NULL
     const Posable* on = nullptr;   // of the same mesh: its surface is used again, and it outlives this object

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
+
+#include "gltf/model.h"
 
 namespace samples {
 namespace {
@@ -38,7 +41,7 @@ std::vector<uint32_t> pieces_of(const FlatMesh& mesh) {
 
 }  // namespace
 
-std::vector<uint32_t> rigid_parts(const FlatMesh& mesh, const ModelLinks& skin) {
+std::vector<uint32_t> rigid_parts(const FlatMesh& mesh, const Model& model, const ModelLinks& skin) {
   std::vector<uint32_t> part(mesh.positions.size(), HF_NO_INDEX);
   if (skin.joints.empty()) return part;
   const std::vector<uint32_t> piece = pieces_of(mesh);
@@ -56,8 +59,18 @@ std::vector<uint32_t> rigid_parts(const FlatMesh& mesh, const ModelLinks& skin) 
     of_piece = of_piece == none || of_piece == own ? own : several;
     if (++size[piece[v]] > size[largest]) largest = piece[v];
   }
+  // by joint: the pieces that it or a joint below it moves
+  std::vector<std::set<uint32_t>> moved(model.nodes.size());
   for (uint32_t v = 0; v < part.size(); ++v) {
-    if (joint[piece[v]] >= 0 && piece[v] != largest) part[v] = piece[v];
+    for (size_t k = v * width; k < (v + 1) * width; ++k) {
+      if (skin.weights[k] <= 0) continue;
+      for (int node = skin.joints[k]; node >= 0 && moved[static_cast<size_t>(node)].insert(piece[v]).second;)
+        node = model.nodes[static_cast<size_t>(node)].parent;
+    }
+  }
+  for (uint32_t v = 0; v < part.size(); ++v) {
+    const int own = joint[piece[v]];
+    if (own >= 0 && piece[v] != largest && moved[static_cast<size_t>(own)].size() == 1) part[v] = piece[v];
   }
   return part;
 }

@@ -1,4 +1,5 @@
-// Pieces of a model that its skin calls rigid: every vertex of the piece follows one joint.
+// Pieces of a model that its skin calls rigid: every vertex of the piece follows one joint, which moves nothing else,
+// as that of a sword. Armour shares its joint with a body and goes along with it.
 #ifndef HF_SAMPLES_DEFORM_RIGID_PARTS_H
 #define HF_SAMPLES_DEFORM_RIGID_PARTS_H
 
@@ -11,7 +12,7 @@ namespace samples {
 
 // Returns by vertex the first vertex of its rigid piece, or HF_NO_INDEX where the piece bends. The largest piece and
 // models without a skin have none.
-std::vector<uint32_t> rigid_parts(const FlatMesh& mesh, const ModelLinks& skin);
+std::vector<uint32_t> rigid_parts(const FlatMesh& mesh, const Model& model, const ModelLinks& skin);
 
 }  // namespace samples
 

@@ -121,7 +121,7 @@ class PoseStack {
   std::shared_ptr<Pose> base_;
   Vector<Entry> entries_;
   std::array<std::shared_ptr<Layer>, layer_limit> layers_;  // [0] unused
-  std::shared_ptr<const RigidPieces> rigid_;  // null: none
+  std::shared_ptr<const RigidPieces> rigid_;                // null: none
   Buffer<Vec3> rigid_scratch_;
   Buffer<Vec3> rest_;
   Buffer<Normal> normals_;

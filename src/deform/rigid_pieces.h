@@ -1,10 +1,10 @@
-// Pieces of a mesh that move rigidly, a sword for example: after the surface is posed, every piece gets the rigid motion
-// that fits it best.
+// Pieces of a mesh that move rigidly, a sword for example: after the surface is posed, every piece gets the rigid
+// motion that fits it best.
 //
 // The fit minimises sum_v w_v |R p_v + t - x_v|^2 (rotation.h) over the vertices of a piece. x is the posed surface.
 // Vertices where links join the piece to others count most, so that it stays where it is held. A piece is whole: it has
-// no edge to other vertices, so the step needs no blending. Cost: a few passes over the vertices of the pieces. Allocates
-// nothing after it is made.
+// no edge to other vertices, so the step needs no blending. Cost: a few passes over the vertices of the pieces.
+// Allocates nothing after it is made.
 #pragma once
 #include <cstdint>
 
@@ -28,10 +28,10 @@ class RigidPieces {
   void make_rigid(Vec3* positions, Vec3* scratch) const noexcept;
 
  private:
-  Vector<std::int32_t> piece_;          // by vertex, -1 outside
-  Vector<std::int32_t> start_, vertex_; // vertices of piece k: vertex_[start_[k] .. start_[k + 1])
-  Vector<Vec3> rest_;                   // like vertex_, in the unit and frame of the mesh as given
-  Vector<double> weight_;               // like vertex_
+  Vector<std::int32_t> piece_;           // by vertex, -1 outside
+  Vector<std::int32_t> start_, vertex_;  // vertices of piece k: vertex_[start_[k] .. start_[k + 1])
+  Vector<Vec3> rest_;                    // like vertex_, in the unit and frame of the mesh as given
+  Vector<double> weight_;                // like vertex_
   std::size_t largest_ = 0;
 };
 
