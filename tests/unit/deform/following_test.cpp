@@ -286,7 +286,7 @@ struct System {
       handles.push_back(
           {static_cast<std::uint32_t>(handles.size()), make_region(core, body.region_at(joint), 0, memory)});
     reach = std::make_unique<Reach>(core.mesh, handles, memory);
-    const auto sites = SiteSolver::make(EngineKind::green, body.creature.core, 0);
+    const auto sites = SiteSolver::make(body.creature.core);
     set_handle_sites(core, *sites, Handles(&memory), handles, memory);
     fields = std::make_unique<HandleFields>(solve_handle_fields(core, *sites, handles, *reach, memory));
     weights = std::make_unique<ClusterWeights>(make_cluster_weights(core, rest, *reach, *fields, {}, memory));

@@ -30,7 +30,7 @@ std::shared_ptr<const Core> linked_core(const hf_test::PlainMesh& mesh) {
   input.vertex_count = mesh.vertex_count();
   input.triangle_count = mesh.triangle_count();
   input.positions = ConstRows(mesh.positions.data(), 3 * sizeof(double));
-  input.triangles = mesh.triangles.data();
+  input.triangles = IndexRows(mesh.triangles.data(), 3);
   LinkOptions links;
   links.mode = LinkMode::pieces;
   links.distance = default_link_distance;
