@@ -231,6 +231,8 @@ static void bad_screening_is_refused(void** state) {
       hf_solver_set_screening(scene.solver, strengths, NULL));
   ROW("H is too large", HF_ERROR_TOO_LARGE, 2, strengths[2] = 1e201,
       hf_solver_set_screening(scene.solver, strengths, NULL));
+  ROW("H is far above the operator", HF_ERROR_TOO_LARGE, 2, strengths[2] = 1e190,
+      hf_solver_set_screening(scene.solver, strengths, NULL));
   ROW("p is infinite", HF_ERROR_NON_FINITE, 5, wishes[5] = (double)INFINITY,
       hf_solver_set_screening(scene.solver, strengths, wishes));
   ROW("p is too large", HF_ERROR_TOO_LARGE, 1, wishes[1] = -1e201,
