@@ -70,7 +70,7 @@ static void dragging_a_site_allocates_nothing(void** state) {
       const hf_sites_desc to = sites_at(1, &vertex, NULL);
       assert_ok(hf_solver_move_sites(world.solver, 1, &site, &to));
       assert_ok(hf_solver_set_values(world.solver, 1, &site, &value));
-      assert_ok(hf_solver_solve_f64(world.solver, world.field, 0, NULL));
+      assert_ok(hf_solver_solve(world.solver, OUT(world.field), NULL));
     }
   }
   assert_int_equal(world.memory.calls, 0);
