@@ -1,5 +1,6 @@
 // Words of the names of joints: what they are parts of, and on which side.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
 namespace hf_inner {

@@ -7,8 +7,8 @@
 #include "../support/place_in.h"
 #include "headed_blocks.h"
 #include "stories.h"
-#include "support/peers.h"
 #include "support/arrays.h"
+#include "support/peers.h"
 
 namespace refusal {
 namespace {
@@ -51,7 +51,10 @@ hf_solver made(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc, 
   hf_surface surface = nullptr;
   hf_solver solver = nullptr;
   s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&on, &surface); });
-  if (surface) s.make_factor("hf_create", solver, [&] { return create_with(engine, surface, &desc, &solver); });
+  const char* const call = engine == ENGINE_UPDOWN     ? "hf_peer_updown_create"
+                           : engine == ENGINE_REFACTOR ? "hf_peer_refactor_create"
+                                                       : "hf_create";
+  if (surface) s.make_factor(call, solver, [&] { return create_with(engine, surface, &desc, &solver); });
   hf_surface_destroy(surface);
   return solver;
 }
@@ -198,8 +201,7 @@ void bytes(Story& s, const Tube& tube, Allocator& memory) {
   const hf_sites_desc sites = sites_at(3, places, values + 1);
   s.call("hf_add_sites", [&] { return hf_add_sites(loaded, &sites, nullptr); });
   std::vector<double> field(Tube::vertices);
-  s.call("hf_solver_solve_preview",
-         [&] { return hf_solver_solve_preview(loaded, OUT(field.data()), 2, nullptr); });
+  s.call("hf_solver_solve_preview", [&] { return hf_solver_solve_preview(loaded, OUT(field.data()), 2, nullptr); });
   s.take(field.data(), field.size());
   s.call("hf_solver_release_preview", [&] { return hf_solver_release_preview(loaded); });
   hf_solver_destroy(loaded);

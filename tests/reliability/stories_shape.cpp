@@ -92,7 +92,8 @@ void directions(Story& s, const Tube& tube, Allocator& memory) {
 void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
   const hf_surface surface = made(s, tube, memory);
   hf_pose pose = nullptr, copy = nullptr;
-  s.make_factor("hf_pose_create", pose, [&] { return create_pose_with(mode, surface, nullptr, &pose); });
+  s.make_factor(mode == POSE_SMOOTH ? "hf_pose_create" : "hf_peer_pose_create", pose,
+                [&] { return create_pose_with(mode, surface, nullptr, &pose); });
   hf_surface_destroy(surface);
   const std::uint32_t counts[2] = {2 * Tube::around, 2 * Tube::around};
   hf_handles_desc handles = HF_INIT(hf_handles_desc), layer = HF_INIT(hf_handles_desc);

@@ -121,7 +121,9 @@ Value surface_info(Surface& s, const Arguments&) {
                 {"thread_count", info.thread_count},
                 {"vertex_limit", info.vertex_limit},
                 {"triangle_limit", info.triangle_limit},
-                {"memory_limit_mb", info.memory_limit_mb}});
+                {"memory_limit_mb", info.memory_limit_mb},
+                {"face_count", info.face_count},
+                {"corner_count", info.corner_count}});
 }
 
 Value surface_statistics(Surface& s, const Arguments&) {

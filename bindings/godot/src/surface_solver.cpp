@@ -37,7 +37,7 @@ Value solver_create(Surface& s, const Arguments& a) {
 Value add_sites(Surface& s, const Arguments& a) {
   const List vertices = integers(at(a, 0), "vertices");
   const std::vector<hf_place> places = places_of(at(a, 4));
-  const size_t count = vertices.null ? places.size() : vertices.count();
+  const size_t count = places.empty() ? vertices.count() : places.size();
   auto desc = make<hf_sites_desc>();
   desc.site_count = static_cast<uint32_t>(count);
   desc.vertices = vertices.data();
