@@ -7,7 +7,7 @@
 namespace hf_inner::capi {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;  // in radians
+constexpr double degree_in_radians = 3.14159265358979323846 / 180;
 constexpr std::uint32_t all_left_out =
     HF_RETARGET_KEEP_RESTS | HF_RETARGET_NO_GOALS | HF_RETARGET_NO_LOCK | HF_RETARGET_NO_COPY;
 
@@ -50,7 +50,7 @@ hf_retarget_info info_of(const RetargetObject& object) {
   info.scale_from = static_cast<std::int32_t>(report.scale_source);
   info.frame_count = static_cast<std::uint32_t>(std::min<std::uint64_t>(report.frames, UINT32_MAX));
   info.scale = report.scale;
-  info.limb_angle = degree * report.limb_degrees;
+  info.limb_angle = degree_in_radians * report.limb_degrees;
   info.stride_share = report.stride;
   info.deepest_drop = report.deepest_drop;
   return info;
@@ -131,8 +131,8 @@ hf_result hf_retarget_get_chains(hf_retarget handle, uint32_t capacity, hf_chain
                        static_cast<std::int32_t>(chains[c].side),
                        chains[c].source_joints,
                        chains[c].target_joints,
-                       degree * chains[c].mean_degrees,
-                       degree * chains[c].worst_degrees};
+                       degree_in_radians * chains[c].mean_degrees,
+                       degree_in_radians * chains[c].worst_degrees};
   });
 }
 

@@ -8,9 +8,9 @@
 namespace hf_inner {
 namespace {
 
-class Preparation {
+class HoldsPreparation {
  public:
-  Preparation(const HoldsInput& input, Holds& out, Memory& memory)
+  HoldsPreparation(const HoldsInput& input, Holds& out, Memory& memory)
       : in_(input), out_(out), memory_(memory), size_(static_cast<std::size_t>(input.subspace.factor.size())) {}
 
   void run() {
@@ -140,7 +140,7 @@ void add_places(const Holds& holds, std::int32_t first, std::int32_t last, doubl
 
 Holds make_holds(const HoldsInput& input, Memory& memory) {
   Holds holds(memory);
-  Preparation(input, holds, memory).run();
+  HoldsPreparation(input, holds, memory).run();
   return holds;
 }
 
