@@ -17,7 +17,9 @@ double reached(double distance, double length, double turned) noexcept {
   return soft + (full - soft) * (1 - exponential(-(distance - soft) / (full - soft)));
 }
 
-// Two bones: the triangle of hip, knee and ankle.
+// Two bones: the triangle of hip, knee and ankle. The side says about which axis the knee bends. The knee stands on
+// that side of the line from hip to ankle: where a long shin is folded up beyond the hip, this is under the thigh and
+// no more where the side points.
 void bend_two(const Vec3* p, Vec3 goal, double distance, Vec3 side, Vector<Turn>& bends) noexcept {
   const Vec3 thigh = p[1] - p[0], shin = p[2] - p[1];
   const double a = norm(thigh), b = norm(shin);
@@ -26,7 +28,7 @@ void bend_two(const Vec3* p, Vec3 goal, double distance, Vec3 side, Vector<Turn>
   const Turn whole = shortest_turn(p[2] - p[0], goal - p[0]);
   const Vec3 turned = whole * thigh;
   Vec3 out = turned - dot(turned, line) * line;
-  const Vec3 aside = side - dot(side, line) * line, wanted = unit_vector(aside);
+  const Vec3 hinge = unit_vector(cross(turned, whole * side)), aside = cross(hinge, line), wanted = unit_vector(aside);
   const double least = knee_side * a, is = dot(out, wanted);
   const double clear = std::min(1.0, std::max(0.0, (norm(aside) - side_unseen) / (side_seen - side_unseen)));
   if (is < least) out = out + (clear * least * (1 - is / least) * (1 - is / least)) * wanted;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "poses.h"
+#include "retarget/legs_bend.h"
 #include "retarget/turns.h"
 #include "rig_actor.h"
 
@@ -190,6 +191,27 @@ TEST(Feet, AKneeThatBendsBackwardComesForward) {
              knee = place_at(world, joint_of(target, Role::leg, true)),
              ankle = place_at(world, joint_of(target, Role::foot));
   EXPECT_GT(knee.z - 0.5 * (hip.z + ankle.z), 0);
+}
+
+// A shin twice as long as its thigh is folded up, so that the ankle is over the hip: a small way of the ankle is a
+// small way of the knee.
+TEST(Feet, ALongShinFoldsAndItsKneeStays) {
+  hf_inner::Memory memory;
+  const hf_inner::Vec3 hip{0, 1.38, -0.06}, knee{0, 1.05, 0.28}, ankle{0, 1.24, -0.69}, step{0.01, 0, -0.02};
+  hf_inner::Vector<hf_inner::Vec3> places(&memory);
+  for (const hf_inner::Vec3& place : {hip, knee, ankle}) places.push_back(place);
+  const hf_inner::Vec3 front = hf_inner::unit_vector(hf_inner::cross(hf_inner::Vec3{1, 0, 0}, hip - knee));
+  for (const double side : {1.0, -1.0}) {  // a knee of people, and the same picture turned to the other side
+    for (hf_inner::Vec3& place : places) place.z *= side;
+    hf_inner::Vector<Turn> bends(2, Turn{}, &memory);
+    hf_inner::bend_leg(places, {}, places[2] + hf_inner::Vec3{step.x, step.y, side * step.z},
+                       {front.x, front.y, side * front.z}, bends);
+    const hf_inner::Vec3 bent = places[0] + bends[0] * (places[1] - places[0]),
+                         end = bent + bends[1] * (places[2] - places[1]);
+    EXPECT_LT(norm(bent - places[1]), 3 * norm(step));
+    EXPECT_LT(norm(end - places[2] - hf_inner::Vec3{step.x, step.y, side * step.z}), 1e-9);
+    for (hf_inner::Vec3& place : places) place.z *= side;
+  }
 }
 
 TEST(Feet, ToesTurnAsThoseOfTheSource) {
