@@ -1,11 +1,14 @@
 #include "deform/propose_names.h"
 
-#include <algorithm>
-
 namespace samples {
 
 RegionOwners::RegionOwners(const PosableMesh& mesh) : mesh_(mesh), skin_(&mesh.model, mesh.flat) {
   if (!skin_.joints.empty()) body_ = know_body(mesh.model, mesh.flat);
+}
+
+bool RegionOwners::is_under(int node, int other) const {
+  while (node >= 0 && node != other) node = mesh_.model.nodes[static_cast<size_t>(node)].parent;
+  return node == other;
 }
 
 int RegionOwners::owner(const glm::dvec3& point, double radius) const {
@@ -17,8 +20,20 @@ int RegionOwners::owner(const glm::dvec3& point, double radius) const {
     for (size_t k = v * width; k < (v + 1) * width; ++k)
       moved[skin_.joints[k]] += static_cast<double>(skin_.weights[k]);
   }
-  const auto most = std::max_element(moved.begin(), moved.end());
-  return most == moved.end() || *most <= 0 ? -1 : static_cast<int>(most - moved.begin());
+  // with all that hangs on it
+  std::vector<double> below(moved.size(), 0.0);
+  double all = 0;
+  for (size_t n = 0; n < moved.size(); ++n) {
+    all += moved[n];
+    for (int at = static_cast<int>(n); moved[n] > 0 && at >= 0; at = mesh_.model.nodes[static_cast<size_t>(at)].parent)
+      below[static_cast<size_t>(at)] += moved[n];
+  }
+  int best = -1;
+  for (size_t n = 0; n < below.size(); ++n) {
+    const bool under = best >= 0 && is_under(static_cast<int>(n), best);
+    if (below[n] > 0.5 * all && (best < 0 || under)) best = static_cast<int>(n);
+  }
+  return best;
 }
 
 std::string RegionOwners::name(int node) const {

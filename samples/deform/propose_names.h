@@ -1,5 +1,5 @@
-// What the skeleton of a model says about proposed handles: the joint that moves most of a region names the handle, and
-// a hand, a head, a tail or what they hold is dragged, not pinned.
+// What the skeleton of a model says about proposed handles: the joint whose limb is most of a region names the handle,
+// and a hand, a head, a tail or what they hold is dragged, not pinned.
 #ifndef HF_SAMPLES_DEFORM_PROPOSE_NAMES_H
 #define HF_SAMPLES_DEFORM_PROPOSE_NAMES_H
 
@@ -14,13 +14,15 @@ namespace samples {
 class RegionOwners {
  public:
   explicit RegionOwners(const PosableMesh& mesh);
-  // The node that moves most of the vertices within the radius, or -1.
+  // The lowest node that moves, with what hangs on it, more than half of the vertices within the radius: a hand, not
+  // one of its fingers. -1: no node does.
   int owner(const glm::dvec3& point, double radius) const;
   std::string name(int node) const;
   // Whether a node belongs to an arm, a head or a tail, or hangs on one, as a sword does.
   bool hangs_free(int node) const;
 
  private:
+  bool is_under(int node, int other) const;
   const PosableMesh& mesh_;
   ModelLinks skin_;
   KnownBody body_;
