@@ -51,7 +51,7 @@ constexpr double first_damping = 1e-3, least_damping = 1e-6, more_damping = 8, l
 constexpr int most_steps = 40, most_attempts = 8;  // a frame takes some 5 from the one before
 constexpr double still_enough = 1e-6;              // a step that lowers the energy by a smaller share ends the fit
 constexpr double most_turn = 0.7;                  // of a joint in a step, in radians
-constexpr double lift = 1e-9;                      // of the mean diagonal: joints that move nothing stay
+constexpr double lift = 1e-9;                      // of the mean diagonal of its kind: joints that move nothing stay
 
 // The rotation of a matrix whose columns may be scaled.
 glm::dquat rotation_of(const glm::dmat4& matrix) {
@@ -643,12 +643,20 @@ RigPose RigFit::fit(const std::vector<double>& frame, const RigPose& start, cons
   const size_t n = unknowns_;
   for (int round = 0; round < most_steps; ++round) {
     const System to = system(task, pose);
-    double mean = 0;
-    for (size_t i = 0; i < n; ++i) mean += to.matrix[i * (n + 1)] / static_cast<double>(n);
+    // of turns and of shifts apart: the ratio of their diagonals is that of the unit squared
+    std::vector<std::size_t> shifts(n, 0);
+    for (const Joint& joint : joints_)
+      for (int c = 0; c < 3 && joint.translation >= 0; ++c) shifts[static_cast<size_t>(joint.translation + c)] = 1;
+    double mean[2] = {0, 0}, count[2] = {0, 0};
+    for (size_t i = 0; i < n; ++i) {
+      mean[shifts[i]] += to.matrix[i * (n + 1)];
+      ++count[shifts[i]];
+    }
+    for (int kind = 0; kind < 2; ++kind) mean[kind] /= std::max(1.0, count[kind]);
     const double before = now;
     for (int attempt = 0; attempt < most_attempts && now == before; ++attempt) {
       std::vector<double> matrix = to.matrix, step = to.rhs;
-      for (size_t i = 0; i < n; ++i) matrix[i * (n + 1)] += damping * matrix[i * (n + 1)] + lift * mean;
+      for (size_t i = 0; i < n; ++i) matrix[i * (n + 1)] += damping * matrix[i * (n + 1)] + lift * mean[shifts[i]];
       for (const Joint& joint : joints_)
         for (int c = 0; c < 3; ++c)
           matrix[static_cast<size_t>(joint.rotation + c) * (n + 1)] += task.stiffness + (middle ? task.evenness : 0);

@@ -34,6 +34,36 @@ TEST(TransferWritten, AFitThatStartsAtItsResultStaysThere) {
   EXPECT_NEAR(miss(again), miss(once), 0.01 * miss(once));
 }
 
+// The model under a node that scales it: the fit is the same in any unit.
+TEST(TransferWritten, AFitDoesNotDependOnTheUnit) {
+  const auto fitted = [](double scale) {
+    Model horse = read_gltf(creature("horse"));
+    Node root;
+    root.scale = glm::dvec3(scale);
+    for (size_t n = 0; n < horse.nodes.size(); ++n) {
+      if (horse.nodes[n].parent >= 0) continue;
+      horse.nodes[n].parent = static_cast<int>(horse.nodes.size());
+      root.children.push_back(static_cast<int>(n));
+    }
+    horse.nodes.push_back(root);
+    const FlatMesh mesh = flatten(horse);
+    const RigFit rig(horse, mesh);
+    std::vector<double> frame;
+    for (const glm::dvec3& p : posed_positions(horse, mesh, horse.animations[0], 0.3))
+      for (const double x : {-p.x, p.y > scale ? -p.y : -1.5 * p.y, p.z}) frame.push_back(x);
+    std::vector<glm::dvec3> out = posed_positions(horse, mesh, rig.whole(rig.fit(frame, rig.rest(), {}, {})));
+    for (glm::dvec3& p : out) p /= scale;
+    return out;
+  };
+  const std::vector<glm::dvec3> wanted = fitted(1);
+  for (const double scale : {1e-6, 1e-4, 1e6}) {
+    const std::vector<glm::dvec3> got = fitted(scale);
+    double worst = 0;
+    for (size_t v = 0; v < got.size(); ++v) worst = std::max(worst, glm::distance(got[v], wanted[v]));
+    EXPECT_LT(worst, 1e-5) << "scale " << scale;
+  }
+}
+
 // A file of a chain of 1,001 joints, each with a vertex: its system would take gigabytes.
 TEST(TransferWritten, AModelOfTooManyJointsIsRefused) {
   constexpr uint16_t joints = 1001;
