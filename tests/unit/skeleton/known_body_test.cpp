@@ -36,7 +36,8 @@ class Conventions : public testing::TestWithParam<std::string> {};
 // Wherever the body looks, landmarks have its own left, and feet are the ends of its legs.
 TEST_P(Conventions, LandmarksStandOnTheSkeletonsAxes) {
   const Rig rig = make_biped(GetParam(), {});
-  for (const Placing& placing : {Placing{}, Placing{100, 90, false, false, {}}, Placing{0.01, 180, false, false, {}}}) {
+  for (const Placing& placing : {Placing{}, Placing{100, 90, false, false, {}}, Placing{0.01, 180, false, false, {}},
+                                 Placing{1, 60, false, false, {}}}) {
     const Landmarks found = landmarks_of(model_of(rig, placing));
     SCOPED_TRACE(hf_gltf::axes_sentence(found));
     EXPECT_EQ(found.axes_from, AxesFrom::skeleton);
