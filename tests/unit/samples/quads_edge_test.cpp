@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "unit/gltf/gltf_support.h"
 #include "support/program_support.h"
+#include "unit/gltf/gltf_support.h"
 
 namespace {
 
@@ -21,12 +21,16 @@ std::string line_of(const std::string& text, const std::string& begin) {
   return at == std::string::npos ? "" : text.substr(at + 1, text.find('\n', at + 1) - at);
 }
 
+std::string write_cube(const TemporaryFolder& folder) {
+  std::ofstream(folder.path / "cube.obj") << "v 0 0 0\nv 0 0 1\nv 0 1 0\nv 0 1 1\nv 1 0 0\nv 1 0 1\nv 1 1 0\nv 1 1 1\n"
+                                             "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
+  return (folder.path / "cube.obj").string();
+}
+
 // What a short edge length costs follows from the quads it asks for, not from the twelve triangles of the file.
 TEST(QuadsProgram, AnEdgeLengthMayAskForManyQuadsOfASmallFile) {
   const TemporaryFolder folder;
-  const std::string file = "\"" + (folder.path / "cube.obj").string() + "\"";
-  std::ofstream(folder.path / "cube.obj") << "v 0 0 0\nv 0 0 1\nv 0 1 0\nv 0 1 1\nv 1 0 0\nv 1 0 1\nv 1 1 0\nv 1 1 1\n"
-                                             "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n";
+  const std::string file = "\"" + write_cube(folder) + "\"";
   std::string text;
   ASSERT_EQ(run(file + " --edge 1% --relax 0", text), 0) << text;
   EXPECT_EQ(line_of(text, "warning"), "");
@@ -35,6 +39,17 @@ TEST(QuadsProgram, AnEdgeLengthMayAskForManyQuadsOfASmallFile) {
   EXPECT_NE(text.find("-limit N raises it"), std::string::npos) << text;
   EXPECT_EQ(run(file + " --edge 1e-300", text), 1);
   EXPECT_NE(text.find("edge_length is 1e-300"), std::string::npos) << text;
+}
+
+// A cube has quads in squares: 6 are nearest to 10, 30 are near enough.
+TEST(QuadsProgram, SaysWhenACountIsMissed) {
+  const TemporaryFolder folder;
+  const std::string file = "\"" + write_cube(folder) + "\"";
+  std::string text;
+  ASSERT_EQ(run(file + " --faces 10", text), 0) << text;
+  EXPECT_NE(line_of(text, "warning").find("6 faces where 10 are asked for"), std::string::npos) << text;
+  ASSERT_EQ(run(file + " --faces 30", text), 0) << text;
+  EXPECT_EQ(line_of(text, "warning"), "");
 }
 
 // A star of five points: about 400 quads of this length cover it.
