@@ -49,7 +49,10 @@ static void solvers_give_the_field_of_hf_create(void** state) {
 
 static void the_penalty_says_how_far_a_site_gives_way(void** state) {
   (void)state;
-  if (!has_gpl()) skip();
+  if (!has_gpl()) {
+    print_message("no engine updown in this build (HF_WITH_GPL): skipped\n");
+    skip();
+  }
   hf_surface surface = surface_on(&tube);
   double missed[2];
   const double penalties[2] = {1e2, 1e8};
