@@ -362,7 +362,7 @@ class Writer(class_rust.Writer):
         names = [{"out": "out.data()", "size": "out.size()"}.get(n, n) for n in names]
         body += [f"std::vector<{kind}> out(c.product({steps.dims(dims)}));", f"{title(m)}_into({', '.join(names)});", "return out;"]
         head = f"std::vector<{kind}> {title(m)}{'_f64' * double}({signature}){'' if self.changes(m) else ' const'} {{"
-        words = method_words(plan, "Fails with") if not double else f"The same in double."
+        words = method_words(plan, "Fails with", options=self.fields_of(self.structs[m.flat[0]["type"]]) if m.flat else ()) if not double else f"The same in double."
         return self.doc(words, 2) + fold(head, 2, 4) + indented(body, 4) + ["  }"]
 
     def one(self, plan, into):
@@ -388,7 +388,7 @@ class Writer(class_rust.Writer):
         if results:
             text = ", ".join(e for e, _ in results)
             body.append(f"return {re.sub(r'^std::move.(.*).$', chr(92) + '1', text)};" if len(results) == 1 else f"return {{{text}}};")
-        words = method_words(plan, "Fails with") if not into else f"As {title(m)}, into memory of yours."
+        words = method_words(plan, "Fails with", options=self.fields_of(self.structs[m.flat[0]["type"]]) if m.flat else ()) if not into else f"As {title(m)}, into memory of yours."
         return self.doc(words, 2) + fold(f"{head}({signature}){end} {{", 2, 4) + indented(body, 4) + ["  }"]
 
     def class_of(self, handle, methods):

@@ -228,7 +228,7 @@ class hf_array(Struct):
 
 
 class hf_array_out(Struct):
-    """An array of yours that the library writes; otherwise as hf_array."""
+    """An array of yours that the library writes."""
     data: int
     count: int
     stride: int
@@ -526,7 +526,7 @@ class hf_surface_report(Struct):
 
 
 class hf_mesh_statistics(Struct):
-    """What a developer reads about a mesh"""
+    """Figures of a mesh for developers"""
     struct_size: int
     polygon_count: int
     non_planar_count: int
@@ -626,7 +626,7 @@ class hf_surface_statistics(Struct):
 
 
 class hf_place(Struct):
-    """One place on a surface"""
+    """A place on a surface"""
     corners: object
     reserved: int
     barycentrics: object
@@ -1176,7 +1176,7 @@ class hf_handle_info(Struct):
 
 
 class hf_deform_info(Struct):
-    """What a deform did."""
+    """The work of a deform."""
     struct_size: int
     iteration_count: int
     unreached_vertex_count: int
@@ -2021,7 +2021,7 @@ class hf_weights_info(Struct):
 
 
 class hf_weights_statistics(Struct):
-    """What a developer reads about weights"""
+    """Figures of weights for developers"""
     struct_size: int
     nearest_piece_count: int
     rigid_piece_count: int
@@ -2169,7 +2169,7 @@ class hf_weights_mirror_info(Struct):
 
 
 class hf_weights_mirror_statistics(Struct):
-    """How far a surface and its joints are from their reflections."""
+    """Distances of a surface and its joints from their reflections, in the unit of the mesh."""
     struct_size: int
     worst_joint: int
     worst_vertex: int

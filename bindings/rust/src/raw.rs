@@ -259,7 +259,7 @@ impl Default for hf_array {
     }
 }
 
-/// An array of yours that the library writes; otherwise as hf_array.
+/// An array of yours that the library writes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_array_out {
@@ -578,7 +578,7 @@ impl hf_surface_report {
     }
 }
 
-/// What a developer reads about a mesh
+/// Figures of a mesh for developers
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_mesh_statistics {
@@ -742,7 +742,7 @@ impl hf_surface_statistics {
     }
 }
 
-/// One place on a surface
+/// A place on a surface
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_place {
@@ -1452,7 +1452,7 @@ impl hf_handle_info {
     }
 }
 
-/// What a deform did.
+/// The work of a deform.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_deform_info {
@@ -2463,7 +2463,7 @@ impl hf_weights_info {
     }
 }
 
-/// What a developer reads about weights
+/// Figures of weights for developers
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_statistics {
@@ -2649,7 +2649,7 @@ impl hf_weights_mirror_info {
     }
 }
 
-/// How far a surface and its joints are from their reflections.
+/// Distances of a surface and its joints from their reflections, in the unit of the mesh.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_mirror_statistics {
