@@ -207,17 +207,17 @@ class Steps:
         mine = {name: f"found.{name}" if into else safe(name) for name, _, _ in arrays}
         lines += [f"{camel(named(self.w.api['structs'], self.w.struct_of(self.plan, into))['name'])} found;"] if into else [
             f"std::vector<{item['type']}> {safe(name)};" for name, item, _ in arrays]
-        lines += ["do {", "  room.begin(c, {" + ", ".join(self.dims(item["dims"]) for _, item, _ in arrays) + "});"]
-        lines += [("  " + (f"if (want_{name}) " if on_request else "")) + f"room.resize(c, {mine[name]}, {self.dims(item['dims'])});" for name, item, on_request in arrays]
-        if into:
-            lines += [f'  {safe(into)}.{key} = room.get("{key}");' for key, _ in rooms]
-            lines += [f"  {safe(into)}.{name} = room.at({mine[name]});" for name, _, _ in arrays]
+        for name, item, on_request in arrays:
+            place = f", &{safe(into)}.{name}" if into else ", nullptr" * on_request
+            lines.append(f"room.array({mine[name]}, {self.dims(item['dims'])}{place}{f', want_{name}' * on_request});")
+        lines += ["do {", "  room.begin(c);"]
+        lines += [f'  {safe(into)}.{key} = room.get("{key}");' for key, _ in rooms if into]
         told = ", ".join(f'{{"{key}", {safe(var)}{("->" if self.is_pointer(var) else ".") + field if field else ""}}}' for key, var, field in tell)
         lines += [f"  room.code = {self.called(function, values)};", f"}} while (!room.enough(c, {{{told}}}));"]
         if into:
             struct = self.w.structs[self.w.struct_of(self.plan, into)]
             lines += [f"found.{safe(f['name'])} = {safe(into)}.{safe(f['name'])};" for f in self.w.figures_of(struct)]
-        return lines + [("" if not on_request else f"if (want_{name}) ") + f"{mine[name]}.resize(c.product({self.dims(item['dims'])}));" for name, item, on_request in arrays]
+        return lines
 
     def is_pointer(self, var):
         return any(a.name == var and a.role == "info" for a in self.plan.arguments)

@@ -887,12 +887,11 @@ class Surface {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<uint32_t> components;
+    room.array(components, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, components, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_get_components(get(), room.get("capacity"), room.at(components), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    components.resize(c.product({"capacity"}));
     return components;
   }
 
@@ -912,12 +911,11 @@ class Surface {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_link> links;
+    room.array(links, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, links, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_get_links(get(), room.get("capacity"), room.at(links), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    links.resize(c.product({"capacity"}));
     return links;
   }
 
@@ -929,14 +927,12 @@ class Surface {
     Room room({{"capacity", -1}});
     std::vector<uint32_t> pieces;
     std::vector<int32_t> light;
+    room.array(pieces, {"capacity"});
+    room.array(light, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}, {"capacity"}});
-      room.resize(c, pieces, {"capacity"});
-      room.resize(c, light, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_get_pieces(get(), room.get("capacity"), room.at(pieces), room.at(light), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    pieces.resize(c.product({"capacity"}));
-    light.resize(c.product({"capacity"}));
     return {std::move(pieces), std::move(light)};
   }
 
@@ -954,12 +950,11 @@ class Surface {
     if (!info) info = &info_;
     Room room({{"capacity", -1}});
     std::vector<double> gaps;
+    room.array(gaps, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, gaps, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_measure_gaps(get(), &positions_, room.get("capacity"), room.at(gaps), info);
     } while (!room.enough(c, {{"capacity", info->link_count}}));
-    gaps.resize(c.product({"capacity"}));
     return gaps;
   }
 
@@ -1076,31 +1071,18 @@ class Surface {
     auto lines = make<hf_isolines>();
     Room room({{"point_capacity", -1}, {"line_capacity", -1}});
     Isolines found;
+    room.array(found.point_edges, {"point_capacity", "2"}, &lines.point_edges);
+    room.array(found.parameters, {"point_capacity"}, &lines.parameters);
+    room.array(found.positions, {"point_capacity", "3"}, &lines.positions);
+    room.array(found.line_starts, {"line_capacity + 1"}, &lines.line_starts);
+    room.array(found.line_levels, {"line_capacity"}, &lines.line_levels);
+    room.array(found.line_closed, {"line_capacity"}, &lines.line_closed);
     do {
-      room.begin(c, {{"point_capacity", "2"}, {"point_capacity"}, {"point_capacity", "3"}, {"line_capacity + 1"},
-          {"line_capacity"}, {"line_capacity"}});
-      room.resize(c, found.point_edges, {"point_capacity", "2"});
-      room.resize(c, found.parameters, {"point_capacity"});
-      room.resize(c, found.positions, {"point_capacity", "3"});
-      room.resize(c, found.line_starts, {"line_capacity + 1"});
-      room.resize(c, found.line_levels, {"line_capacity"});
-      room.resize(c, found.line_closed, {"line_capacity"});
+      room.begin(c);
       lines.point_capacity = room.get("point_capacity");
       lines.line_capacity = room.get("line_capacity");
-      lines.point_edges = room.at(found.point_edges);
-      lines.parameters = room.at(found.parameters);
-      lines.positions = room.at(found.positions);
-      lines.line_starts = room.at(found.line_starts);
-      lines.line_levels = room.at(found.line_levels);
-      lines.line_closed = room.at(found.line_closed);
       room.code = hf_surface_trace_isolines(get(), &field_, c.count("level_count", 1), levels_, &lines);
     } while (!room.enough(c, {{"point_capacity", lines.point_count}, {"line_capacity", lines.line_count}}));
-    found.point_edges.resize(c.product({"point_capacity", "2"}));
-    found.parameters.resize(c.product({"point_capacity"}));
-    found.positions.resize(c.product({"point_capacity", "3"}));
-    found.line_starts.resize(c.product({"line_capacity + 1"}));
-    found.line_levels.resize(c.product({"line_capacity"}));
-    found.line_closed.resize(c.product({"line_capacity"}));
     return found;
   }
 
@@ -1122,12 +1104,11 @@ class Surface {
     if (!info) info = &info_;
     Room room({{"capacity", -1}});
     std::vector<hf_critical_point> points;
+    room.array(points, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, points, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_find_critical_points(get(), &field_, room.get("capacity"), room.at(points), info);
     } while (!room.enough(c, {{"capacity", info->point_count}}));
-    points.resize(c.product({"capacity"}));
     return points;
   }
 
@@ -1148,12 +1129,11 @@ class Surface {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_extremity> extremities;
+    room.array(extremities, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, extremities, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_find_extremities(get(), &desc, room.get("capacity"), room.at(extremities), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    extremities.resize(c.product({"capacity"}));
     return extremities;
   }
 
@@ -1168,12 +1148,11 @@ class Surface {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_handle_proposal> proposals;
+    room.array(proposals, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, proposals, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_propose_handles(get(), &desc, room.get("capacity"), room.at(proposals), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    proposals.resize(c.product({"capacity"}));
     return proposals;
   }
 
@@ -1320,33 +1299,18 @@ class Solver {
     auto info = make<hf_sites_info>();
     Room room({{"capacity", -1}});
     SitesInfo found;
+    room.array(found.sites, {"capacity"}, &info.sites);
+    room.array(found.vertices, {"capacity"}, &info.vertices);
+    room.array(found.components, {"capacity"}, &info.components);
+    room.array(found.values, {"capacity", "channel_count"}, &info.values);
+    room.array(found.stiffness, {"capacity"}, &info.stiffness);
+    room.array(found.flux, {"capacity", "channel_count"}, &info.flux);
+    room.array(found.radii, {"capacity"}, &info.radii);
     do {
-      room.begin(c, {{"capacity"}, {"capacity"}, {"capacity"}, {"capacity", "channel_count"}, {"capacity"}, {"capacity",
-          "channel_count"}, {"capacity"}});
-      room.resize(c, found.sites, {"capacity"});
-      room.resize(c, found.vertices, {"capacity"});
-      room.resize(c, found.components, {"capacity"});
-      room.resize(c, found.values, {"capacity", "channel_count"});
-      room.resize(c, found.stiffness, {"capacity"});
-      room.resize(c, found.flux, {"capacity", "channel_count"});
-      room.resize(c, found.radii, {"capacity"});
+      room.begin(c);
       info.capacity = room.get("capacity");
-      info.sites = room.at(found.sites);
-      info.vertices = room.at(found.vertices);
-      info.components = room.at(found.components);
-      info.values = room.at(found.values);
-      info.stiffness = room.at(found.stiffness);
-      info.flux = room.at(found.flux);
-      info.radii = room.at(found.radii);
       room.code = hf_solver_get_sites(get(), &info);
     } while (!room.enough(c, {{"capacity", info.count}}));
-    found.sites.resize(c.product({"capacity"}));
-    found.vertices.resize(c.product({"capacity"}));
-    found.components.resize(c.product({"capacity"}));
-    found.values.resize(c.product({"capacity", "channel_count"}));
-    found.stiffness.resize(c.product({"capacity"}));
-    found.flux.resize(c.product({"capacity", "channel_count"}));
-    found.radii.resize(c.product({"capacity"}));
     return found;
   }
 
@@ -1703,21 +1667,15 @@ class Geodesics {
     auto path = make<hf_path>();
     Room room({{"point_capacity", -1}});
     Path found;
+    room.array(found.point_edges, {"point_capacity", "2"}, &path.point_edges);
+    room.array(found.parameters, {"point_capacity"}, &path.parameters);
+    room.array(found.positions, {"point_capacity", "3"}, &path.positions);
     do {
-      room.begin(c, {{"point_capacity", "2"}, {"point_capacity"}, {"point_capacity", "3"}});
-      room.resize(c, found.point_edges, {"point_capacity", "2"});
-      room.resize(c, found.parameters, {"point_capacity"});
-      room.resize(c, found.positions, {"point_capacity", "3"});
+      room.begin(c);
       path.point_capacity = room.get("point_capacity");
-      path.point_edges = room.at(found.point_edges);
-      path.parameters = room.at(found.parameters);
-      path.positions = room.at(found.positions);
       room.code = hf_geodesics_find_path(get(), &from, &to, &path);
     } while (!room.enough(c, {{"point_capacity", path.point_count}}));
     found.length = path.length;
-    found.point_edges.resize(c.product({"point_capacity", "2"}));
-    found.parameters.resize(c.product({"point_capacity"}));
-    found.positions.resize(c.product({"point_capacity", "3"}));
     return found;
   }
 
@@ -1868,17 +1826,14 @@ class Direction {
     std::vector<uint32_t> sites;
     std::vector<uint32_t> vertices;
     std::vector<double> vectors;
+    room.array(sites, {"capacity"});
+    room.array(vertices, {"capacity"});
+    room.array(vectors, {"capacity", "3"});
     do {
-      room.begin(c, {{"capacity"}, {"capacity"}, {"capacity", "3"}});
-      room.resize(c, sites, {"capacity"});
-      room.resize(c, vertices, {"capacity"});
-      room.resize(c, vectors, {"capacity", "3"});
+      room.begin(c);
       room.code = hf_direction_get_sites(get(), room.get("capacity"), room.at(sites), room.at(vertices),
           room.at(vectors), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    sites.resize(c.product({"capacity"}));
-    vertices.resize(c.product({"capacity"}));
-    vectors.resize(c.product({"capacity", "3"}));
     return {std::move(sites), std::move(vertices), std::move(vectors)};
   }
 
@@ -1930,12 +1885,11 @@ class Direction {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_singularity> singularities;
+    room.array(singularities, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, singularities, {"capacity"});
+      room.begin(c);
       room.code = hf_direction_get_singularities(get(), room.get("capacity"), room.at(singularities), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    singularities.resize(c.product({"capacity"}));
     return singularities;
   }
 
@@ -2292,36 +2246,21 @@ class Pose {
     c.known("influence_count", influence_count ? influence_count : 4);
     Room room({{"joint_capacity", c.size("joint_count")}, {"vertex_capacity", c.size("vertex_count")}});
     SkinInfo found;
+    room.array(found.pivots, {"joint_capacity", "3"}, &skin.pivots);
+    room.array(found.rotations, {"joint_capacity", "4"}, &skin.rotations);
+    room.array(found.translations, {"joint_capacity", "3"}, &skin.translations);
+    room.array(found.axes, {"joint_capacity", "4"}, &skin.axes);
+    room.array(found.scales, {"joint_capacity", "3"}, &skin.scales, want_scales);
+    room.array(found.vertex_joints, {"vertex_capacity", "influence_count"}, &skin.vertex_joints);
+    room.array(found.vertex_weights, {"vertex_capacity", "influence_count"}, &skin.vertex_weights);
     do {
-      room.begin(c, {{"joint_capacity", "3"}, {"joint_capacity", "4"}, {"joint_capacity", "3"}, {"joint_capacity", "4"},
-          {"joint_capacity", "3"}, {"vertex_capacity", "influence_count"}, {"vertex_capacity", "influence_count"}});
-      room.resize(c, found.pivots, {"joint_capacity", "3"});
-      room.resize(c, found.rotations, {"joint_capacity", "4"});
-      room.resize(c, found.translations, {"joint_capacity", "3"});
-      room.resize(c, found.axes, {"joint_capacity", "4"});
-      if (want_scales) room.resize(c, found.scales, {"joint_capacity", "3"});
-      room.resize(c, found.vertex_joints, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.vertex_weights, {"vertex_capacity", "influence_count"});
+      room.begin(c);
       skin.joint_capacity = room.get("joint_capacity");
       skin.vertex_capacity = room.get("vertex_capacity");
-      skin.pivots = room.at(found.pivots);
-      skin.rotations = room.at(found.rotations);
-      skin.translations = room.at(found.translations);
-      skin.axes = room.at(found.axes);
-      skin.scales = room.at(found.scales);
-      skin.vertex_joints = room.at(found.vertex_joints);
-      skin.vertex_weights = room.at(found.vertex_weights);
       room.code = hf_pose_get_skin(get(), &skin);
     } while (!room.enough(c, {{"joint_capacity", skin.joint_count}, {"vertex_capacity", skin.vertex_count},
         {"joint_count", skin.joint_count}, {"vertex_count", skin.vertex_count}}));
     found.influence_count = skin.influence_count;
-    found.pivots.resize(c.product({"joint_capacity", "3"}));
-    found.rotations.resize(c.product({"joint_capacity", "4"}));
-    found.translations.resize(c.product({"joint_capacity", "3"}));
-    found.axes.resize(c.product({"joint_capacity", "4"}));
-    if (want_scales) found.scales.resize(c.product({"joint_capacity", "3"}));
-    found.vertex_joints.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.vertex_weights.resize(c.product({"vertex_capacity", "influence_count"}));
     return found;
   }
 
@@ -2419,29 +2358,18 @@ class Quads {
     auto mesh = make<hf_quads_mesh>();
     Room room({{"vertex_capacity", c.size("vertex_count")}, {"face_capacity", -1}});
     QuadsMesh found;
+    room.array(found.positions, {"vertex_capacity", "3"}, &mesh.positions);
+    room.array(found.faces, {"face_capacity", "4"}, &mesh.faces);
+    room.array(found.triangles, {"vertex_capacity"}, &mesh.triangles);
+    room.array(found.barycentrics, {"vertex_capacity", "3"}, &mesh.barycentrics);
+    room.array(found.corners, {"vertex_capacity", "3"}, &mesh.corners);
     do {
-      room.begin(c, {{"vertex_capacity", "3"}, {"face_capacity", "4"}, {"vertex_capacity"}, {"vertex_capacity", "3"},
-          {"vertex_capacity", "3"}});
-      room.resize(c, found.positions, {"vertex_capacity", "3"});
-      room.resize(c, found.faces, {"face_capacity", "4"});
-      room.resize(c, found.triangles, {"vertex_capacity"});
-      room.resize(c, found.barycentrics, {"vertex_capacity", "3"});
-      room.resize(c, found.corners, {"vertex_capacity", "3"});
+      room.begin(c);
       mesh.vertex_capacity = room.get("vertex_capacity");
       mesh.face_capacity = room.get("face_capacity");
-      mesh.positions = room.at(found.positions);
-      mesh.faces = room.at(found.faces);
-      mesh.triangles = room.at(found.triangles);
-      mesh.barycentrics = room.at(found.barycentrics);
-      mesh.corners = room.at(found.corners);
       room.code = hf_quads_get_mesh(get(), &mesh);
     } while (!room.enough(c, {{"vertex_capacity", mesh.vertex_count}, {"face_capacity", mesh.face_count},
         {"vertex_count", mesh.vertex_count}}));
-    found.positions.resize(c.product({"vertex_capacity", "3"}));
-    found.faces.resize(c.product({"face_capacity", "4"}));
-    found.triangles.resize(c.product({"vertex_capacity"}));
-    found.barycentrics.resize(c.product({"vertex_capacity", "3"}));
-    found.corners.resize(c.product({"vertex_capacity", "3"}));
     return found;
   }
 
@@ -2501,24 +2429,16 @@ class Flow {
     lines.seed_count = c.count("seed_count", 0);
     Room room({{"point_capacity", -1}, {"line_capacity", -1}});
     Streamlines found;
+    room.array(found.positions, {"point_capacity", "3"}, &lines.positions);
+    room.array(found.values, {"point_capacity"}, &lines.values);
+    room.array(found.line_starts, {"line_capacity + 1"}, &lines.line_starts);
+    room.array(found.line_ends, {"line_capacity", "2"}, &lines.line_ends);
     do {
-      room.begin(c, {{"point_capacity", "3"}, {"point_capacity"}, {"line_capacity + 1"}, {"line_capacity", "2"}});
-      room.resize(c, found.positions, {"point_capacity", "3"});
-      room.resize(c, found.values, {"point_capacity"});
-      room.resize(c, found.line_starts, {"line_capacity + 1"});
-      room.resize(c, found.line_ends, {"line_capacity", "2"});
+      room.begin(c);
       lines.point_capacity = room.get("point_capacity");
       lines.line_capacity = room.get("line_capacity");
-      lines.positions = room.at(found.positions);
-      lines.values = room.at(found.values);
-      lines.line_starts = room.at(found.line_starts);
-      lines.line_ends = room.at(found.line_ends);
       room.code = hf_flow_trace(get(), &field_, &lines);
     } while (!room.enough(c, {{"point_capacity", lines.point_count}, {"line_capacity", lines.line_count}}));
-    found.positions.resize(c.product({"point_capacity", "3"}));
-    found.values.resize(c.product({"point_capacity"}));
-    found.line_starts.resize(c.product({"line_capacity + 1"}));
-    found.line_ends.resize(c.product({"line_capacity", "2"}));
     return found;
   }
 
@@ -2600,12 +2520,11 @@ class Region {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<uint32_t> vertices;
+    room.array(vertices, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, vertices, {"capacity"});
+      room.begin(c);
       room.code = hf_region_get_vertices(get(), list, room.get("capacity"), room.at(vertices), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    vertices.resize(c.product({"capacity"}));
     return vertices;
   }
 
@@ -2616,12 +2535,11 @@ class Region {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<double> points;
+    room.array(points, {"capacity", "3"});
     do {
-      room.begin(c, {{"capacity", "3"}});
-      room.resize(c, points, {"capacity", "3"});
+      room.begin(c);
       room.code = hf_region_get_curve(get(), room.get("capacity"), room.at(points), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    points.resize(c.product({"capacity", "3"}));
     return points;
   }
 
@@ -2850,12 +2768,11 @@ class Skeleton {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_joint_info> joints;
+    room.array(joints, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, joints, {"capacity"});
+      room.begin(c);
       room.code = hf_skeleton_get_joints(get(), room.get("capacity"), room.at(joints), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    joints.resize(c.product({"capacity"}));
     return joints;
   }
 
@@ -2865,12 +2782,11 @@ class Skeleton {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_chain> chains;
+    room.array(chains, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, chains, {"capacity"});
+      room.begin(c);
       room.code = hf_skeleton_get_chains(get(), room.get("capacity"), room.at(chains), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    chains.resize(c.product({"capacity"}));
     return chains;
   }
 
@@ -2880,12 +2796,11 @@ class Skeleton {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<uint32_t> joints;
+    room.array(joints, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, joints, {"capacity"});
+      room.begin(c);
       room.code = hf_skeleton_get_chain_joints(get(), room.get("capacity"), room.at(joints), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    joints.resize(c.product({"capacity"}));
     return joints;
   }
 
@@ -2982,12 +2897,11 @@ class Retarget {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_chain_match> chains;
+    room.array(chains, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, chains, {"capacity"});
+      room.begin(c);
       room.code = hf_retarget_get_chains(get(), room.get("capacity"), room.at(chains), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    chains.resize(c.product({"capacity"}));
     return chains;
   }
 
@@ -2998,12 +2912,11 @@ class Retarget {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<uint32_t> partners;
+    room.array(partners, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, partners, {"capacity"});
+      room.begin(c);
       room.code = hf_retarget_get_partners(get(), room.get("capacity"), room.at(partners), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    partners.resize(c.product({"capacity"}));
     return partners;
   }
 
@@ -3219,36 +3132,21 @@ class Transfer {
     c.known("influence_count", influence_count ? influence_count : 4);
     Room room({{"joint_capacity", c.size("joint_count")}, {"vertex_capacity", c.size("vertex_count")}});
     SkinInfo found;
+    room.array(found.pivots, {"joint_capacity", "3"}, &skin.pivots);
+    room.array(found.rotations, {"joint_capacity", "4"}, &skin.rotations);
+    room.array(found.translations, {"joint_capacity", "3"}, &skin.translations);
+    room.array(found.axes, {"joint_capacity", "4"}, &skin.axes);
+    room.array(found.scales, {"joint_capacity", "3"}, &skin.scales, want_scales);
+    room.array(found.vertex_joints, {"vertex_capacity", "influence_count"}, &skin.vertex_joints);
+    room.array(found.vertex_weights, {"vertex_capacity", "influence_count"}, &skin.vertex_weights);
     do {
-      room.begin(c, {{"joint_capacity", "3"}, {"joint_capacity", "4"}, {"joint_capacity", "3"}, {"joint_capacity", "4"},
-          {"joint_capacity", "3"}, {"vertex_capacity", "influence_count"}, {"vertex_capacity", "influence_count"}});
-      room.resize(c, found.pivots, {"joint_capacity", "3"});
-      room.resize(c, found.rotations, {"joint_capacity", "4"});
-      room.resize(c, found.translations, {"joint_capacity", "3"});
-      room.resize(c, found.axes, {"joint_capacity", "4"});
-      if (want_scales) room.resize(c, found.scales, {"joint_capacity", "3"});
-      room.resize(c, found.vertex_joints, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.vertex_weights, {"vertex_capacity", "influence_count"});
+      room.begin(c);
       skin.joint_capacity = room.get("joint_capacity");
       skin.vertex_capacity = room.get("vertex_capacity");
-      skin.pivots = room.at(found.pivots);
-      skin.rotations = room.at(found.rotations);
-      skin.translations = room.at(found.translations);
-      skin.axes = room.at(found.axes);
-      skin.scales = room.at(found.scales);
-      skin.vertex_joints = room.at(found.vertex_joints);
-      skin.vertex_weights = room.at(found.vertex_weights);
       room.code = hf_transfer_get_skin(get(), &skin);
     } while (!room.enough(c, {{"joint_capacity", skin.joint_count}, {"vertex_capacity", skin.vertex_count},
         {"joint_count", skin.joint_count}, {"vertex_count", skin.vertex_count}}));
     found.influence_count = skin.influence_count;
-    found.pivots.resize(c.product({"joint_capacity", "3"}));
-    found.rotations.resize(c.product({"joint_capacity", "4"}));
-    found.translations.resize(c.product({"joint_capacity", "3"}));
-    found.axes.resize(c.product({"joint_capacity", "4"}));
-    if (want_scales) found.scales.resize(c.product({"joint_capacity", "3"}));
-    found.vertex_joints.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.vertex_weights.resize(c.product({"vertex_capacity", "influence_count"}));
     return found;
   }
 
@@ -3354,23 +3252,16 @@ class Weights {
     auto weights = make<hf_weights_out>();
     Room room({{"vertex_capacity", c.size("vertex_count")}});
     WeightsOut found;
+    room.array(found.joints, {"vertex_capacity", "influence_count"}, &weights.joints);
+    room.array(found.weights, {"vertex_capacity", "influence_count"}, &weights.weights);
+    room.array(found.origins, {"vertex_capacity"}, &weights.origins);
     do {
-      room.begin(c, {{"vertex_capacity", "influence_count"}, {"vertex_capacity", "influence_count"},
-          {"vertex_capacity"}});
-      room.resize(c, found.joints, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.weights, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.origins, {"vertex_capacity"});
+      room.begin(c);
       weights.vertex_capacity = room.get("vertex_capacity");
-      weights.joints = room.at(found.joints);
-      weights.weights = room.at(found.weights);
-      weights.origins = room.at(found.origins);
       room.code = hf_weights_get(get(), &weights);
     } while (!room.enough(c, {{"vertex_capacity", weights.vertex_count}, {"vertex_count", weights.vertex_count},
         {"influence_count", weights.influence_count}}));
     found.influence_count = weights.influence_count;
-    found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.origins.resize(c.product({"vertex_capacity"}));
     return found;
   }
 
@@ -3382,14 +3273,12 @@ class Weights {
     Room room({{"capacity", -1}});
     std::vector<uint32_t> flags;
     std::vector<uint32_t> vertex_counts;
+    room.array(flags, {"capacity"});
+    room.array(vertex_counts, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}, {"capacity"}});
-      room.resize(c, flags, {"capacity"});
-      room.resize(c, vertex_counts, {"capacity"});
+      room.begin(c);
       room.code = hf_weights_get_joints(get(), room.get("capacity"), room.at(flags), room.at(vertex_counts), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    flags.resize(c.product({"capacity"}));
-    vertex_counts.resize(c.product({"capacity"}));
     return {std::move(flags), std::move(vertex_counts)};
   }
 
@@ -3420,12 +3309,11 @@ class Weights {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<uint32_t> reasons;
+    room.array(reasons, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, reasons, {"capacity"});
+      room.begin(c);
       room.code = hf_weights_get_helpers(get(), c.text(names), room.get("capacity"), room.at(reasons), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    reasons.resize(c.product({"capacity"}));
     return reasons;
   }
 
@@ -3446,23 +3334,16 @@ class Weights {
     auto weights_ = make<hf_weights_out>();
     Room room({{"vertex_capacity", c.size("vertex_count")}});
     WeightsOut found;
+    room.array(found.joints, {"vertex_capacity", "influence_count"}, &weights_.joints);
+    room.array(found.weights, {"vertex_capacity", "influence_count"}, &weights_.weights);
+    room.array(found.origins, {"vertex_capacity"}, &weights_.origins);
     do {
-      room.begin(c, {{"vertex_capacity", "influence_count"}, {"vertex_capacity", "influence_count"},
-          {"vertex_capacity"}});
-      room.resize(c, found.joints, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.weights, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.origins, {"vertex_capacity"});
+      room.begin(c);
       weights_.vertex_capacity = room.get("vertex_capacity");
-      weights_.joints = room.at(found.joints);
-      weights_.weights = room.at(found.weights);
-      weights_.origins = room.at(found.origins);
       room.code = hf_weights_transfer(source.get(), target.get(), &desc, &weights_, info);
     } while (!room.enough(c, {{"vertex_capacity", weights_.vertex_count}, {"vertex_count", weights_.vertex_count},
         {"influence_count", weights_.influence_count}}));
     found.influence_count = weights_.influence_count;
-    found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.origins.resize(c.product({"vertex_capacity"}));
     return found;
   }
 
@@ -3487,24 +3368,17 @@ class Weights {
     std::vector<uint32_t> pairings(c.product({"joint_count"}));
     Room room({{"vertex_capacity", c.size("vertex_count")}});
     WeightsOut found;
+    room.array(found.joints, {"vertex_capacity", "influence_count"}, &weights_.joints);
+    room.array(found.weights, {"vertex_capacity", "influence_count"}, &weights_.weights);
+    room.array(found.origins, {"vertex_capacity"}, &weights_.origins);
     do {
-      room.begin(c, {{"vertex_capacity", "influence_count"}, {"vertex_capacity", "influence_count"},
-          {"vertex_capacity"}});
-      room.resize(c, found.joints, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.weights, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.origins, {"vertex_capacity"});
+      room.begin(c);
       weights_.vertex_capacity = room.get("vertex_capacity");
-      weights_.joints = room.at(found.joints);
-      weights_.weights = room.at(found.weights);
-      weights_.origins = room.at(found.origins);
       room.code = hf_weights_mirror(surface.get(), &desc, &weights_, partners_.data(), pairings.data(), info,
           statistics);
     } while (!room.enough(c, {{"vertex_capacity", weights_.vertex_count}, {"vertex_count", weights_.vertex_count},
         {"influence_count", weights_.influence_count}}));
     found.influence_count = weights_.influence_count;
-    found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.origins.resize(c.product({"vertex_capacity"}));
     return {std::move(found), std::move(partners_), std::move(pairings)};
   }
 
