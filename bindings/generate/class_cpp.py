@@ -207,17 +207,17 @@ class Steps:
         mine = {name: f"found.{name}" if into else safe(name) for name, _, _ in arrays}
         lines += [f"{camel(named(self.w.api['structs'], self.w.struct_of(self.plan, into))['name'])} found;"] if into else [
             f"std::vector<{item['type']}> {safe(name)};" for name, item, _ in arrays]
-        lines += ["do {", "  room.begin(c, {" + ", ".join(self.dims(item["dims"]) for _, item, _ in arrays) + "});"]
-        lines += [("  " + (f"if (want_{name}) " if on_request else "")) + f"room.resize(c, {mine[name]}, {self.dims(item['dims'])});" for name, item, on_request in arrays]
-        if into:
-            lines += [f'  {safe(into)}.{key} = room.get("{key}");' for key, _ in rooms]
-            lines += [f"  {safe(into)}.{name} = room.at({mine[name]});" for name, _, _ in arrays]
+        for name, item, on_request in arrays:
+            place = f", &{safe(into)}.{name}" if into else ", nullptr" * on_request
+            lines.append(f"room.array({mine[name]}, {self.dims(item['dims'])}{place}{f', want_{name}' * on_request});")
+        lines += ["do {", "  room.begin(c);"]
+        lines += [f'  {safe(into)}.{key} = room.get("{key}");' for key, _ in rooms if into]
         told = ", ".join(f'{{"{key}", {safe(var)}{("->" if self.is_pointer(var) else ".") + field if field else ""}}}' for key, var, field in tell)
         lines += [f"  room.code = {self.called(function, values)};", f"}} while (!room.enough(c, {{{told}}}));"]
         if into:
             struct = self.w.structs[self.w.struct_of(self.plan, into)]
             lines += [f"found.{safe(f['name'])} = {safe(into)}.{safe(f['name'])};" for f in self.w.figures_of(struct)]
-        return lines + [("" if not on_request else f"if (want_{name}) ") + f"{mine[name]}.resize(c.product({self.dims(item['dims'])}));" for name, item, on_request in arrays]
+        return lines
 
     def is_pointer(self, var):
         return any(a.name == var and a.role == "info" for a in self.plan.arguments)
@@ -362,7 +362,7 @@ class Writer(class_rust.Writer):
         names = [{"out": "out.data()", "size": "out.size()"}.get(n, n) for n in names]
         body += [f"std::vector<{kind}> out(c.product({steps.dims(dims)}));", f"{title(m)}_into({', '.join(names)});", "return out;"]
         head = f"std::vector<{kind}> {title(m)}{'_f64' * double}({signature}){'' if self.changes(m) else ' const'} {{"
-        words = method_words(plan, "Fails with") if not double else f"The same in double."
+        words = method_words(plan, "Fails with", options=self.fields_of(self.structs[m.flat[0]["type"]]) if m.flat else ()) if not double else f"The same in double."
         return self.doc(words, 2) + fold(head, 2, 4) + indented(body, 4) + ["  }"]
 
     def one(self, plan, into):
@@ -388,7 +388,7 @@ class Writer(class_rust.Writer):
         if results:
             text = ", ".join(e for e, _ in results)
             body.append(f"return {re.sub(r'^std::move.(.*).$', chr(92) + '1', text)};" if len(results) == 1 else f"return {{{text}}};")
-        words = method_words(plan, "Fails with") if not into else f"As {title(m)}, into memory of yours."
+        words = method_words(plan, "Fails with", options=self.fields_of(self.structs[m.flat[0]["type"]]) if m.flat else ()) if not into else f"As {title(m)}, into memory of yours."
         return self.doc(words, 2) + fold(f"{head}({signature}){end} {{", 2, 4) + indented(body, 4) + ["  }"]
 
     def class_of(self, handle, methods):

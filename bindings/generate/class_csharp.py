@@ -260,6 +260,8 @@ class Writer:
         return named(self.api["functions"], name)
 
     def doc(self, text, indent):
+        if re.fullmatch(r"HF_[A-Z_]+_\*", text):  # the type says it
+            return []
         pad, said = " " * indent + "/// ", self.words.say(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
         lines = wrapped(said, 112 - indent)
         lines[0] = "<summary>" + lines[0]
@@ -389,7 +391,9 @@ class Writer:
         body += ["}"] * steps.blocks
         if plan.steps[0][0] != "returns":
             body = [f"using (var c = new Call({'this' if m.own and m.kind != 'create' else 'null'}))", "{", *body, "}"]
-        lines = self.doc(method_words(plan, "Throws", lower), 8) + fold(signature, 8)
+        as_other = ["in double precision"] * bool(suffix) + ["into an array of yours"] * bool(into)
+        words = f"As {upper(m.title())}, {', '.join(as_other)}." if as_other else method_words(plan, "Throws", lower)
+        lines = self.doc(words, 8) + fold(signature, 8)
         lines += ["        {"] + (["            get", "            {"] if prop else [])
         lines += indented(body, 16 if prop else 12)
         return lines + (["            }"] if prop else []) + ["        }"]

@@ -215,6 +215,8 @@ class Writer(Types):
 
     def doc(self, text, indent):
         pad = " " * indent
+        if not text:
+            return []
         lines = wrapped(self.words.say(text), 112 - indent)
         return [f"{pad}/** {lines[0]} */"] if len(lines) == 1 else [f"{pad}/**", *[f"{pad} * {line}".rstrip() for line in lines], f"{pad} */"]
 

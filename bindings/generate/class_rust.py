@@ -322,8 +322,7 @@ class Writer:
             out += [f'            "{f["name"]}" => self.{safe(f["name"])} = Option::fit(name, value)?,' for f in numbers]
             out += ["            _ => return Err(unknown(name)),", "        }", "        Ok(())", "    }", ""]
             out = [line.replace("Option::fit", "Number::fit") for line in out]
-        out += ["    #[allow(unused_variables, unused_mut, clippy::all)]",
-                *fold(f"pub(crate) fn fill(&self, c: &mut Call, prefix: &str{given}) -> Result<raw::{struct.name}> {{", 4)]
+        out += fold(f"pub(crate) fn fill(&self, c: &mut Call, prefix: &str{given}) -> Result<raw::{struct.name}> {{", 4)
         out += indented(body + ["Ok(desc)"], 8) + ["    }", "}"]
         return out
 
@@ -445,10 +444,10 @@ class Writer:
         if not makes and not plain:
             expressions = [e for e, _ in results]
             body.append("Ok(())" if not expressions else f"Ok({expressions[0]})" if len(expressions) == 1 else f"Ok(({', '.join(expressions)}))")
-        words = method_words(plan, "Fails with")
+        words = method_words(plan, "Fails with", options=self.fields_of(self.structs[m.flat[0]["type"]]) if m.flat else ())
         if into:
             words = f"As `{m.title()}`, into a slice of yours." + ("" if not told else f" Returns the figures of the call.")
-        return self.doc(words, 4) + ["    #[allow(unused_mut, unused_variables, clippy::all)]", *fold(head, 4), *indented(body, 8), "    }"]
+        return self.doc(words, 4) + [*fold(head, 4), *indented(body, 8), "    }"]
 
     def class_of(self, handle, methods):
         name = camel(handle["name"])
@@ -478,6 +477,7 @@ class Writer:
         options = [line for name, s in self.structs.items() if name in taken and s.asked() for line in self.options(s)]
         results = [line for item in self.results.values() for line in self.result_class(item)]
         head = ["// Generated from include/hf/*.h by bindings/generate; do not edit.", "//! The objects, their options and results.",
+                "#![allow(unused_mut, unused_variables, clippy::all)]",
                 "use crate::call::{known, object, unknown, Call, Indices, Number, Reals, Room};",
                 "use crate::core::{check, of_length, start_of, Real, TryClone};", "use crate::{raw, Result};"]
         return "\n".join(head + options + results + bodies) + "\n"

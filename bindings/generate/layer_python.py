@@ -1,5 +1,7 @@
 """bindings/python/hf/_raw.py: ctypes structures, prototypes and constants."""
 
+import textwrap
+
 from comments import first_sentence
 from layout import is_pointer
 
@@ -58,8 +60,8 @@ def write(api):
         if struct["doc"]:
             out.append(f'    """{first_sentence(struct["doc"])}"""')
         out += [f"    {f['name']}: {hint(api, f)}" for f in struct["fields"]]
-        out += ["    _fields_ = [", *[f"        (\"{f['name']}\", {ctype(api, f)})," for f in struct["fields"]],
-            "    ]", ""]
+        pairs = ", ".join(f"(\"{f['name']}\", {ctype(api, f)})" for f in struct["fields"])
+        out += [*textwrap.wrap(f"_fields_ = [{pairs}]", 118, initial_indent="    ", subsequent_indent="                "), ""]
     out += ["", "STRUCTS = [" + ", ".join(s["name"] for s in api["structs"]) + "]", "",
             "# name: (result type, argument types); every pointer and handle is a c_void_p", "PROTOTYPES = {"]
     for function in api["functions"]:

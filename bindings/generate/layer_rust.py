@@ -1,11 +1,56 @@
 """bindings/rust/src/raw.rs: structs of C layout, functions and constants. Counts and figures can be asked by name."""
 
+import textwrap
+
 from comments import first_sentence
 
 TYPES = {"int32_t": "i32", "uint32_t": "u32", "hf_result": "i32", "float": "f32", "double": "f64", "size_t": "usize",
     "char": "c_char", "uint8_t": "u8", "uint16_t": "u16", "int64_t": "i64", "uint64_t": "u64", "void": "c_void"}
 RESERVED = {"type", "move", "ref", "in", "where", "loop", "match", "box", "fn", "mod", "use", "self"}
 FILLED = ("_dials", "_info", "_report", "_statistics", "_certificate")  # ends of names of structs that the library fills
+
+MACROS = '''
+/// Structs of zeros with their size.
+macro_rules! sized {
+    ($($name:ident)*) => {$(
+        impl Default for $name {
+            fn default() -> Self {
+                // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+                let mut made: Self = unsafe { std::mem::zeroed() };
+                made.struct_size = std::mem::size_of::<Self>() as u32;
+                made
+            }
+        }
+    )*};
+}
+
+/// Structs of zeros.
+macro_rules! zeroed {
+    ($($name:ident)*) => {$(
+        impl Default for $name {
+            fn default() -> Self {
+                // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+                unsafe { std::mem::zeroed() }
+            }
+        }
+    )*};
+}
+
+/// Structs whose figures can be asked by name.
+macro_rules! figures {
+    ($($name:ident: $($field:ident)*;)*) => {$(
+        impl $name {
+            /// The figure of this name, for generic tools.
+            pub fn figure(&self, name: &str) -> Option<f64> {
+                Some(match name {
+                    $(stringify!($field) => f64::from(self.$field),)*
+                    _ => return None,
+                })
+            }
+        }
+    )*};
+}
+'''.strip().split("\n")
 
 
 def safe(name):
@@ -25,24 +70,21 @@ def write_struct(struct):
         kind = rust_type(f)
         whole = f"[{kind}; {f['count']}]" if f["count"] else kind
         out.append(f"    pub {safe(f['name'])}: {whole},")
-    out += ["}", f"impl Default for {struct['name']} {{", "    fn default() -> Self {",
-            "        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers."]
-    if struct["fields"][0]["name"] == "struct_size":
-        out += ["        let mut made: Self = unsafe { std::mem::zeroed() };",
-                "        made.struct_size = std::mem::size_of::<Self>() as u32;", "        made"]
-    else:
-        out += ["        unsafe { std::mem::zeroed() }"]
-    out += ["    }", "}"]
-    figures = [f for f in struct["fields"] if f["type"] in ("int32_t", "uint32_t", "float", "double") and not f["pointer"]
-               and not f["count"]]
-    if struct["name"].endswith(FILLED) and not any(f["pointer"] for f in struct["fields"]):
-        out += [f"impl {struct['name']} {{", "    /// The figure of this name, for generic tools.",
-                "    pub fn figure(&self, name: &str) -> Option<f64> {", "        Some(match name {"]
-        for f in figures:
-            value = f"self.{safe(f['name'])}"
-            out.append(f'            "{f["name"]}" => {value if f["type"] == "double" else f"f64::from({value})"},')
-        out += ["            _ => return None,", "        })", "    }", "}"]
-    return out
+    return out + ["}"]
+
+
+def figures_of(struct):
+    """Names of the numbers of a struct that the library fills."""
+    if not struct["name"].endswith(FILLED) or any(f["pointer"] for f in struct["fields"]):
+        return []
+    return [f["name"] for f in struct["fields"] if f["type"] in ("int32_t", "uint32_t", "float", "double") and not f["count"]]
+
+
+def macro(name, rows):
+    lines = [f"{name}! {{"]
+    for row in rows:
+        lines += textwrap.wrap(row, 116, initial_indent="    ", subsequent_indent="        ")
+    return ["", *lines, "}"]
 
 
 def write(api):
@@ -58,6 +100,10 @@ def write(api):
                 f"pub type {handle['name']} = *mut {handle['object']};"]
     for struct in api["structs"]:
         out += [""] + write_struct(struct)
+    sized = [s["name"] for s in api["structs"] if s["fields"][0]["name"] == "struct_size"]
+    out += ["", *MACROS]
+    out += macro("sized", [" ".join(sized)]) + macro("zeroed", [" ".join(s["name"] for s in api["structs"] if s["name"] not in sized)])
+    out += macro("figures", [f"{s['name']}: {' '.join(figures_of(s))};" for s in api["structs"] if figures_of(s)])
     out += ["", 'extern "C" {']
     for function in api["functions"]:
         parameters = ", ".join(f"{safe(p['name'])}: {rust_type(p)}" for p in function["parameters"])

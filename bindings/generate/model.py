@@ -84,6 +84,7 @@ def look_at_struct(api, struct, enums, problems):
     where, fields = struct["name"], struct["fields"]
     if len(fields) > MOST_FIELDS and WHY_MORE not in struct["doc"]:
         problems.append(f"{where}: {len(fields)} fields. Split it, or say in its comment why not: {WHY_MORE} ...")
+    struct["doc"] = re.sub(rf"\s*{WHY_MORE}.*?\.(?=\s|$)", "", struct["doc"])  # it is about C
     counted = set().union(*(symbols(f["dims"]) | symbols(sum(f["without"].values(), [])) for f in fields if f["const"]), set())
     twins(fields)
     for field in fields:

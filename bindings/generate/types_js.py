@@ -74,11 +74,11 @@ class Types:
         for name, struct in self.structs.items():
             fields = [f for f in struct.struct["fields"] if f["role"] not in ("size", "reserved", "callback", "handle", "struct", "bytes", "stride", "capacity") and not f["twin_of"]]
             if (struct.struct["used"] in ("out", "plain", "inout") or struct.struct.get("written")) and fields and name != "hf_error_detail":
-                out += [""] + (self.doc(struct.struct["doc"], 0) if struct.struct["doc"] else []) + [f"export interface {camel(name)} {{"]
+                out += ["", *self.doc(struct.struct["doc"], 0)] + [f"export interface {camel(name)} {{"]
                 for f in fields:
                     if f["role"] == "array" and f["const"] or (struct.struct["used"] == "inout" and f["direction"] == "in"):
                         continue
-                    out += self.doc(re.sub(r"^out[:;]?\s*", "", f["doc"]), 2) if f["doc"] else []
+                    out += self.doc(re.sub(r"^out[:;]?\s*", "", f["doc"]), 2)
                     out.append(f"  {js(f['name'])}{'?' if f in struct.on_request else ''}: {self.field_hint(f)};")
                 out.append("}")
         inner = {f["type"] for s in self.structs.values() for f in s.inner}
@@ -87,9 +87,9 @@ class Types:
             for f, first in self.structs[name].asked():
                 planner.field(self.structs[name], f, first)
             self.both = False
-            out += ["", *(self.doc(self.structs[name].struct["doc"], 0) if self.structs[name].struct["doc"] else []), f"export interface {camel(name)}Given {{"]
+            out += ["", *self.doc(self.structs[name].struct["doc"], 0), f"export interface {camel(name)}Given {{"]
             for a in planner.arguments:
-                out += (self.doc(a.doc, 2) if a.doc else []) + [f"  {js(a.name)}?: {self.hint(a)};"]
+                out += self.doc(a.doc, 2) + [f"  {js(a.name)}?: {self.hint(a)};"]
             out.append("}")
         for name, (handle, methods, plans, told, counts) in self.methods.items():
             out += ["", *self.doc(class_words(handle, methods, self.structs, js), 0), f"export interface {name} extends {'Recorded' if recorded(methods) else 'Handle'} {{"]

@@ -57,9 +57,10 @@ def fold(text, indent, deeper=8):
     return lines
 
 
-def method_words(plan, raises, shown=str):
-    """What a method's documentation says: prose, a line for each argument, errors."""
-    said = [f"{shown(a.name)}: {re.sub(r'^NULL, or ', '', a.doc)}" for a in plan.arguments if a.doc]
+def method_words(plan, raises, shown=str, options=()):
+    """What a method's documentation says: prose, a line for each argument, errors. Fields of options say theirs themselves."""
+    apart = [f["name"] for f in options]
+    said = [f"{shown(a.name)}: {re.sub(r'^NULL, or ', '', a.doc)}" for a in plan.arguments if a.doc and not (a.struct and a.name in apart)]
     errors = plan.method.function["errors"]
     parts = [plan.method.prose(), "\n".join(said), raises + " " + ", ".join(errors) + "." if errors else ""]
     return "\n\n".join(part for part in parts if part)

@@ -9,18 +9,20 @@
  * - Output arrays: you pass a capacity and read a count. A call that fails with HF_ERROR_TOO_SMALL writes the count
  *   too. To ask for the count alone, pass NULL arrays; such a call succeeds. Arrays with one row for each vertex of the
  *   mesh, or for each entry of an input list, take no capacity: their comment gives the length.
- * - Arrays that your vertex buffers hold go in and out as hf_array and hf_array_out: with a stride, in single or double
- *   precision, indices in 32 or 16 bits. The comment of such an array gives its rows, the numbers in a row, its types.
+ * - An hf_array views an array of yours, such as an attribute of a vertex buffer. An hf_array_out views an array that
+ *   the library writes. Rows can have a stride. Numbers are float or double, indices are uint32_t or uint16_t. The
+ *   comment of an hf_array gives its rows, the numbers per row and the types it can have.
  * - Flags are int32_t: 0 is no, 1 is yes.
  * - Threads can use different objects at once. Functions that "read" an object can run on that object at the same time.
  *   A call on an object that another thread is just changing returns HF_ERROR_BUSY.
  *
- * Some error codes are not repeated at each function. Every function with such an argument can return them:
- * HF_ERROR_INVALID_OBJECT, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_BUSY, HF_ERROR_REENTRANT,
- * HF_ERROR_OUT_OF_MEMORY, HF_ERROR_TOO_SMALL (a stride below the size of a row, a capacity or an hf_array_out below the
- * count), HF_ERROR_INVALID_ARGUMENT (an hf_array of a type or a count that its comment does not give), HF_ERROR_EMPTY
- * (a list of no entries). The `index` of the error detail is the position in the list, unless the function says
- * otherwise.
+ * Some errors are not repeated at each function. Every function with such an argument can return them:
+ * - HF_ERROR_INVALID_OBJECT, HF_ERROR_NULL_POINTER, HF_ERROR_INVALID_DESC, HF_ERROR_BUSY, HF_ERROR_REENTRANT and
+ *   HF_ERROR_OUT_OF_MEMORY.
+ * - HF_ERROR_TOO_SMALL: a stride is below the size of a row. Or a capacity or an hf_array_out is below the count.
+ * - HF_ERROR_INVALID_ARGUMENT: an hf_array has a type or a count that its comment does not give.
+ * - HF_ERROR_EMPTY: a list has no entries.
+ * The `index` of the error detail is the position in the list, unless the function says otherwise.
  *
  * The library prints nothing and keeps no global state but its table of objects. It starts no more threads than
  * thread_count allows. It leaves the floating-point environment, locale, signals and rand() of the host as they were.
@@ -106,15 +108,16 @@ enum {
 
 /* ---- arrays ---- */
 
-/* Selects the numbers of an array. */
+/* Selects the type of the numbers in an array. */
 enum hf_type {
-  HF_TYPE_PLAIN = 0,  /* float, or uint32_t where the array holds indices */
-  HF_TYPE_DOUBLE = 1, /* instead of float */
-  HF_TYPE_UINT16 = 2  /* instead of uint32_t */
+  HF_TYPE_PLAIN = 0,  /* float; uint32_t in an array of indices */
+  HF_TYPE_DOUBLE = 1, /* double instead of float */
+  HF_TYPE_UINT16 = 2  /* uint16_t instead of uint32_t */
 };
 
 /* An array of yours that the library reads: packed numbers, an attribute of a vertex buffer, an accessor of glTF. The
- * data can have any alignment. NULL and a count of 0: no array. HF_ARRAY fills it for packed rows. */
+ * library reads it during the call only. The data can have any alignment. NULL data with a count of 0 means no array.
+ * HF_ARRAY fills the struct for packed rows. */
 typedef struct hf_array {
   const void* data;
   uint32_t count;    /* rows */
@@ -123,7 +126,8 @@ typedef struct hf_array {
   uint32_t reserved; /* 0 */
 } hf_array;
 
-/* An array of yours that the library writes; otherwise as hf_array. It can have more rows than are written. */
+/* An array of yours that the library writes. Its rules are the rules of hf_array. It can have more rows than the
+ * library writes. HF_ARRAY_OUT fills the struct for packed rows. */
 typedef struct hf_array_out {
   void* data;
   uint32_t count;    /* rows that it has room for */
@@ -132,8 +136,8 @@ typedef struct hf_array_out {
   uint32_t reserved; /* 0 */
 } hf_array_out;
 
-/* HF_ARRAY views packed rows: desc.positions = HF_ARRAY(xyz, vertex_count). It takes the type from the pointer: float,
- * double, uint32_t or uint16_t. Set the stride afterwards where rows are not packed. */
+/* HF_ARRAY and HF_ARRAY_OUT view packed rows: desc.positions = HF_ARRAY(xyz, vertex_count). They take the type from the
+ * pointer: float, double, uint32_t or uint16_t. If rows are not packed, set the stride afterwards. */
 #define HF_TYPE_OF(numbers)                   \
   (sizeof(*(numbers)) == 4   ? HF_TYPE_PLAIN  \
    : sizeof(*(numbers)) == 8 ? HF_TYPE_DOUBLE \

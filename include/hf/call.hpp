@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -307,15 +308,21 @@ class Room {
     for (auto& [key, size] : rooms_)
       if (size < 0) size = kFirst;
   }
-  void begin(Call& c, const std::vector<Dims>& arrays) {
+  // An array to fill. place: where the struct of C has it.
+  template <class T>
+  void array(std::vector<T>& rows, Dims dims, T** place = nullptr, bool wanted = true) {
+    arrays_.push_back({std::move(dims), wanted, [&rows, place](size_t size, bool keep) {
+                         if (!keep) rows.clear();
+                         rows.resize(size);
+                         if (place) *place = rows.empty() ? nullptr : rows.data();
+                       }});
+  }
+  void begin(Call& c) {
     for (const auto& [key, size] : rooms_) c.learn(key, static_cast<size_t>(size));
     blind_ = false;
-    for (const Dims& dims : arrays)
-      for (const std::string& dim : dims) blind_ = blind_ || c.size(dim) < 0;
-  }
-  template <class T>
-  void resize(const Call& c, std::vector<T>& array, const Dims& dims) const {
-    array.assign(blind_ ? 0 : c.product(dims), T());
+    for (const Array& array : arrays_)
+      for (const std::string& dim : array.dims) blind_ = blind_ || c.size(dim) < 0;
+    fit(c, false);
   }
   uint32_t get(const std::string& name) const {
     for (const auto& [key, size] : rooms_)
@@ -335,11 +342,17 @@ class Room {
     for (const auto& [key, size] : told)
       if (done || !is_room(key)) c.learn(key, size);
     for (auto& [key, size] : rooms_) size = blind_ || of(told, key) > size ? of(told, key) : size;
+    if (done) fit(c, true);
     return done;
   }
   hf_result code = HF_OK;
 
  private:
+  struct Array {
+    Dims dims;
+    bool wanted;
+    std::function<void(size_t, bool)> resize;
+  };
   static constexpr int64_t kFirst = 1024;  // rows to try first; double clears more memory, half asks twice more often
   static int64_t of(const std::vector<std::pair<std::string, uint32_t>>& told, const std::string& name) {
     for (const auto& [key, size] : told)
@@ -351,7 +364,12 @@ class Room {
       if (key == name) return true;
     return false;
   }
+  void fit(const Call& c, bool keep) {
+    for (const Array& array : arrays_)
+      if (array.wanted) array.resize(blind_ ? 0 : c.product(array.dims), keep);
+  }
   std::vector<std::pair<std::string, int64_t>> rooms_;
+  std::vector<Array> arrays_;
   bool blind_ = false;  // asks for counts alone
 };
 

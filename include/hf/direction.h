@@ -86,8 +86,8 @@ HF_API hf_result hf_direction_get_sites(hf_direction direction, uint32_t capacit
 
 /* Writes the field as vectors in space. out_vectors: [vertex_count][3] of float or double. The vectors are tangent to
  * the surface up to 1e-12 of their length. For degree 2 or 4 the function writes one of the 2 or 4 directions.
- * Constrained vertices hold their vectors; vertices that no constraint reaches get 0. out_info: NULL, or receives what
- * the constraints did not reach. Cost: a small dense solve and one backward sweep over the factor. Errors:
+ * Constrained vertices hold their vectors; vertices that no constraint reaches get 0. out_info: NULL, or receives the
+ * counts of components without a constraint. Cost: a small dense solve and one backward sweep over the factor. Errors:
  * HF_ERROR_EMPTY. Thread safety: reads `direction`. Since 0.1. */
 HF_API hf_result hf_direction_solve(hf_direction direction, const hf_array_out* out_vectors, hf_solve_info* out_info);
 

@@ -70,28 +70,28 @@ struct Links {
   hf_links_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Faces of any number of corners. Set corners, and what your host stores: sizes (Maya, USD), starts and sizes
-// (Blender's loops), or starts as offsets (newer Blender). No field depends on how you would cut a face into triangles.
-// HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both cuts of a bent quad, and moves it towards the polygon Laplacian
-// of Bunge and others 2020 until a weight would become negative. docs/studies/polygons.md compares errors.
-// HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian, HF_OPERATOR_UNIFORM the sides of the
-// faces. Directions, distances, iso-lines, streamlines and quads work on a cut of the library. It does not depend on
-// the order of the corners. Where this interface names a triangle, it names the face then. Normals of poses are sums of
-// the area vectors of faces.
+// Faces of any number of corners. Set corners, and the arrays that your host stores: sizes alone (Maya, USD), starts
+// and sizes (Blender's loops), or starts alone as offsets (newer Blender). Where this interface names a triangle of
+// such a mesh, it names a face.
+//
+// No field depends on how you would cut a face into triangles. HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both
+// cuts of a bent quad. It moves this mean towards the polygon Laplacian of Bunge and others 2020 until a weight would
+// become negative; docs/studies/polygons.md compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED use that
+// polygon Laplacian. HF_OPERATOR_UNIFORM uses the sides of the faces. Directions, distances, iso-lines, streamlines and
+// quads work on triangles: the library cuts the faces. Its cut does not depend on the order of the corners. Normals of
+// poses are sums of the area vectors of faces.
 struct Faces {
   // `[corner_count]` of uint32_t: vertices, counter-clockwise seen from outside
   std::vector<uint32_t> corners{};
-  // none, or `[faces]` of uint32_t: corners of each face, 3 to 65,535. none: starts are enough
+  // none, or `[faces]` of uint32_t: corners of each face, 3 to 65,535. none: starts give them
   std::vector<uint32_t> sizes{};
   // none, or `[faces]` of uint32_t: first corner of each face. none: the faces follow one another. Without sizes
-  // `[faces + 1]`: the corners of face f end where those of f + 1 start
+  // `[faces + 1]`: the corners of face f end where face f + 1 starts
   std::vector<uint32_t> starts{};
   hf_faces_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// The mesh and the options of a surface. Set triangles or faces.
-//
-// More than 16 fields: limits and hooks stand here one by one, since languages pass them by name.
+// The mesh and the options of a surface. Set either triangles or faces.
 struct SurfaceOptions {
   // HF_WELD_*
   int32_t weld = 0;
@@ -128,11 +128,10 @@ struct SurfaceOptions {
 };
 
 // A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
-// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of SurfaceOptions. More than 16
-// fields: they mirror SurfaceOptions.
+// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). Limits and hooks are as in SurfaceOptions.
 struct GraphOptions {
   // none, or `[vertex_count]` of float or double: M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none:
-  // all 1. A mass below 1e-4 of the mean of its component counts as that
+  // all 1. A mass below 1e-4 of the mean of its component is raised to it
   Reals masses{};
   // >= 1, also without masses
   uint32_t vertex_count = 0;
@@ -166,7 +165,7 @@ struct PickOptions {
   // none, or `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). none: the rest
   // positions
   Reals positions{};
-  // 1: a ray passes triangles seen from behind
+  // 1: a ray passes through triangles seen from behind
   bool front_only = false;
   hf_pick_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
@@ -183,10 +182,10 @@ struct SolverOptions {
   hf_solver_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site has.
-// Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh spacing
-// still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary vertices
-// of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
+// Places and values of sites. Set one of vertices, places and points. The finer the mesh, the less influence a point
+// site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh
+// spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary
+// vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
 struct Sites {
   // `[site_count]` vertices as given, or none
   std::vector<uint32_t> vertices{};
@@ -267,9 +266,8 @@ struct PoseOptions {
   hf_pose_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// The handles to add. Give their regions as vertex lists one after the other, or as places with radii: set
-// region_vertices, vertices, places or points. The region of a place is its nearest vertex and what is edge-connected
-// to it within the radius.
+// The handles to add. Set region_counts and region_vertices, or radii and one of vertices, places and points. The
+// region of a place is its nearest vertex, and all vertices that are edge-connected to it within the radius.
 struct HandlesOptions {
   // `[handle_count]` vertices as given, or none
   std::vector<uint32_t> vertices{};
@@ -332,8 +330,7 @@ struct HandleProposalsOptions {
   hf_handle_proposals_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals. More than 16
-// fields: creases, guides and irregular vertices are lists with their counts.
+// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals.
 struct QuadsOptions {
   // `[crease_count x 2]` the two vertices of each edge, as given
   std::vector<uint32_t> crease_edges{};
@@ -370,8 +367,8 @@ struct QuadsOptions {
 };
 
 struct RegionOptions {
-  // none, or `[vertex_count x 3]` of float or double: the surface of weight 0, bit for bit, as the positions of the
-  // mesh or any pose of them. none: the mesh's own to 1e-15 of the box. Copied
+  // none, or `[vertex_count x 3]` of float or double: positions of the mesh or of a pose. Weight 0 gives the same bits.
+  // none: the positions of the mesh, to 1e-15 of the box. The call copies them
   Reals positions{};
   // HF_BASE_*. If the surface has no factor for it yet, it is made now
   int32_t base = 0;
@@ -380,11 +377,11 @@ struct RegionOptions {
   hf_region_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The vertices
-// on its chosen side are the region, and any single vertex that these surround but for one edge. The rim is the
-// vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along
-// edges the rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a
-// vertex at most 8 times.
+// Describes a closed curve through at least 3 points, on the mesh at rest. Set one of vertices, places and points. The
+// vertices on the chosen side of the curve are the region. A single vertex joins the region too if all its neighbours
+// but one are in it. The rim is the vertices next to the region, on or beyond the curve. It follows the curve within an
+// edge; where the curve runs along edges, the rim is the curve. A whole border of the surface is a curve too; it has
+// only one side. The curve passes a vertex at most 8 times.
 struct Curve {
   // `[point_count]` vertices as given, or none
   std::vector<uint32_t> vertices{};
@@ -497,8 +494,8 @@ struct SkeletonOptions {
 // most pairs of a transfer
 struct TransferOptions {
   // none, or `[source.vertex_count x 3]` of float or double Poses in which the two bodies correspond, in each surface's
-  // unit, read by the call, or none for the positions of the surface. A character bound in a crouch gets a standing
-  // pose here. Motion counts from these poses; the fields stay those of the surfaces.
+  // unit. none: the positions of the surface. Give a standing pose here for a character bound in a crouch. Motion is
+  // measured from these poses. They do not change the fields.
   Reals source_rest{};
   // none, or `[target.vertex_count x 3]` of float or double
   Reals target_rest{};
@@ -510,8 +507,8 @@ struct TransferOptions {
   int32_t ground = 0;
   // width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is more, up to 0.12
   double kernel_width = 0;
-  // lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no pair is a
-  // foot
+  // lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no pair is
+  // a foot
   double scale = 0;
   // A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times the angle it is not
   // aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
@@ -588,7 +585,7 @@ struct Joints {
   hf_joints_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
 };
 
-// Places with given weights. Set vertices, places or points. Give every vertex of a painted region to keep its weights.
+// Places with given weights. Set one of vertices, places and points. To keep a painted region, pin all its vertices.
 struct Pins {
   // `[pin_count]`, or none
   std::vector<hf_place> places{};
@@ -824,23 +821,6 @@ class Surface {
   //
   // positions: `[vertex_count x 3]` of float or double, any unit, any offset
   // triangles: `[triangle_count x 3]` of uint32_t or uint16_t, counter-clockwise seen from outside
-  // weld: HF_WELD_*
-  // faces: faces instead of triangles
-  // weld_tolerance: for HF_WELD_TOLERANCE, in the unit of the positions, > 0
-  // operator_kind: HF_OPERATOR_*
-  // field_kind: HF_FIELD_*: the factor made now. Others are made when a solver or region asks
-  // ordering: HF_ORDERING_*
-  // thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
-  // vertex_limit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles or
-  // edges are always refused
-  // triangle_limit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the vertex
-  // limit
-  // memory_limit_mb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
-  // work_limit_gflop: refuse a factorisation of more than this many 10^9 operations. They are counted before it begins;
-  // 0 = 100,000, about an hour of one core
-  // progress: an object to poll and cancel through
-  // saved_factor: the saved factor of this mesh; ordering is then 0 or the factor's
-  // links: none: HF_LINK_NONE. A saved factor needs the links it was made with
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -858,27 +838,13 @@ class Surface {
   // geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening,
   // and sites at places, at points or on discs.
   //
-  // A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
-  // median of their component are limited; hf_mesh_statistics counts their vertices as changed. Bi-harmonic fields
-  // limit weights to 1e3 times the median.
+  // A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from the median
+  // of their component by a factor above 1e30 are limited; hf_mesh_statistics counts their vertices as changed. Bi-
+  // harmonic fields limit weights to 1e3 times the median.
   //
   // edges: `[edge_count x 2]` of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are added
   // up. Self loops are ignored
   // weights: `[edge_count]` of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left out
-  // masses: `[vertex_count]` of float or double: M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; none: all
-  // 1. A mass below 1e-4 of the mean of its component counts as that
-  // vertex_count: >= 1, also without masses
-  // allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of tetrahedra
-  // do. A field can then leave the range of its sites. 0: they are refused
-  // field_kind: HF_FIELD_*: the factor made now. Others are made when a solver asks
-  // ordering: HF_ORDERING_*
-  // thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
-  // vertex_limit: refuse larger graphs before allocating; 0 = 20,000,000
-  // edge_limit: refuse more edges; 0 = sixteen per vertex of the vertex limit
-  // memory_limit_mb: refuse to hold more memory than this, in MiB; 0 = no limit
-  // work_limit_gflop: refuse a factorisation of more than this many 10^9 operations; 0 = 100,000
-  // progress: an object to poll and cancel through
-  // saved_factor: the saved factor of this graph; ordering is then 0 or the factor's
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -921,12 +887,11 @@ class Surface {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<uint32_t> components;
+    room.array(components, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, components, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_get_components(get(), room.get("capacity"), room.at(components), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    components.resize(c.product({"capacity"}));
     return components;
   }
 
@@ -946,12 +911,11 @@ class Surface {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_link> links;
+    room.array(links, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, links, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_get_links(get(), room.get("capacity"), room.at(links), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    links.resize(c.product({"capacity"}));
     return links;
   }
 
@@ -963,22 +927,19 @@ class Surface {
     Room room({{"capacity", -1}});
     std::vector<uint32_t> pieces;
     std::vector<int32_t> light;
+    room.array(pieces, {"capacity"});
+    room.array(light, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}, {"capacity"}});
-      room.resize(c, pieces, {"capacity"});
-      room.resize(c, light, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_get_pieces(get(), room.get("capacity"), room.at(pieces), room.at(light), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    pieces.resize(c.product({"capacity"}));
-    light.resize(c.product({"capacity"}));
     return {std::move(pieces), std::move(light)};
   }
 
   // Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends
   // are apart than at rest, and 0 if they are nearer.
   //
-  // positions: `[vertex_count x 3]` of float or double: those of a pose, a frame of a transfer, or any other
-  // deformation.
+  // positions: `[vertex_count x 3]` of float or double: the deformed mesh, from a pose, a transfer or any other source.
   // info: filled in when given
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -989,30 +950,17 @@ class Surface {
     if (!info) info = &info_;
     Room room({{"capacity", -1}});
     std::vector<double> gaps;
+    room.array(gaps, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, gaps, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_measure_gaps(get(), &positions_, room.get("capacity"), room.at(gaps), info);
     } while (!room.enough(c, {{"capacity", info->link_count}}));
-    gaps.resize(c.product({"capacity"}));
     return gaps;
   }
 
   // Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old one
   // where its matrix has the same pattern: other stiffness, weights or light pieces.
   //
-  // joints: `[vertex_count x influence_count]` of a skin: pieces of the same joint link sooner
-  // weights: `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
-  // tags: `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
-  // counts
-  // links: `[link_count]`
-  // light_vertices: `[light_count]`: their pieces are light
-  // heavy_vertices: `[heavy_count]`: their pieces are not, as one that gets a site or handle
-  // mode: HF_LINK_*
-  // distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
-  // stiffness: of all links, times each one's weight; 0 = 1
-  // overlay_distance: automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of the
-  // diagonal, below 0: no piece is light unless light_vertices say so
   // progress: an object to poll and cancel through.
   //
   // Fails with HF_ERROR_CANCELLED.
@@ -1054,9 +1002,6 @@ class Surface {
   //
   // origin: `[3]` in the frame of the positions; the direction can have any length above 0.
   // direction: `[3]` in the frame of the positions; the direction can have any length above 0.
-  // positions: `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). none: the rest
-  // positions
-  // front_only: 1: a ray passes triangles seen from behind
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
   hf_hit cast_ray(const std::vector<double>& origin, const std::vector<double>& direction,
@@ -1073,9 +1018,6 @@ class Surface {
   // Finds the vertex nearest to a point.
   //
   // point: `[3]` in the frame of the positions.
-  // positions: `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). none: the rest
-  // positions
-  // front_only: 1: a ray passes triangles seen from behind
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
   std::tuple<uint32_t, double> find_vertex(const std::vector<double>& point, const PickOptions& options = {}) const {
@@ -1129,31 +1071,18 @@ class Surface {
     auto lines = make<hf_isolines>();
     Room room({{"point_capacity", -1}, {"line_capacity", -1}});
     Isolines found;
+    room.array(found.point_edges, {"point_capacity", "2"}, &lines.point_edges);
+    room.array(found.parameters, {"point_capacity"}, &lines.parameters);
+    room.array(found.positions, {"point_capacity", "3"}, &lines.positions);
+    room.array(found.line_starts, {"line_capacity + 1"}, &lines.line_starts);
+    room.array(found.line_levels, {"line_capacity"}, &lines.line_levels);
+    room.array(found.line_closed, {"line_capacity"}, &lines.line_closed);
     do {
-      room.begin(c, {{"point_capacity", "2"}, {"point_capacity"}, {"point_capacity", "3"}, {"line_capacity + 1"},
-          {"line_capacity"}, {"line_capacity"}});
-      room.resize(c, found.point_edges, {"point_capacity", "2"});
-      room.resize(c, found.parameters, {"point_capacity"});
-      room.resize(c, found.positions, {"point_capacity", "3"});
-      room.resize(c, found.line_starts, {"line_capacity + 1"});
-      room.resize(c, found.line_levels, {"line_capacity"});
-      room.resize(c, found.line_closed, {"line_capacity"});
+      room.begin(c);
       lines.point_capacity = room.get("point_capacity");
       lines.line_capacity = room.get("line_capacity");
-      lines.point_edges = room.at(found.point_edges);
-      lines.parameters = room.at(found.parameters);
-      lines.positions = room.at(found.positions);
-      lines.line_starts = room.at(found.line_starts);
-      lines.line_levels = room.at(found.line_levels);
-      lines.line_closed = room.at(found.line_closed);
       room.code = hf_surface_trace_isolines(get(), &field_, c.count("level_count", 1), levels_, &lines);
     } while (!room.enough(c, {{"point_capacity", lines.point_count}, {"line_capacity", lines.line_count}}));
-    found.point_edges.resize(c.product({"point_capacity", "2"}));
-    found.parameters.resize(c.product({"point_capacity"}));
-    found.positions.resize(c.product({"point_capacity", "3"}));
-    found.line_starts.resize(c.product({"line_capacity + 1"}));
-    found.line_levels.resize(c.product({"line_capacity"}));
-    found.line_closed.resize(c.product({"line_capacity"}));
     return found;
   }
 
@@ -1175,24 +1104,17 @@ class Surface {
     if (!info) info = &info_;
     Room room({{"capacity", -1}});
     std::vector<hf_critical_point> points;
+    room.array(points, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, points, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_find_critical_points(get(), &field_, room.get("capacity"), room.at(points), info);
     } while (!room.enough(c, {{"capacity", info->point_count}}));
-    points.resize(c.product({"capacity"}));
     return points;
   }
 
   // Proposes the tips of the surface as places for sites and handles, the longest tip first. The list does not depend
   // on the order of the vertices. Pose and meshing change it only within the resolution of the mesh.
   //
-  // kind: HF_EXTREMITIES_*
-  // least_length_share: tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10
-  // source_count: sources of the mean distance per component, 1 to 1,000; 0 = 40
-  // geodesics: for HF_EXTREMITIES_GEODESIC: an object of this surface. If its method is HF_GEODESICS_HEAT its factor
-  // serves; else, and for none, the call makes a factor
-  // progress: an object to poll and cancel through
   // field: `[vertex_count]`, packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
   // (Poisson), length (geodesic), each up to a constant per component
   //
@@ -1207,25 +1129,17 @@ class Surface {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_extremity> extremities;
+    room.array(extremities, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, extremities, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_find_extremities(get(), &desc, room.get("capacity"), room.at(extremities), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    extremities.resize(c.product({"capacity"}));
     return extremities;
   }
 
   // Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals come
   // first, then the others, each group by length, the longest first. The places do not depend on the order of the
   // vertices. They follow translation and scale.
-  //
-  // joints: `[joint_count x 3]` their places at rest, in the unit and frame of the mesh
-  // parents: `[joint_count]` position of each joint's parent in the list; HF_NO_INDEX for a root
-  // up: direction away from the ground, of any length; 0 0 0 = 0 1 0
-  // least_length_share: as in ExtremitiesOptions; 0 = 0.05
-  // limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
   std::vector<hf_handle_proposal> propose_handles(const HandleProposalsOptions& options = {}) const {
@@ -1234,12 +1148,11 @@ class Surface {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_handle_proposal> proposals;
+    room.array(proposals, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, proposals, {"capacity"});
+      room.begin(c);
       room.code = hf_surface_propose_handles(get(), &desc, room.get("capacity"), room.at(proposals), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    proposals.resize(c.product({"capacity"}));
     return proposals;
   }
 
@@ -1274,11 +1187,6 @@ class Solver {
  public:
   // Creates a solver without sites.
   //
-  // field_kind: HF_FIELD_*; if the surface has no factor of that kind yet, it is made now
-  // channel_count: fields solved at once, 1 to 64; 0 = 1
-  // site_limit: at most this many sites; 0 = 100,000
-  // progress: an object to poll and cancel through
-  //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE.
   Solver(const Surface& surface, const SolverOptions& options = {}) {
     Call c;
@@ -1308,15 +1216,6 @@ class Solver {
   }
 
   // Adds sites.
-  //
-  // vertices: `[site_count]` vertices as given, or none
-  // values: `[site_count x channel_count]`, up to 1e200 in size; none = 0
-  // places: `[site_count]`, or none
-  // points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for
-  // the nearest point of the surface, up to two boxes away
-  // stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to
-  // 1e-12 to 1e12
-  // radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -1357,14 +1256,6 @@ class Solver {
   // Moves sites to new places. Each site keeps its number, value, stiffness and radius.
   //
   // sites: `[site_count]`.
-  // vertices: `[site_count]` vertices as given, or none
-  // values: `[site_count x channel_count]`, up to 1e200 in size; none = 0
-  // places: `[site_count]`, or none
-  // points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for
-  // the nearest point of the surface, up to two boxes away
-  // stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); none = all hard; clamped to
-  // 1e-12 to 1e12
-  // radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; none = all points
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_FOUND, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -1389,13 +1280,6 @@ class Solver {
   }
 
   // Applies a batch of edits at once.
-  //
-  // remove_sites: `[remove_count]`
-  // move_sites: `[move_count]`
-  // set_sites: `[set_count]`
-  // set_values: `[set_count x channel_count]`
-  // move_to: places of `[move_count]` sites
-  // add: the sites to add
   std::vector<uint32_t> edit_sites(const Edit& options = {}) {
     Call c(counts_);
     const hf_edit_desc desc = options.fill(c, "");
@@ -1415,33 +1299,18 @@ class Solver {
     auto info = make<hf_sites_info>();
     Room room({{"capacity", -1}});
     SitesInfo found;
+    room.array(found.sites, {"capacity"}, &info.sites);
+    room.array(found.vertices, {"capacity"}, &info.vertices);
+    room.array(found.components, {"capacity"}, &info.components);
+    room.array(found.values, {"capacity", "channel_count"}, &info.values);
+    room.array(found.stiffness, {"capacity"}, &info.stiffness);
+    room.array(found.flux, {"capacity", "channel_count"}, &info.flux);
+    room.array(found.radii, {"capacity"}, &info.radii);
     do {
-      room.begin(c, {{"capacity"}, {"capacity"}, {"capacity"}, {"capacity", "channel_count"}, {"capacity"}, {"capacity",
-          "channel_count"}, {"capacity"}});
-      room.resize(c, found.sites, {"capacity"});
-      room.resize(c, found.vertices, {"capacity"});
-      room.resize(c, found.components, {"capacity"});
-      room.resize(c, found.values, {"capacity", "channel_count"});
-      room.resize(c, found.stiffness, {"capacity"});
-      room.resize(c, found.flux, {"capacity", "channel_count"});
-      room.resize(c, found.radii, {"capacity"});
+      room.begin(c);
       info.capacity = room.get("capacity");
-      info.sites = room.at(found.sites);
-      info.vertices = room.at(found.vertices);
-      info.components = room.at(found.components);
-      info.values = room.at(found.values);
-      info.stiffness = room.at(found.stiffness);
-      info.flux = room.at(found.flux);
-      info.radii = room.at(found.radii);
       room.code = hf_solver_get_sites(get(), &info);
     } while (!room.enough(c, {{"capacity", info.count}}));
-    found.sites.resize(c.product({"capacity"}));
-    found.vertices.resize(c.product({"capacity"}));
-    found.components.resize(c.product({"capacity"}));
-    found.values.resize(c.product({"capacity", "channel_count"}));
-    found.stiffness.resize(c.product({"capacity"}));
-    found.flux.resize(c.product({"capacity", "channel_count"}));
-    found.radii.resize(c.product({"capacity"}));
     return found;
   }
 
@@ -1735,10 +1604,6 @@ class Geodesics {
   // Creates the object and the tables of its method. FRONT and EXACT take a pass over the triangles. HEAT takes one
   // numeric factorisation and holds a factor of its own beside the surface's.
   //
-  // method: HF_GEODESICS_*
-  // smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to 10,000
-  // progress: an object to poll and cancel through: creation and every later call report to it
-  //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE.
   Geodesics(const Surface& surface, const GeodesicsOptions& options = {}) {
     Call c;
@@ -1802,21 +1667,15 @@ class Geodesics {
     auto path = make<hf_path>();
     Room room({{"point_capacity", -1}});
     Path found;
+    room.array(found.point_edges, {"point_capacity", "2"}, &path.point_edges);
+    room.array(found.parameters, {"point_capacity"}, &path.parameters);
+    room.array(found.positions, {"point_capacity", "3"}, &path.positions);
     do {
-      room.begin(c, {{"point_capacity", "2"}, {"point_capacity"}, {"point_capacity", "3"}});
-      room.resize(c, found.point_edges, {"point_capacity", "2"});
-      room.resize(c, found.parameters, {"point_capacity"});
-      room.resize(c, found.positions, {"point_capacity", "3"});
+      room.begin(c);
       path.point_capacity = room.get("point_capacity");
-      path.point_edges = room.at(found.point_edges);
-      path.parameters = room.at(found.parameters);
-      path.positions = room.at(found.positions);
       room.code = hf_geodesics_find_path(get(), &from, &to, &path);
     } while (!room.enough(c, {{"point_capacity", path.point_count}}));
     found.length = path.length;
-    found.point_edges.resize(c.product({"point_capacity", "2"}));
-    found.parameters.resize(c.product({"point_capacity"}));
-    found.positions.resize(c.product({"point_capacity", "3"}));
     return found;
   }
 
@@ -1863,10 +1722,6 @@ class Direction {
  public:
   // Makes a direction field without constraints. It computes the connection between tangent planes and the operator,
   // and factorises once, with two unknowns per vertex.
-  //
-  // degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
-  // site_limit: most constraints; 0 = 100,000
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE.
   Direction(const Surface& surface, const DirectionOptions& options = {}) {
@@ -1971,17 +1826,14 @@ class Direction {
     std::vector<uint32_t> sites;
     std::vector<uint32_t> vertices;
     std::vector<double> vectors;
+    room.array(sites, {"capacity"});
+    room.array(vertices, {"capacity"});
+    room.array(vectors, {"capacity", "3"});
     do {
-      room.begin(c, {{"capacity"}, {"capacity"}, {"capacity", "3"}});
-      room.resize(c, sites, {"capacity"});
-      room.resize(c, vertices, {"capacity"});
-      room.resize(c, vectors, {"capacity", "3"});
+      room.begin(c);
       room.code = hf_direction_get_sites(get(), room.get("capacity"), room.at(sites), room.at(vertices),
           room.at(vectors), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    sites.resize(c.product({"capacity"}));
-    vertices.resize(c.product({"capacity"}));
-    vectors.resize(c.product({"capacity", "3"}));
     return {std::move(sites), std::move(vertices), std::move(vectors)};
   }
 
@@ -2033,12 +1885,11 @@ class Direction {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_singularity> singularities;
+    room.array(singularities, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, singularities, {"capacity"});
+      room.begin(c);
       room.code = hf_direction_get_singularities(get(), room.get("capacity"), room.at(singularities), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    singularities.resize(c.product({"capacity"}));
     return singularities;
   }
 
@@ -2079,10 +1930,6 @@ class Pose {
  public:
   // Creates a pose without handles.
   //
-  // band_count: bands per field, 2 to 64; 0 = 10
-  // iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10
-  // group_count: groups of vertices that share a rotation, 1 to 2000; 0 = 250
-  //
   // Fails with HF_ERROR_INVALID_ARGUMENT.
   Pose(const Surface& surface, const PoseOptions& options = {}) {
     Call c;
@@ -2118,16 +1965,6 @@ class Pose {
   // the higher layers.
   //
   // region_vertices: lists of whole numbers: all regions one after the other; none: places are given
-  // vertices: `[handle_count]` vertices as given, or none
-  // places: `[handle_count]`, or none
-  // points: `[handle_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. A point can lie
-  // inside the body, as a joint does: its nearest vertex counts
-  // radii: `[handle_count]` of the regions of places, in the unit of the mesh; none: regions are given. A radius below
-  // 1 % of the box makes regions of 2 vertices or more
-  // layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
-  // in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
-  // free_rotation: 1: you give the places of the handles only; see Pose::set_free_rotations
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
   // HF_ERROR_TOO_LARGE.
@@ -2205,16 +2042,18 @@ class Pose {
     check(hf_pose_set_transform(get(), handle, &transform));
   }
 
-  // Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands exactly
-  // where its transform puts it; the rotation of the transform is ignored. Each Pose.deform finds the rotation together
-  // with the pose (positional constraints, Sorkine and Alexa 2007): the one of least as-rigid-as-possible energy
-  // towards the shapes that groups of vertices aim at. A group that is pulled aims at a longer and thinner shape than
-  // at rest, so the rotation is not exactly the one of least energy towards the rest shape. Pose::handle writes it.
-  // Drag with a free rotation: the wrist follows the hand. Give the rotation when the user turns a ring. A given
-  // rotation starts as the handle stands, so the pose does not change. Where you free a rotation on layer 0 the surface
-  // stays as it is and lets the old rotation go as handles move, as with in_place; place the handles after that call.
-  // On a higher layer a changed handle moves the surface at the next frame. A handle alone in its component keeps the
-  // rotation it has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose.
+  // Chooses who gives the rotations of handles: the solve or you. A handle of free rotation is a positional constraint
+  // (Sorkine and Alexa 2007). Its centroid lands exactly where its transform puts it; the rotation of the transform is
+  // ignored. Each Pose.deform finds the rotation together with the pose, and Pose::handle writes it. The rotation has
+  // the least as-rigid-as-possible energy. A group of vertices that is pulled compares itself with a longer and thinner
+  // shape than its rest shape. So the energy is not exactly the energy towards the rest shape.
+  //
+  // Free the rotation while the user drags a handle: the wrist then follows the hand. Give the rotation while the user
+  // turns a ring. A given rotation starts at the present rotation of the handle, so the pose does not change. When you
+  // free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move, as with
+  // in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at the next
+  // frame. A handle alone in its component keeps its rotation. restart also restarts free rotations. refine keeps the
+  // rotation of the smooth pose.
   //
   // handles: `[handle_count]`.
   // free_rotation: 1: the solve finds the rotations; 0: you give them.
@@ -2226,15 +2065,15 @@ class Pose {
     check(hf_pose_set_free_rotations(get(), c.count("handle_count", 1), handles_, free_rotation ? 1 : 0));
   }
 
-  // Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where it
-  // would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the body:
-  // give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short gets
-  // longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a change at
-  // once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean again.
+  // Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the rest of the surface where it
+  // would be without these handles. So a body does not lean after a dragged hand. Keep 1 for the handles that hold the
+  // body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is too short
+  // gets longer. The limb of a handle is the part where its field is near 1. The next Pose.deform shows a change at
+  // once. Full-mesh steps (refine) ignore the pins; with refine_from_last they let the body lean again.
   //
   // handles: `[handle_count]`.
-  // following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone follows, an
-  // arm for example.
+  // following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the handle
+  // follows, such as an arm.
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
   void set_following(const std::vector<uint32_t>& handles, double following = 0) {
@@ -2243,14 +2082,14 @@ class Pose {
     check(hf_pose_set_following(get(), c.count("handle_count", 1), handles_, following));
   }
 
-  // Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives each
-  // rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it is held
-  // most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a second handle
-  // on the same piece is refused (HF_ERROR_CONFLICT). Call this before such handles are added. Pose::skin writes the
-  // motions without this step.
+  // Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
+  // moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the vertices
+  // near links most. If the region of a handle touches a rigid piece, the whole piece joins the region and moves with
+  // the handle. A second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this function before you add
+  // such handles. Pose::skin writes the motions before this fit.
   //
-  // vertices: `[vertex_count]`, one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the one
-  // before.
+  // vertices: `[vertex_count]`, one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
+  // replaces the previous list.
   //
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
   void set_rigid_pieces(const std::vector<uint32_t>& vertices) {
@@ -2263,7 +2102,7 @@ class Pose {
   // Places handles by 4 x 4 matrices M.
   //
   // handles: `[handle_count]`.
-  // matrices: `[handle_count x 16]`, column by column, elements 12 to 14 the translation. M takes a rest position p to
+  // matrices: `[handle_count x 16]`, column by column, elements 12 to 14 the translation. M moves a rest position p to
   // the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
   // rotation. Its last row must be 0 0 0 1.
   //
@@ -2329,18 +2168,6 @@ class Pose {
 
   // Does the same as Pose.deform, with the options of a desc.
   //
-  // iteration_count: 1 to 1000; 0 = the pose's
-  // restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose with the
-  // same handles, added in the same order, and the same transforms. Without restart a frame continues from the last
-  // one, so it also depends on that
-  // refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about 0.2
-  // us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
-  // refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the smooth pose.
-  // Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still, more calls
-  // go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1 or more.
-  // Higher layers start at the smooth pose. Memory: 72 bytes a vertex
-  // first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-  // vertex_count: positions of a range cost only the range, without higher layers, refine and normals
   // out: `[vertex_count x 3]` of float or double: posed positions
   // normals: `[vertex_count x 3]` of float or double: unit normals of the posed surface, shared across seams
   // info: filled in when given
@@ -2419,36 +2246,21 @@ class Pose {
     c.known("influence_count", influence_count ? influence_count : 4);
     Room room({{"joint_capacity", c.size("joint_count")}, {"vertex_capacity", c.size("vertex_count")}});
     SkinInfo found;
+    room.array(found.pivots, {"joint_capacity", "3"}, &skin.pivots);
+    room.array(found.rotations, {"joint_capacity", "4"}, &skin.rotations);
+    room.array(found.translations, {"joint_capacity", "3"}, &skin.translations);
+    room.array(found.axes, {"joint_capacity", "4"}, &skin.axes);
+    room.array(found.scales, {"joint_capacity", "3"}, &skin.scales, want_scales);
+    room.array(found.vertex_joints, {"vertex_capacity", "influence_count"}, &skin.vertex_joints);
+    room.array(found.vertex_weights, {"vertex_capacity", "influence_count"}, &skin.vertex_weights);
     do {
-      room.begin(c, {{"joint_capacity", "3"}, {"joint_capacity", "4"}, {"joint_capacity", "3"}, {"joint_capacity", "4"},
-          {"joint_capacity", "3"}, {"vertex_capacity", "influence_count"}, {"vertex_capacity", "influence_count"}});
-      room.resize(c, found.pivots, {"joint_capacity", "3"});
-      room.resize(c, found.rotations, {"joint_capacity", "4"});
-      room.resize(c, found.translations, {"joint_capacity", "3"});
-      room.resize(c, found.axes, {"joint_capacity", "4"});
-      if (want_scales) room.resize(c, found.scales, {"joint_capacity", "3"});
-      room.resize(c, found.vertex_joints, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.vertex_weights, {"vertex_capacity", "influence_count"});
+      room.begin(c);
       skin.joint_capacity = room.get("joint_capacity");
       skin.vertex_capacity = room.get("vertex_capacity");
-      skin.pivots = room.at(found.pivots);
-      skin.rotations = room.at(found.rotations);
-      skin.translations = room.at(found.translations);
-      skin.axes = room.at(found.axes);
-      skin.scales = room.at(found.scales);
-      skin.vertex_joints = room.at(found.vertex_joints);
-      skin.vertex_weights = room.at(found.vertex_weights);
       room.code = hf_pose_get_skin(get(), &skin);
     } while (!room.enough(c, {{"joint_capacity", skin.joint_count}, {"vertex_capacity", skin.vertex_count},
         {"joint_count", skin.joint_count}, {"vertex_count", skin.vertex_count}}));
     found.influence_count = skin.influence_count;
-    found.pivots.resize(c.product({"joint_capacity", "3"}));
-    found.rotations.resize(c.product({"joint_capacity", "4"}));
-    found.translations.resize(c.product({"joint_capacity", "3"}));
-    found.axes.resize(c.product({"joint_capacity", "4"}));
-    if (want_scales) found.scales.resize(c.product({"joint_capacity", "3"}));
-    found.vertex_joints.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.vertex_weights.resize(c.product({"vertex_capacity", "influence_count"}));
     return found;
   }
 
@@ -2504,28 +2316,6 @@ class Quads {
   // there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to four times the
   // Euler characteristic. On a torus or a knot a single one of 5 is often lost.
   //
-  // crease_edges: `[crease_count x 2]` the two vertices of each edge, as given
-  // guide_vertices: `[guide_count]` as given; guides of one vertex are averaged
-  // guide_vectors: `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across
-  // it
-  // guide_weights: none = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of
-  // the curvature, which has the rest of the weight
-  // irregular_points: `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
-  // irregular_valences: `[irregular_count]` how many quads meet there: 3 or 5
-  // irregular_directions: none = any, or `[irregular_count x 3]`: one side of the irregular vertex runs along it; 0 0 0
-  // = any
-  // face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
-  // edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
-  // crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 = none.
-  // If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases nearer to each
-  // other than an edge may be released
-  // relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh is not fitted
-  // to the surface either
-  // symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads are
-  // made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the other
-  // side are not used
-  // progress: an object to poll and cancel through
-  //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INTERNAL, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
   Quads(const Surface& surface, const QuadsOptions& options = {}) {
@@ -2543,28 +2333,6 @@ class Quads {
   // less: 0.1 s for 15,000 vertices without relaxation (relax_count = HF_NO_INDEX). Use that while the user drags, and
   // relax_count = 0 at the end. Other sizes and planes are allowed; what belongs to them is made again. After an error
   // `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until `quads` is destroyed.
-  //
-  // crease_edges: `[crease_count x 2]` the two vertices of each edge, as given
-  // guide_vertices: `[guide_count]` as given; guides of one vertex are averaged
-  // guide_vectors: `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across
-  // it
-  // guide_weights: none = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of
-  // the curvature, which has the rest of the weight
-  // irregular_points: `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
-  // irregular_valences: `[irregular_count]` how many quads meet there: 3 or 5
-  // irregular_directions: none = any, or `[irregular_count x 3]`: one side of the irregular vertex runs along it; 0 0 0
-  // = any
-  // face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
-  // edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
-  // crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 = none.
-  // If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases nearer to each
-  // other than an edge may be released
-  // relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; HF_NO_INDEX = none, and the mesh is not fitted
-  // to the surface either
-  // symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads are
-  // made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the other
-  // side are not used
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INTERNAL, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -2590,29 +2358,18 @@ class Quads {
     auto mesh = make<hf_quads_mesh>();
     Room room({{"vertex_capacity", c.size("vertex_count")}, {"face_capacity", -1}});
     QuadsMesh found;
+    room.array(found.positions, {"vertex_capacity", "3"}, &mesh.positions);
+    room.array(found.faces, {"face_capacity", "4"}, &mesh.faces);
+    room.array(found.triangles, {"vertex_capacity"}, &mesh.triangles);
+    room.array(found.barycentrics, {"vertex_capacity", "3"}, &mesh.barycentrics);
+    room.array(found.corners, {"vertex_capacity", "3"}, &mesh.corners);
     do {
-      room.begin(c, {{"vertex_capacity", "3"}, {"face_capacity", "4"}, {"vertex_capacity"}, {"vertex_capacity", "3"},
-          {"vertex_capacity", "3"}});
-      room.resize(c, found.positions, {"vertex_capacity", "3"});
-      room.resize(c, found.faces, {"face_capacity", "4"});
-      room.resize(c, found.triangles, {"vertex_capacity"});
-      room.resize(c, found.barycentrics, {"vertex_capacity", "3"});
-      room.resize(c, found.corners, {"vertex_capacity", "3"});
+      room.begin(c);
       mesh.vertex_capacity = room.get("vertex_capacity");
       mesh.face_capacity = room.get("face_capacity");
-      mesh.positions = room.at(found.positions);
-      mesh.faces = room.at(found.faces);
-      mesh.triangles = room.at(found.triangles);
-      mesh.barycentrics = room.at(found.barycentrics);
-      mesh.corners = room.at(found.corners);
       room.code = hf_quads_get_mesh(get(), &mesh);
     } while (!room.enough(c, {{"vertex_capacity", mesh.vertex_count}, {"face_capacity", mesh.face_count},
         {"vertex_count", mesh.vertex_count}}));
-    found.positions.resize(c.product({"vertex_capacity", "3"}));
-    found.faces.resize(c.product({"face_capacity", "4"}));
-    found.triangles.resize(c.product({"vertex_capacity"}));
-    found.barycentrics.resize(c.product({"vertex_capacity", "3"}));
-    found.corners.resize(c.product({"vertex_capacity", "3"}));
     return found;
   }
 
@@ -2672,24 +2429,16 @@ class Flow {
     lines.seed_count = c.count("seed_count", 0);
     Room room({{"point_capacity", -1}, {"line_capacity", -1}});
     Streamlines found;
+    room.array(found.positions, {"point_capacity", "3"}, &lines.positions);
+    room.array(found.values, {"point_capacity"}, &lines.values);
+    room.array(found.line_starts, {"line_capacity + 1"}, &lines.line_starts);
+    room.array(found.line_ends, {"line_capacity", "2"}, &lines.line_ends);
     do {
-      room.begin(c, {{"point_capacity", "3"}, {"point_capacity"}, {"line_capacity + 1"}, {"line_capacity", "2"}});
-      room.resize(c, found.positions, {"point_capacity", "3"});
-      room.resize(c, found.values, {"point_capacity"});
-      room.resize(c, found.line_starts, {"line_capacity + 1"});
-      room.resize(c, found.line_ends, {"line_capacity", "2"});
+      room.begin(c);
       lines.point_capacity = room.get("point_capacity");
       lines.line_capacity = room.get("line_capacity");
-      lines.positions = room.at(found.positions);
-      lines.values = room.at(found.values);
-      lines.line_starts = room.at(found.line_starts);
-      lines.line_ends = room.at(found.line_ends);
       room.code = hf_flow_trace(get(), &field_, &lines);
     } while (!room.enough(c, {{"point_capacity", lines.point_count}, {"line_capacity", lines.line_count}}));
-    found.positions.resize(c.product({"point_capacity", "3"}));
-    found.values.resize(c.product({"point_capacity"}));
-    found.line_starts.resize(c.product({"line_capacity + 1"}));
-    found.line_ends.resize(c.product({"line_capacity", "2"}));
     return found;
   }
 
@@ -2711,11 +2460,6 @@ class Flow {
 class Region {
  public:
   // Creates a region without vertices.
-  //
-  // positions: `[vertex_count x 3]` of float or double: the surface of weight 0, bit for bit, as the positions of the
-  // mesh or any pose of them. none: the mesh's own to 1e-15 of the box. Copied
-  // base: HF_BASE_*. If the surface has no factor for it yet, it is made now
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_POSITIVE_DEFINITE.
   Region(const Surface& surface, const RegionOptions& options = {}) {
@@ -2741,12 +2485,6 @@ class Region {
   // sweep over the factor then gives the base; for a small region the sweep covers only the part of the factor that its
   // vertices need. A region may have several pieces, in several components. Progress covers curve, sites and base; the
   // call can be cancelled between them.
-  //
-  // remove_vertices: `[remove_count]` vertices that leave the region; others are passed over
-  // add_vertices: `[add_count]` vertices that join it; those in it already are passed over
-  // ring_count: rings of vertices by which the region grows; below 0 it shrinks
-  // curve: the region becomes what this curve encloses
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
@@ -2782,12 +2520,11 @@ class Region {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<uint32_t> vertices;
+    room.array(vertices, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, vertices, {"capacity"});
+      room.begin(c);
       room.code = hf_region_get_vertices(get(), list, room.get("capacity"), room.at(vertices), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    vertices.resize(c.product({"capacity"}));
     return vertices;
   }
 
@@ -2798,12 +2535,11 @@ class Region {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<double> points;
+    room.array(points, {"capacity", "3"});
     do {
-      room.begin(c, {{"capacity", "3"}});
-      room.resize(c, points, {"capacity", "3"});
+      room.begin(c);
       room.code = hf_region_get_curve(get(), room.get("capacity"), room.at(points), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    points.resize(c.product({"capacity", "3"}));
     return points;
   }
 
@@ -2813,7 +2549,7 @@ class Region {
   // nothing.
   //
   // weight: any finite number
-  // out: `[vertex_count x 3]` of float or double, in the unit and frame of the mesh as given
+  // out: `[vertex_count x 3]` of float or double, in the unit of the mesh
   // normals: `[vertex_count x 3]` of float or double: unit normals of the morphed surface, shared across seams
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -2897,10 +2633,6 @@ class Detail {
   // offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades to
   // nothing at the rim. If source and target are the same region, the result is the surface itself. Later edits of
   // the regions do not change the object.
-  // source_vertices: `[pair_count]` rim vertices of the source, as given
-  // target_vertices: `[pair_count]` rim vertices of the target, as given
-  // scale: of the detail, > 0; 0 = square root of target base area over source base area
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
@@ -2919,7 +2651,7 @@ class Detail {
   // source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
   //
   // weight: any finite number
-  // out: `[vertex_count x 3]` of float or double, in the unit and frame of the mesh as given
+  // out: `[vertex_count x 3]` of float or double, in the unit of the mesh
   // normals: `[vertex_count x 3]` of float or double: unit normals of the morphed surface, shared across seams
   //
   // Fails with HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -3010,16 +2742,6 @@ class Skeleton {
   // names: one line for each joint in UTF-8, or none: names then say nothing
   // parents: `[joint_count]` number of the parent, HF_NO_INDEX for a root
   // rest: `[joint_count x 10]` joint transforms
-  // inverse_binds: `[joint_count x 16]` inverse bind matrices, columns first. All zero: no skin names the joint; it
-  // moves its children and rigid meshes only. none: the skin is given in the pose `rest`, and every joint can bend
-  // it
-  // up: `[3]` declared axis, any length, or none: find it
-  // forward: `[3]` declared axis, any length, or none: find it
-  // roles: `[joint_count]` declared HF_ROLE_*, -1 for a joint without; or none
-  // sides: `[joint_count]` HF_SIDE_* of joints with a declared role; or none: find the sides
-  // travels: `[travel_count x 3]` where each clip leads from its first to its last frame; it tells forward; or none
-  // skin: none: there is none, and joints are judged by names and places alone
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
@@ -3046,12 +2768,11 @@ class Skeleton {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_joint_info> joints;
+    room.array(joints, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, joints, {"capacity"});
+      room.begin(c);
       room.code = hf_skeleton_get_joints(get(), room.get("capacity"), room.at(joints), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    joints.resize(c.product({"capacity"}));
     return joints;
   }
 
@@ -3061,12 +2782,11 @@ class Skeleton {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_chain> chains;
+    room.array(chains, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, chains, {"capacity"});
+      room.begin(c);
       room.code = hf_skeleton_get_chains(get(), room.get("capacity"), room.at(chains), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    chains.resize(c.product({"capacity"}));
     return chains;
   }
 
@@ -3076,12 +2796,11 @@ class Skeleton {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<uint32_t> joints;
+    room.array(joints, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, joints, {"capacity"});
+      room.begin(c);
       room.code = hf_skeleton_get_chain_joints(get(), room.get("capacity"), room.at(joints), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    joints.resize(c.product({"capacity"}));
     return joints;
   }
 
@@ -3122,16 +2841,6 @@ class Skeleton {
 class Retarget {
  public:
   // Pairs the joints of two skeletons.
-  //
-  // source_rest: `[source.joint_count x 10]` a pose that counts as rest, or none: the rest of the skeleton. Give poses
-  // in which both characters stand alike
-  // target_rest: `[target.joint_count x 10]` the same for the target, or none
-  // root_motion: HF_ROOT_MOTION_*
-  // leave_out: bits of HF_RETARGET_*
-  // scale: travel of the target over travel of the source; 0: the ratio of leg lengths
-  // ground_velocity: of the ground under a clip on the spot, in the space of the source, per second; 0: the ground
-  // rests. Skeleton::ground_velocity finds it
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
   Retarget(const Skeleton& source, const Skeleton& target, const RetargetOptions& options = {}) {
@@ -3188,12 +2897,11 @@ class Retarget {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<hf_chain_match> chains;
+    room.array(chains, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, chains, {"capacity"});
+      room.begin(c);
       room.code = hf_retarget_get_chains(get(), room.get("capacity"), room.at(chains), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    chains.resize(c.product({"capacity"}));
     return chains;
   }
 
@@ -3204,12 +2912,11 @@ class Retarget {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<uint32_t> partners;
+    room.array(partners, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, partners, {"capacity"});
+      room.begin(c);
       room.code = hf_retarget_get_partners(get(), room.get("capacity"), room.at(partners), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    partners.resize(c.product({"capacity"}));
     return partners;
   }
 
@@ -3250,22 +2957,6 @@ class Transfer {
  public:
   // Creates a transfer between two surfaces; both may be the same.
   //
-  // source_rest: `[source.vertex_count x 3]` of float or double Poses in which the two bodies correspond, in each
-  // surface's unit, read by the call, or none for the positions of the surface. A character bound in a crouch gets
-  // a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
-  // target_rest: `[target.vertex_count x 3]` of float or double
-  // mode: HF_TRANSFER_*
-  // cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
-  // ground: HF_GROUND_*
-  // kernel_width: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is more,
-  // up to 0.12
-  // scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no
-  // pair is a foot
-  // alignment_angle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times the
-  // angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
-  // source_axes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward +z).
-  // Lengths, and right x up = forward, must hold within 1e-3. The library takes the nearest rotation.
-  //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_OBJECT, HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
   Transfer(const Surface& source, const Surface& target, const TransferOptions& options = {}) {
     Call c;
@@ -3283,7 +2974,6 @@ class Transfer {
   // vertex
   // target_vertices: lists of whole numbers:
   // flags: `[pair_count]` HF_PAIR_*, or none for none
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
@@ -3340,20 +3030,6 @@ class Transfer {
 
   // Sets the dials of a transfer for the next frames.
   //
-  // stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
-  // foot does not slide. The body travels as much farther
-  // hip_height_share: raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height at
-  // rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised
-  // neck_follow: pairs flagged HF_PAIR_NECK, together one limb How far a limb follows the source, -1 to 1. 0 = neutral:
-  // it plays the source's motion from its own rest direction. 1: it also takes the rest direction of the source's
-  // limb. -1: it does not move against its root.
-  // tail_follow: pairs flagged HF_PAIR_TAIL, together one limb
-  // arm_space: turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2 radians; 0 =
-  // neutral
-  // long_follow: how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less, so
-  // that they move as far. 1: they make the whole turn. Between, a part may jump that turns by half a turn against
-  // the part before it
-  //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
   void set_dials(const TransferDials& options = {}) {
     Call c(counts_);
@@ -3384,10 +3060,6 @@ class Transfer {
   // ground come in continuously. HF_GROUND_OFF switches them off.
   //
   // source_positions: `[source.vertex_count x 3]` of float or double: the posed source, its own vertex order
-  // hold_pairs: `[hold_count]` each pair at most once A hold puts the target region of a pair exactly at a position of
-  // yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices lands there; welded
-  // copies count once. The rest of the surface follows.
-  // hold_positions: `[hold_count x 3]` in the target's unit and frame
   // out: `[target.vertex_count x 3]` of float or double
   // target_normals: `[target.vertex_count x 3]` of float or double
   //
@@ -3460,36 +3132,21 @@ class Transfer {
     c.known("influence_count", influence_count ? influence_count : 4);
     Room room({{"joint_capacity", c.size("joint_count")}, {"vertex_capacity", c.size("vertex_count")}});
     SkinInfo found;
+    room.array(found.pivots, {"joint_capacity", "3"}, &skin.pivots);
+    room.array(found.rotations, {"joint_capacity", "4"}, &skin.rotations);
+    room.array(found.translations, {"joint_capacity", "3"}, &skin.translations);
+    room.array(found.axes, {"joint_capacity", "4"}, &skin.axes);
+    room.array(found.scales, {"joint_capacity", "3"}, &skin.scales, want_scales);
+    room.array(found.vertex_joints, {"vertex_capacity", "influence_count"}, &skin.vertex_joints);
+    room.array(found.vertex_weights, {"vertex_capacity", "influence_count"}, &skin.vertex_weights);
     do {
-      room.begin(c, {{"joint_capacity", "3"}, {"joint_capacity", "4"}, {"joint_capacity", "3"}, {"joint_capacity", "4"},
-          {"joint_capacity", "3"}, {"vertex_capacity", "influence_count"}, {"vertex_capacity", "influence_count"}});
-      room.resize(c, found.pivots, {"joint_capacity", "3"});
-      room.resize(c, found.rotations, {"joint_capacity", "4"});
-      room.resize(c, found.translations, {"joint_capacity", "3"});
-      room.resize(c, found.axes, {"joint_capacity", "4"});
-      if (want_scales) room.resize(c, found.scales, {"joint_capacity", "3"});
-      room.resize(c, found.vertex_joints, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.vertex_weights, {"vertex_capacity", "influence_count"});
+      room.begin(c);
       skin.joint_capacity = room.get("joint_capacity");
       skin.vertex_capacity = room.get("vertex_capacity");
-      skin.pivots = room.at(found.pivots);
-      skin.rotations = room.at(found.rotations);
-      skin.translations = room.at(found.translations);
-      skin.axes = room.at(found.axes);
-      skin.scales = room.at(found.scales);
-      skin.vertex_joints = room.at(found.vertex_joints);
-      skin.vertex_weights = room.at(found.vertex_weights);
       room.code = hf_transfer_get_skin(get(), &skin);
     } while (!room.enough(c, {{"joint_capacity", skin.joint_count}, {"vertex_capacity", skin.vertex_count},
         {"joint_count", skin.joint_count}, {"vertex_count", skin.vertex_count}}));
     found.influence_count = skin.influence_count;
-    found.pivots.resize(c.product({"joint_capacity", "3"}));
-    found.rotations.resize(c.product({"joint_capacity", "4"}));
-    found.translations.resize(c.product({"joint_capacity", "3"}));
-    found.axes.resize(c.product({"joint_capacity", "4"}));
-    if (want_scales) found.scales.resize(c.product({"joint_capacity", "3"}));
-    found.vertex_joints.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.vertex_weights.resize(c.product({"vertex_capacity", "influence_count"}));
     return found;
   }
 
@@ -3525,16 +3182,6 @@ class Weights {
  public:
   // Computes weights.
   //
-  // heads: `[joint_count x 3]`
-  // tails: `[joint_count x 3]`, or none: heads are joints, and the library finds the tails
-  // axes: `[joint_count x 3]` with tails none: where each joint points, any length, 0 for unknown; or none. A joint
-  // reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a last
-  // joint ends
-  // parents: `[joint_count]` number of the parent, HF_NO_INDEX for a root; none: all are roots
-  // deforms: `[joint_count]` 1: the joint gets weights; none: all do
-  // sources: `[joint_count]` for Weights::set_joints: the number that the joint had before, HF_NO_INDEX for a new one;
-  // none: the same number. Weights: none
-  // progress: an object to poll and cancel through
   // influence_count: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has none, it
   // is made now. Sets *weights to none first.
   //
@@ -3561,17 +3208,6 @@ class Weights {
 
   // Replaces all
   //
-  // heads: `[joint_count x 3]`
-  // tails: `[joint_count x 3]`, or none: heads are joints, and the library finds the tails
-  // axes: `[joint_count x 3]` with tails none: where each joint points, any length, 0 for unknown; or none. A joint
-  // reaches to the child that lies there, or to the end of the skin. A child that does not deform says where a last
-  // joint ends
-  // parents: `[joint_count]` number of the parent, HF_NO_INDEX for a root; none: all are roots
-  // deforms: `[joint_count]` 1: the joint gets weights; none: all do
-  // sources: `[joint_count]` for Weights::set_joints: the number that the joint had before, HF_NO_INDEX for a new one;
-  // none: the same number. Weights: none
-  // progress: an object to poll and cancel through
-  //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT,
   // HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_UNSUPPORTED.
   void set_joints(const Joints& options = {}) {
@@ -3584,13 +3220,6 @@ class Weights {
   // Pins at the same places with other weights cost no path.
   //
   // vertices: `[pin_count]` vertices as given, or none
-  // places: `[pin_count]`, or none
-  // points: `[pin_count x 3]` points in space, at rest, in the unit and frame of the mesh, or none. Each stands for the
-  // nearest point of the surface, up to two boxes away
-  // radii: `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; none or 0: the place alone
-  // joints: `[pin_count x influence_count]` joints
-  // weights: `[pin_count x influence_count]` >= 0, scaled to the sum 1
-  // progress: an object to poll and cancel through
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_DUPLICATE, HF_ERROR_INVALID_ARGUMENT,
   // HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
@@ -3623,23 +3252,16 @@ class Weights {
     auto weights = make<hf_weights_out>();
     Room room({{"vertex_capacity", c.size("vertex_count")}});
     WeightsOut found;
+    room.array(found.joints, {"vertex_capacity", "influence_count"}, &weights.joints);
+    room.array(found.weights, {"vertex_capacity", "influence_count"}, &weights.weights);
+    room.array(found.origins, {"vertex_capacity"}, &weights.origins);
     do {
-      room.begin(c, {{"vertex_capacity", "influence_count"}, {"vertex_capacity", "influence_count"},
-          {"vertex_capacity"}});
-      room.resize(c, found.joints, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.weights, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.origins, {"vertex_capacity"});
+      room.begin(c);
       weights.vertex_capacity = room.get("vertex_capacity");
-      weights.joints = room.at(found.joints);
-      weights.weights = room.at(found.weights);
-      weights.origins = room.at(found.origins);
       room.code = hf_weights_get(get(), &weights);
     } while (!room.enough(c, {{"vertex_capacity", weights.vertex_count}, {"vertex_count", weights.vertex_count},
         {"influence_count", weights.influence_count}}));
     found.influence_count = weights.influence_count;
-    found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.origins.resize(c.product({"vertex_capacity"}));
     return found;
   }
 
@@ -3651,14 +3273,12 @@ class Weights {
     Room room({{"capacity", -1}});
     std::vector<uint32_t> flags;
     std::vector<uint32_t> vertex_counts;
+    room.array(flags, {"capacity"});
+    room.array(vertex_counts, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}, {"capacity"}});
-      room.resize(c, flags, {"capacity"});
-      room.resize(c, vertex_counts, {"capacity"});
+      room.begin(c);
       room.code = hf_weights_get_joints(get(), room.get("capacity"), room.at(flags), room.at(vertex_counts), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    flags.resize(c.product({"capacity"}));
-    vertex_counts.resize(c.product({"capacity"}));
     return {std::move(flags), std::move(vertex_counts)};
   }
 
@@ -3689,12 +3309,11 @@ class Weights {
     uint32_t count = 0;
     Room room({{"capacity", -1}});
     std::vector<uint32_t> reasons;
+    room.array(reasons, {"capacity"});
     do {
-      room.begin(c, {{"capacity"}});
-      room.resize(c, reasons, {"capacity"});
+      room.begin(c);
       room.code = hf_weights_get_helpers(get(), c.text(names), room.get("capacity"), room.at(reasons), &count);
     } while (!room.enough(c, {{"capacity", count}}));
-    reasons.resize(c.product({"capacity"}));
     return reasons;
   }
 
@@ -3702,12 +3321,6 @@ class Weights {
   // same frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-harmonic
   // field fills in the vertices without such a point. A piece without any takes the weights of the nearest points.
   //
-  // joints: `[source.vertex_count x source_influence_count]`
-  // weights: `[source.vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
-  // distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
-  // angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
-  // influence_count: joints of each vertex in the result: 4 or 8; 0: 4
-  // progress: an object to poll and cancel through
   // info: filled in when given
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
@@ -3721,42 +3334,24 @@ class Weights {
     auto weights_ = make<hf_weights_out>();
     Room room({{"vertex_capacity", c.size("vertex_count")}});
     WeightsOut found;
+    room.array(found.joints, {"vertex_capacity", "influence_count"}, &weights_.joints);
+    room.array(found.weights, {"vertex_capacity", "influence_count"}, &weights_.weights);
+    room.array(found.origins, {"vertex_capacity"}, &weights_.origins);
     do {
-      room.begin(c, {{"vertex_capacity", "influence_count"}, {"vertex_capacity", "influence_count"},
-          {"vertex_capacity"}});
-      room.resize(c, found.joints, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.weights, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.origins, {"vertex_capacity"});
+      room.begin(c);
       weights_.vertex_capacity = room.get("vertex_capacity");
-      weights_.joints = room.at(found.joints);
-      weights_.weights = room.at(found.weights);
-      weights_.origins = room.at(found.origins);
       room.code = hf_weights_transfer(source.get(), target.get(), &desc, &weights_, info);
     } while (!room.enough(c, {{"vertex_capacity", weights_.vertex_count}, {"vertex_count", weights_.vertex_count},
         {"influence_count", weights_.influence_count}}));
     found.influence_count = weights_.influence_count;
-    found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.origins.resize(c.product({"vertex_capacity"}));
     return found;
   }
 
-  // Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the nearest
-  // point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field fills in the
-  // rest. The plane comes from joints with partners, else from the surface. A found normal has a positive largest
-  // component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x.
+  // Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights of the
+  // nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field fills
+  // in the rest. The plane comes from joints with partners, else from the surface. A found normal has a positive
+  // largest component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x.
   //
-  // heads: `[joint_count x 3]` the joints at rest, in the frame of the mesh
-  // names: one line for each joint in UTF-8, or none: joints are paired by their places
-  // partners: `[joint_count]` the joint of the other side, HF_NO_INDEX: find it; or none
-  // plane: `[6]` a point and a normal, or none: find the plane
-  // joints: `[vertex_count x source_influence_count]`
-  // weights: `[vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
-  // to: HF_MIRROR_*
-  // distance: as in WeightsTransferOptions
-  // angle: as in WeightsTransferOptions
-  // influence_count: joints of each vertex in the result: 4 or 8; 0: 4
-  // progress: an object to poll and cancel through
   // info: filled in when given
   // statistics: filled in when given
   //
@@ -3773,24 +3368,17 @@ class Weights {
     std::vector<uint32_t> pairings(c.product({"joint_count"}));
     Room room({{"vertex_capacity", c.size("vertex_count")}});
     WeightsOut found;
+    room.array(found.joints, {"vertex_capacity", "influence_count"}, &weights_.joints);
+    room.array(found.weights, {"vertex_capacity", "influence_count"}, &weights_.weights);
+    room.array(found.origins, {"vertex_capacity"}, &weights_.origins);
     do {
-      room.begin(c, {{"vertex_capacity", "influence_count"}, {"vertex_capacity", "influence_count"},
-          {"vertex_capacity"}});
-      room.resize(c, found.joints, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.weights, {"vertex_capacity", "influence_count"});
-      room.resize(c, found.origins, {"vertex_capacity"});
+      room.begin(c);
       weights_.vertex_capacity = room.get("vertex_capacity");
-      weights_.joints = room.at(found.joints);
-      weights_.weights = room.at(found.weights);
-      weights_.origins = room.at(found.origins);
       room.code = hf_weights_mirror(surface.get(), &desc, &weights_, partners_.data(), pairings.data(), info,
           statistics);
     } while (!room.enough(c, {{"vertex_capacity", weights_.vertex_count}, {"vertex_count", weights_.vertex_count},
         {"influence_count", weights_.influence_count}}));
     found.influence_count = weights_.influence_count;
-    found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
-    found.origins.resize(c.product({"vertex_capacity"}));
     return {std::move(found), std::move(partners_), std::move(pairings)};
   }
 

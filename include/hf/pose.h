@@ -60,9 +60,8 @@ HF_API hf_result hf_pose_get_info(hf_pose pose, hf_pose_info* out_info);
 
 /* ---- handles ---- */
 
-/* The handles to add. Give their regions as vertex lists one after the other, or as places with radii: set
- * region_vertices, vertices, places or points. The region of a place is its nearest vertex and what is edge-connected
- * to it within the radius. */
+/* The handles to add. Set region_counts and region_vertices, or radii and one of vertices, places and points. The
+ * region of a place is its nearest vertex, and all vertices that are edge-connected to it within the radius. */
 typedef struct hf_handles_desc {
   uint32_t struct_size;
   uint32_t handle_count;         /* >= 1 */
@@ -128,56 +127,57 @@ HF_API hf_result hf_pose_set_transforms(hf_pose pose, uint32_t handle_count, con
 /* Places one handle. Errors: as hf_pose_set_transforms. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_transform* transform);
 
-/* Frees the rotations of handles, or gives them. handles: uint32_t[handle_count]. free_rotation: 1: the solve finds the
- * rotations; 0: you give them.
+/* Chooses who gives the rotations of handles: the solve or you. handles: uint32_t[handle_count]. free_rotation: 1: the
+ * solve finds the rotations; 0: you give them.
  *
- * A handle of free rotation is a place. Its centroid lands exactly where its transform puts it; the rotation of the
- * transform is ignored. Each hf_deform finds the rotation together with the pose (positional constraints, Sorkine and
- * Alexa 2007): the one of least as-rigid-as-possible energy towards the shapes that groups of vertices aim at. A group
- * that is pulled aims at a longer and thinner shape than at rest, so the rotation is not exactly the one of least
- * energy towards the rest shape. hf_pose_get_handle writes it.
- * Drag with a free rotation: the wrist follows the hand. Give the rotation when the user turns a ring. A given rotation
- * starts as the handle stands, so the pose does not change. Where you free a rotation on layer 0 the surface stays as
- * it is and lets the old rotation go as handles move, as with in_place; place the handles after that call. On a higher
- * layer a changed handle moves the surface at the next frame. A handle alone in its component keeps the rotation it
- * has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose. Cost: one iteration of a
- * solve for each free handle, at this call and when handles are added or removed; little in a frame. Errors:
- * HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (free_rotation). Thread safety:
- * changes `pose`. Since 0.1. */
+ *
+ * A handle of free rotation is a positional constraint (Sorkine and Alexa 2007). Its centroid lands exactly where its
+ * transform puts it; the rotation of the transform is ignored. Each hf_deform finds the rotation together with the
+ * pose, and hf_pose_get_handle writes it. The rotation has the least as-rigid-as-possible energy. A group of vertices
+ * that is pulled compares itself with a longer and thinner shape than its rest shape. So the energy is not exactly the
+ * energy towards the rest shape.
+ *
+ * Free the rotation while the user drags a handle: the wrist then follows the hand. Give the rotation while the user
+ * turns a ring. A given rotation starts at the present rotation of the handle, so the pose does not change. When you
+ * free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move, as with
+ * in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at the next
+ * frame. A handle alone in its component keeps its rotation. restart also restarts free rotations. refine keeps the
+ * rotation of the smooth pose. Cost: one iteration of a solve for each free handle, at this call and when handles are
+ * added or removed; little in a frame. Errors: HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (free_rotation). Thread
+ * safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
                                             int32_t free_rotation);
 
-/* Says how much of the surface follows handles of layer 0. handles: uint32_t[handle_count]. following: 0 to 1: at 1 all
- * of the surface follows a handle, as without this call; at 0 its limb alone follows, an arm for example.
+/* Sets how much of the surface follows handles of layer 0. handles: uint32_t[handle_count]. following: 0 to 1. At 1 all
+ * of the surface follows the handle; a new handle has 1. At 0 only the limb of the handle follows, such as an arm.
  *
- * Below 1 soft pins hold the rest of the surface where it would be without these handles, so that a body does not lean
- * after a hand. Handles of following 1 carry the body: give less to a handle that is dragged. The handles themselves
- * land exactly, and a limb that is too short gets longer. The fields tell the limb: on it the field of the handle is
- * near 1. The next hf_deform shows a change at once. Full-mesh steps (refine) do not know the pins; with
+ * Below 1, soft pins hold the rest of the surface where it would be without these handles. So a body does not lean
+ * after a dragged hand. Keep 1 for the handles that hold the body, and set less for a handle that is dragged. Every
+ * handle still lands exactly, and a limb that is too short gets longer. The limb of a handle is the part where its
+ * field is near 1. The next hf_deform shows a change at once. Full-mesh steps (refine) ignore the pins; with
  * refine_from_last they let the body lean again. Cost: at this call, and when handles are added or removed, one field
- * solve for the other handles and as many solves of the reduced system as in a few frames; a frame takes up to twice
- * the time of the pose solve while other handles move. No factor is made anew. Errors: HF_ERROR_NOT_FOUND,
- * HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (following), HF_ERROR_UNSUPPORTED (a handle of a higher
- * layer). Thread safety: changes `pose`. Since 0.1. */
+ * solve for the other handles, and as many solves of the reduced system as in a few frames. While other handles move, a
+ * frame takes up to twice the time of the pose solve. No factor is recomputed. Errors: HF_ERROR_NOT_FOUND,
+ * HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (following), HF_ERROR_UNSUPPORTED (a handle of a higher layer).
+ * Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_following(hf_pose pose, uint32_t handle_count, const uint32_t* handles, double following);
 
-/* Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. vertices:
- * uint32_t[vertex_count], one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the one
- * before.
+/* Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. vertices:
+ * uint32_t[vertex_count], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
+ * replaces the previous list.
  *
- * A frame gives each rigid piece the one motion that fits it best, also after refine. Where links join the piece to
- * others it is held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with
- * it; a second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this before such handles are added.
- * hf_pose_get_skin writes the motions without this step. Errors: HF_ERROR_CONFLICT (a handle has a part of a piece;
- * index = position), HF_ERROR_OUT_OF_RANGE and HF_ERROR_INVALID_ARGUMENT (isolated vertex; index = position),
+ * Each frame moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the
+ * vertices near links most. If the region of a handle touches a rigid piece, the whole piece joins the region and moves
+ * with the handle. A second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this function before you add
+ * such handles. hf_pose_get_skin writes the motions before this fit. Errors: HF_ERROR_CONFLICT (a handle has a part of
+ * a piece; index = position), HF_ERROR_OUT_OF_RANGE and HF_ERROR_INVALID_ARGUMENT (isolated vertex; index = position),
  * HF_ERROR_TOO_LARGE. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_rigid_pieces(hf_pose pose, uint32_t vertex_count, const uint32_t* vertices);
 
 /* Places handles by 4 x 4 matrices M. handles: uint32_t[handle_count]. matrices: double[handle_count][16], column by
- * column, elements 12 to 14 the translation. M
- * takes a rest position p to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes
- * the nearest rotation. Its last row must be 0 0 0 1. Errors: as hf_pose_set_transforms, HF_ERROR_INVALID_ARGUMENT (not
- * a rigid motion). Thread safety: changes `pose`. Since 0.1. */
+ * column, elements 12 to 14 the translation. M moves a rest position p to the posed position M p. Its linear part must
+ * be a rotation within 1e-4; the function takes the nearest rotation. Its last row must be 0 0 0 1. Errors: as
+ * hf_pose_set_transforms, HF_ERROR_INVALID_ARGUMENT (not a rigid motion). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_matrices(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
                                       const double* matrices);
 
@@ -189,9 +189,9 @@ typedef struct hf_handle_info {
   uint32_t component;
   double centroid[3];    /* of the rest region, in the unit of the mesh */
   double leak;           /* how far fields are off on the regions: 0 in poses of hf_pose_create */
-  double rotation[4];    /* where the handle stood in the last hf_deform, as in hf_transform; on higher layers with
-                            what the layers below did to it */
-  double translation[3]; /* the same of its translation */
+  double rotation[4];    /* of the handle in the last hf_deform, as in hf_transform. On a higher layer the motion of
+                            the lower layers is included */
+  double translation[3]; /* of the handle, in the same way */
   uint32_t layer;
   int32_t free_rotation; /* 1: the solve finds the rotation */
   double following;      /* how much of the surface follows; see hf_pose_set_following */
@@ -210,7 +210,7 @@ HF_API hf_result hf_pose_get_field(hf_pose pose, uint32_t handle, const hf_array
 
 /* ---- posing ---- */
 
-/* What a deform did. */
+/* The work of a deform. */
 typedef struct hf_deform_info {
   uint32_t struct_size;
   uint32_t iteration_count;        /* done */

@@ -30,9 +30,9 @@ enum hf_base {
 typedef struct hf_region_desc {
   uint32_t struct_size;
   int32_t base;         /* HF_BASE_*. If the surface has no factor for it yet, it is made now */
-  hf_array positions;   /* NULL, or [vertex_count][3] of float or double: the surface of weight 0, bit for bit, as the
-                           positions of the mesh or any pose of them. NULL: the mesh's own to 1e-15 of the box.
-                           Copied */
+  hf_array positions;   /* NULL, or [vertex_count][3] of float or double: positions of the mesh or of a pose. Weight 0
+                           gives the same bits. NULL: the positions of the mesh, to 1e-15 of the box. The call
+                           copies them */
   hf_progress progress; /* NULL, or an object to poll and cancel through */
 } hf_region_desc;
 
@@ -63,11 +63,11 @@ enum hf_curve_kind {
   HF_CURVE_EDGES = 1     /* by shortest paths along edges; points in triangles stand for their nearest corner */
 };
 
-/* Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The vertices
- * on its chosen side are the region, and any single vertex that these surround but for one edge. The rim is the
- * vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along
- * edges the rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a
- * vertex at most 8 times. */
+/* Describes a closed curve through at least 3 points, on the mesh at rest. Set one of vertices, places and points. The
+ * vertices on the chosen side of the curve are the region. A single vertex joins the region too if all its neighbours
+ * but one are in it. The rim is the vertices next to the region, on or beyond the curve. It follows the curve within an
+ * edge; where the curve runs along edges, the rim is the curve. A whole border of the surface is a curve too; it has
+ * only one side. The curve passes a vertex at most 8 times. */
 typedef struct hf_curve_desc {
   uint32_t struct_size;
   uint32_t point_count;     /* 3 to the number of vertices of the mesh */
@@ -126,7 +126,7 @@ HF_API hf_result hf_region_get_info(hf_region region, hf_region_info* out_info);
 /* Work of the last edit of a region, and of all its edits. */
 typedef struct hf_region_statistics {
   uint32_t struct_size;
-  uint32_t inserted_count; /* sites of the last edit ... */
+  uint32_t inserted_count; /* sites of the last edit, as in the next two fields */
   uint32_t removed_count;
   uint32_t kept_count;
   uint32_t factorisation_count; /* numeric factorisations of the region's edits so far */
@@ -160,12 +160,11 @@ HF_API hf_result hf_region_get_curve(hf_region region, uint32_t capacity, double
 /* Gives hf_region_morph and hf_detail_morph their weight and outputs. Set at least one output. */
 typedef struct hf_morph_desc {
   uint32_t struct_size;
-  uint32_t reserved; /* 0 */
-  double weight;     /* any finite number */
-  hf_array_out
-      positions;        /* NULL, or [vertex_count][3] of float or double, in the unit and frame of the mesh as given */
-  hf_array_out normals; /* NULL, or [vertex_count][3] of float or double: unit normals of the morphed surface, shared
-                           across seams */
+  uint32_t reserved;      /* 0 */
+  double weight;          /* any finite number */
+  hf_array_out positions; /* NULL, or [vertex_count][3] of float or double, in the unit of the mesh */
+  hf_array_out normals;   /* NULL, or [vertex_count][3] of float or double: unit normals of the morphed surface, shared
+                             across seams */
 } hf_morph_desc;
 
 /* Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in

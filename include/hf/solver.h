@@ -57,10 +57,10 @@ HF_API hf_result hf_solver_get_info(hf_solver solver, hf_solver_info* out_info);
 
 /* ---- sites ---- */
 
-/* Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site has.
- * Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh spacing
- * still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary vertices
- * of a disc count towards site_limit; for bi-harmonic fields all its vertices do. */
+/* Places and values of sites. Set one of vertices, places and points. The finer the mesh, the less influence a point
+ * site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh
+ * spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary
+ * vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do. */
 typedef struct hf_sites_desc {
   uint32_t struct_size;
   uint32_t site_count;      /* >= 1 */
@@ -174,9 +174,9 @@ typedef struct hf_solve_info {
 /* Solves for the field at every vertex of your mesh, in single precision. out_values:
  * float[vertex_count][channel_count], rows value_stride bytes apart (0 = packed). Hard sites hold their values exactly.
  * The field is 0 on components without a site. out_info: NULL, or receives the counts of these components. Cost: one
- * backward sweep through the factor, or three sweeps for bi-harmonic fields; 30 to 700 sweeps for these, by the number
- * of sites, where a vertex has more than 1,000 neighbours. Errors: HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE (index = vertex,
- * no float). Thread safety: reads `solver`. Since 0.1. */
+ * backward sweep through the factor, or three sweeps for a bi-harmonic field. If a vertex has more than 1,000
+ * neighbours, a bi-harmonic field takes 30 to 700 sweeps, by the number of sites. Errors: HF_ERROR_EMPTY,
+ * HF_ERROR_TOO_LARGE (a value does not fit a float; index = vertex). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
 /* Solves for the field at every vertex of your mesh, in single or double precision. out_values:
@@ -199,7 +199,7 @@ HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, con
  * channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects the
  * vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal. out_vectors:
  * [vertex_count][3] of float or double, not normalised. out_normals: NULL, or double[vertex_count][3], packed: the
- * normals used. out_info: NULL, or receives what the sites did not reach. Errors: as hf_solve,
+ * normals used. out_info: NULL, or receives the counts of components without a site. Errors: as hf_solve,
  * HF_ERROR_INVALID_ARGUMENT (not 3 channels). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_solve_vectors(hf_solver solver, const hf_array_out* out_vectors, double* out_normals,
                                          hf_solve_info* out_info);
@@ -272,9 +272,9 @@ typedef struct hf_certificate {
   double site_error; /* out: largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
   double overshoot;  /* out: how far the field leaves the range of its sites; 0 when not checked */
   uint32_t worst_vertex;         /* out: as given, where the largest of the three is */
-  uint32_t changed_vertex_count; /* out: welded vertices with a weight that a rule set (hf_mesh_statistics). On a mesh,
-                                    and for bi-harmonic fields, the errors hold for the weights used; on a graph for
-                                    your own, within 1e30 of their median */
+  uint32_t changed_vertex_count; /* out: welded vertices with a changed weight (hf_mesh_statistics). The errors hold
+                                    for the weights used. Harmonic fields on a graph use your own weights, within 1e30
+                                    of their median */
   double error_estimate; /* out: how far a value may be from the exact field: a bound by K alone where no weight is
                             negative and the field harmonic, else an estimate by corrections */
 } hf_certificate;

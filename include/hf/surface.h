@@ -104,26 +104,28 @@ typedef struct hf_links_desc {
   const uint32_t* heavy_vertices; /* [heavy_count]: their pieces are not, as one that gets a site or handle */
 } hf_links_desc;
 
-/* Faces of any number of corners. Set corners, and what your host stores: sizes (Maya, USD), starts and sizes
- * (Blender's loops), or starts as offsets (newer Blender). No field depends on how you would cut a face into triangles.
- * HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both cuts of a bent quad, and moves it towards the polygon Laplacian
- * of Bunge and others 2020 until a weight would become negative. docs/studies/polygons.md compares errors.
- * HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian, HF_OPERATOR_UNIFORM the sides of the
- * faces. Directions, distances, iso-lines, streamlines and quads work on a cut of the library. It does not depend on
- * the order of the corners. Where this interface names a triangle, it names the face then. Normals of poses are sums of
- * the area vectors of faces. */
+/* Faces of any number of corners. Set corners, and the arrays that your host stores: sizes alone (Maya, USD), starts
+ * and sizes (Blender's loops), or starts alone as offsets (newer Blender). Where this interface names a triangle of
+ * such a mesh, it names a face.
+ *
+ * No field depends on how you would cut a face into triangles. HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both
+ * cuts of a bent quad. It moves this mean towards the polygon Laplacian of Bunge and others 2020 until a weight would
+ * become negative; docs/studies/polygons.md compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED use that
+ * polygon Laplacian. HF_OPERATOR_UNIFORM uses the sides of the faces. Directions, distances, iso-lines, streamlines and
+ * quads work on triangles: the library cuts the faces. Its cut does not depend on the order of the corners. Normals of
+ * poses are sums of the area vectors of faces. */
 typedef struct hf_faces_desc {
   uint32_t struct_size;
   uint32_t reserved; /* 0 */
   hf_array corners;  /* [corner_count] of uint32_t: vertices, counter-clockwise seen from outside */
-  hf_array sizes;    /* NULL, or [faces] of uint32_t: corners of each face, 3 to 65,535. NULL: starts are enough */
+  hf_array sizes;    /* NULL, or [faces] of uint32_t: corners of each face, 3 to 65,535. NULL: starts give them */
   hf_array starts;   /* NULL, or [faces] of uint32_t: first corner of each face. NULL: the faces follow one
-                        another. Without sizes [faces + 1]: the corners of face f end where those of f + 1 start */
+                        another. Without sizes [faces + 1]: the corners of face f end where face f + 1 starts */
 } hf_faces_desc;
 
-/* The mesh and the options of a surface. Set triangles or faces.
+/* The mesh and the options of a surface. Set either triangles or faces.
  *
- * More than 16 fields: limits and hooks stand here one by one, since languages pass them by name. */
+ * More than 16 fields: limits and hooks are single fields, because languages pass them by name. */
 typedef struct hf_surface_desc {
   uint32_t struct_size;
   int32_t weld;               /* HF_WELD_* */
@@ -172,7 +174,8 @@ typedef struct hf_surface_desc {
 HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
 
 /* A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
- * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of hf_surface_desc.
+ * the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). Limits and hooks are as in hf_surface_desc.
+ *
  * More than 16 fields: they mirror hf_surface_desc. */
 typedef struct hf_graph_desc {
   uint32_t struct_size;
@@ -182,7 +185,7 @@ typedef struct hf_graph_desc {
   hf_array weights;       /* [edge_count] of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left
                              out */
   hf_array masses;        /* NULL, or [vertex_count] of float or double: M of HF_FIELD_BIHARMONIC, any unit, above 0 and
-                             up to 1e100; NULL: all 1. A mass below 1e-4 of the mean of its component counts as that */
+                             up to 1e100; NULL: all 1. A mass below 1e-4 of the mean of its component is raised to it */
   int32_t allow_negative; /* 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
                              tetrahedra do. A field can then leave the range of its sites. 0: they are refused */
   int32_t field_kind;     /* HF_FIELD_*: the factor made now. Others are made when a solver asks */
@@ -204,13 +207,13 @@ typedef struct hf_graph_desc {
  * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening, and sites at
  * places, at points or on discs.
  *
- * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
- * median of their component are limited; hf_mesh_statistics counts their vertices as changed. Bi-harmonic fields limit
- * weights to 1e3 times the median. out_surface: receives NULL at the start of the call and the new surface on success.
- * Cost: that of the factor; a graph of a volume has a larger one than a mesh of as many vertices. Errors:
- * HF_ERROR_INVALID_ARGUMENT (index = edge or vertex: a negative weight, a mass), HF_ERROR_EMPTY (no vertex, no edge, or
- * none left), HF_ERROR_OUT_OF_RANGE (index = edge), HF_ERROR_NON_FINITE (index = edge, or vertex of a mass),
- * HF_ERROR_TOO_LARGE (a limit, a weight, a mass), HF_ERROR_UNSUPPORTED (ordering not in this build),
+ * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from the median
+ * of their component by a factor above 1e30 are limited; hf_mesh_statistics counts their vertices as changed.
+ * Bi-harmonic fields limit weights to 1e3 times the median. out_surface: receives NULL at the start of the call and the
+ * new surface on success. Cost: the factor. The factor of a volume is larger than the factor of a mesh with as many
+ * vertices. Errors: HF_ERROR_INVALID_ARGUMENT (index = edge or vertex: a negative weight, a mass), HF_ERROR_EMPTY (no
+ * vertex, no edge, or none left), HF_ERROR_OUT_OF_RANGE (index = edge), HF_ERROR_NON_FINITE (index = edge, or vertex of
+ * a mass), HF_ERROR_TOO_LARGE (a limit, a weight, a mass), HF_ERROR_UNSUPPORTED (ordering not in this build),
  * HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE (index = vertex: negative weights outweigh the others). With
  * saved_factor also as hf_surface_create. Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_surface_create_graph(const hf_graph_desc* desc, hf_surface* out_surface);
@@ -243,9 +246,9 @@ typedef struct hf_surface_info {
 /* Writes the options of a surface. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 
-/* Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are 0. Where
- * faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces. Degenerate triangles are
- * of the cut. */
+/* Counts of what the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If faces were
+ * given, the report counts collapsed and duplicate faces, and sides of faces as edges. It counts the degenerate
+ * triangles of the cut. */
 typedef struct hf_surface_report {
   uint32_t struct_size;
   uint32_t vertex_count;              /* as given */
@@ -261,8 +264,8 @@ typedef struct hf_surface_report {
   uint32_t non_manifold_edge_count;   /* edges of three or more triangles */
   uint32_t flipped_edge_count;        /* edges that two triangles run through in the same direction */
   uint32_t boundary_edge_count;
-  uint32_t inside_out_count; /* closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The
-                                inner wall of a hollow body is one too. Fields do not change; what uses normals does */
+  uint32_t inside_out_count; /* closed pieces whose triangles face inwards: a mesh turned inside out, or the inner wall
+                                of a hollow body. Fields do not change. Results that use normals do */
   uint32_t first_inside_out_vertex; /* the first vertex of one, as given; HF_NO_INDEX without one */
   double bounding_box_diagonal;     /* in the unit of the positions, without isolated vertices */
 } hf_surface_report;
@@ -270,16 +273,17 @@ typedef struct hf_surface_report {
 /* Writes the report of the mesh. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_report(hf_surface surface, hf_surface_report* out_report);
 
-/* What a developer reads about a mesh: its faces, and the weights of its operator. */
+/* Figures of a mesh for developers: its faces, and the weights of its operator. */
 typedef struct hf_mesh_statistics {
   uint32_t struct_size;
   uint32_t polygon_count;        /* faces of more than three corners */
   uint32_t non_planar_count;     /* polygons with a corner farther than 1 % of their diameter from their mean plane */
   uint32_t largest_face;         /* corners of the largest face; 0 where triangles were given */
   uint32_t negative_edge_count;  /* edges of the cut of negative cotangent weight, before any clamping */
-  uint32_t changed_vertex_count; /* welded vertices with a weight that is not the mesh's, in the operator of field_kind:
-                                    of triangles too thin for it, or cut to the digits that there are. A certificate
-                                    holds for the weights used; near such vertices the field may be another's */
+  uint32_t changed_vertex_count; /* welded vertices with a changed weight, in the operator of field_kind. A weight is
+                                    changed if its triangles are too thin, or if a double has too few digits for it. A
+                                    certificate holds for the weights used; near these vertices the field may differ
+                                    from the field of the mesh */
   uint32_t first_changed_vertex; /* the first of them, as given; HF_NO_INDEX without one */
   uint32_t reserved;             /* 0 */
   double smallest_angle;         /* radians, over the usable triangles of the cut */
@@ -304,7 +308,7 @@ typedef struct hf_links_info {
   uint32_t light_piece_count;
   uint32_t lone_piece_count; /* pieces without a link, if there are several */
   uint32_t reserved;         /* 0 */
-  double longest_tree_link;  /* of the tree over the pieces, in the unit of the positions */
+  double longest_tree_link;  /* longest link of the tree over the pieces, in the unit of the positions */
 } hf_links_info;
 
 /* Writes how the pieces of a surface are linked. Thread safety: reads `surface`. Since 0.1. */
@@ -334,8 +338,8 @@ typedef struct hf_gaps_info {
 } hf_gaps_info;
 
 /* Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends are
- * apart than at rest, and 0 if they are nearer. positions: [vertex_count][3] of float or double: those of a pose, a
- * frame of a transfer, or any other deformation. out_gaps: NULL, or double[capacity], out_info->link_count of them, in
+ * apart than at rest, and 0 if they are nearer. positions: [vertex_count][3] of float or double: the deformed mesh,
+ * from a pose, a transfer or any other source. out_gaps: NULL, or double[capacity], out_info->link_count of them, in
  * the order of hf_surface_get_links. out_info: NULL, or a struct. Set one of the two at least. Errors:
  * HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_array* positions, uint32_t capacity,
@@ -386,9 +390,9 @@ HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, hf_prog
 
 /* ---- places ---- */
 
-/* One place on a surface: a vertex, or a point between three corners of a face. hf_hit has one, sites, pins, curves,
- * handles and paths take it. Lists of places have three forms, of which you set one: `vertices` (4 bytes each),
- * `places`, and `points` in space. */
+/* A place on a surface: a vertex, or a point between three corners of a face. hf_hit gives a place. Sites, pins,
+ * curves, handles and paths take places. A list of places has three forms: `vertices` (4 bytes each), `places`, and
+ * `points` in space. Set one of the three. */
 typedef struct hf_place {
   uint32_t corners[3]; /* vertices of one face, as given; a corner of barycentric 0 is ignored and can be HF_NO_INDEX */
   uint32_t reserved;   /* 0 */
@@ -400,7 +404,7 @@ typedef struct hf_place {
 /* Options of picking: posed positions, if the surface is not at rest, and which triangles count. */
 typedef struct hf_pick_desc {
   uint32_t struct_size;
-  int32_t front_only; /* 1: a ray passes triangles seen from behind */
+  int32_t front_only; /* 1: a ray passes through triangles seen from behind */
   hf_array positions; /* NULL, or [vertex_count][3] of float or double: posed positions (hf_deform writes them). NULL:
                          the rest positions */
 } hf_pick_desc;
@@ -411,8 +415,8 @@ typedef struct hf_hit {
   int32_t found;      /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
   uint32_t triangle;  /* or face, as given */
   uint32_t vertex;    /* its corner nearest to the hit, as given, of welded copies the first */
-  hf_place place;     /* corners of the triangle, of welded copies the first, and their weights. In a face of more
-                         corners three of them: the triangle of the face's cut that the ray hits */
+  hf_place place;     /* the point hit: corners of the triangle (the first of welded copies) and their weights. In a
+                         face of more corners, the corners are those three that the ray hits in the cut of the face */
   double position[3]; /* in the unit of the positions */
   double distance;    /* from the origin, in lengths of `direction` */
 } hf_hit;

@@ -19,12 +19,12 @@ typedef struct hf_transfer_object* hf_transfer;
 
 enum hf_transfer_mode {
   HF_TRANSFER_FIELDS = 0, /* a cluster: vertices with similar values of all fields; the default */
-  /* Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target vertex
-   * i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x' minimises sum
-   * over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2 with cotangent weights w. It is a Poisson
-   * equation with the factor of the surface. Borders match borders, and narrow openings between them, such as lids,
-   * close as on the source. There is no ground, no rest alignment, no dial, no hold and no skin; flags of pairs have no
-   * effect but on the scale. A surface on itself gets its own pose */
+  /* Transfers stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target
+   * vertex i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x'
+   * minimises sum over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2 with cotangent weights w. It is a
+   * Poisson equation with the factor of the surface. Borders match borders, and narrow openings between them, such as
+   * lids, close as on the source. There is no ground, no rest alignment, no dial, no hold and no skin; flags of pairs
+   * only set the scale. A surface on itself gets its own pose */
   HF_TRANSFER_STRETCH = 1
 };
 
@@ -56,7 +56,7 @@ typedef struct hf_transfer_desc {
   int32_t ground;         /* HF_GROUND_* */
   double kernel_width;    /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that
                             is more, up to 0.12 */
-  double scale; /* lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes
+  double scale; /* lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes
                   when no pair is a foot */
   /* A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times the angle it is not
    * aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never. */
@@ -65,9 +65,9 @@ typedef struct hf_transfer_desc {
    * right x up = forward, must hold within 1e-3. The library takes the nearest rotation. */
   double source_axes[9];
   double target_axes[9];
-  /* Poses in which the two bodies correspond, in each surface's unit, read by the call, or NULL
-   * for the positions of the surface. A character bound in a crouch gets a standing pose here. Motion counts from these
-   * poses; the fields stay those of the surfaces. */
+  /* Poses in which the two bodies correspond, in each surface's unit. NULL: the positions of the surface. Give a
+   * standing pose here for a character bound in a crouch. Motion is measured from these poses. They do not change the
+   * fields. */
   hf_array source_rest; /* NULL, or [source.vertex_count][3] of float or double */
   hf_array target_rest; /* NULL, or [target.vertex_count][3] of float or double */
 } hf_transfer_desc;
@@ -129,7 +129,7 @@ typedef struct hf_transfer_info {
   uint32_t aligned_count; /* pairs whose rest alignment is applied */
   uint32_t crossed_count; /* pairs that change sides, see hf_pair_info */
   int32_t scale_found;    /* 1: from the legs or the boxes; 0: given in the desc */
-  double scale;           /* lengths of the target over those of the source, both in the units of their meshes */
+  double scale;           /* lengths of the target over lengths of the source, each in the unit of its mesh */
 } hf_transfer_info;
 /* Writes the info of the whole transfer. The first call after a change of pairs solves fields, as hf_transfer_get_pair
  * does. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`. Since 0.1. */

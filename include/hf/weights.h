@@ -57,8 +57,7 @@ HF_API void hf_weights_destroy(hf_weights weights);
  * `weights`. Since 0.1. */
 HF_API hf_result hf_weights_set_joints(hf_weights weights, const hf_joints_desc* joints);
 
-/* Places with given weights. Set vertices, places or points. Give every vertex of a painted region to
- * keep its weights. */
+/* Places with given weights. Set one of vertices, places and points. To keep a painted region, pin all its vertices. */
 typedef struct hf_pins_desc {
   uint32_t struct_size;
   uint32_t pin_count;       /* 0 removes all pins */
@@ -77,10 +76,10 @@ typedef struct hf_pins_desc {
 
 /* Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a disc.
  * Pins at the same places with other weights cost no path. Cost: one elimination path and a dense row for each place,
- * and a sweep for every 8 joints that change. Errors, with index = pin: HF_ERROR_OUT_OF_RANGE (vertex,
- * joint), HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (barycentrics, a weight below 0, a sum of 0, a radius below 0,
- * a vertex without a triangle; joint_count), HF_ERROR_DUPLICATE (two pins share a vertex), HF_ERROR_CONFLICT (more than
- * three pins in one triangle), HF_ERROR_TOO_LARGE (more pins than vertices, a point two boxes or more away),
+ * and a sweep for every 8 joints that change. Errors, with index = pin: HF_ERROR_OUT_OF_RANGE (vertex, joint),
+ * HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (barycentrics, a weight below 0, a sum of 0, a radius below 0, a
+ * vertex without a triangle; influence_count), HF_ERROR_DUPLICATE (two pins share a vertex), HF_ERROR_CONFLICT (more
+ * than three pins in one triangle), HF_ERROR_TOO_LARGE (more pins than vertices, a point two boxes or more away),
  * HF_ERROR_CANCELLED. Thread safety: changes `weights`. Since 0.1. */
 HF_API hf_result hf_weights_set_pins(hf_weights weights, const hf_pins_desc* pins);
 
@@ -154,12 +153,12 @@ typedef struct hf_weights_info {
 /* Writes the info. Thread safety: reads `weights`. Since 0.1. */
 HF_API hf_result hf_weights_get_info(hf_weights weights, hf_weights_info* out_info);
 
-/* What a developer reads about weights: pieces that were guessed, joints that deserve a look, work done. */
+/* Figures of weights for developers: pieces that were guessed, joints to check, work done. */
 typedef struct hf_weights_statistics {
   uint32_t struct_size;
   uint32_t nearest_piece_count; /* pieces without information */
   uint32_t rigid_piece_count;   /* small ones of them */
-  int32_t blind;                /* 1: a piece sees none of its nearest joints and asks for them unseen */
+  int32_t blind;                /* 1: some piece sees none of its nearest joints and uses them unseen */
   uint32_t no_length_count;     /* joints by HF_JOINT_* */
   uint32_t coincident_count;
   uint32_t informs_none_count;
@@ -293,7 +292,7 @@ typedef struct hf_weights_mirror_info {
   double normal[3];
 } hf_weights_mirror_info;
 
-/* How far a surface and its joints are from their reflections. Lengths are in the unit of the mesh. */
+/* Distances of a surface and its joints from their reflections, in the unit of the mesh. */
 typedef struct hf_weights_mirror_statistics {
   uint32_t struct_size;
   uint32_t worst_joint;  /* the joint farthest off, HF_NO_INDEX: none has a partner */
@@ -305,15 +304,15 @@ typedef struct hf_weights_mirror_statistics {
   double worst_vertex_off;
 } hf_weights_mirror_statistics;
 
-/* Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the nearest
- * point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field fills in the
- * rest. The plane comes from joints with partners, else from the surface. A found normal has a positive largest
+/* Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights of the
+ * nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field fills
+ * in the rest. The plane comes from joints with partners, else from the surface. A found normal has a positive largest
  * component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x. inout_weights: as in hf_weights_get. out_partners:
  * uint32_t[joint_count] partners, or NULL. out_pairings: uint32_t[joint_count] HF_MIRROR_JOINT_*, or NULL. out_info:
- * NULL, or receives what was found. out_statistics: NULL, or receives how far all is off. Errors: as
- * hf_weights_transfer, HF_ERROR_EMPTY (no joint; no weight on the side that gives), HF_ERROR_OUT_OF_RANGE (a partner,
- * index = joint; a joint, index = vertex), HF_ERROR_INVALID_ARGUMENT (names with another count of lines; a partner that
- * has another partner, index = joint; a normal of length 0). Thread safety: reads `surface`. Since 0.1. */
+ * NULL, or receives the findings. out_statistics: NULL, or receives the distances. Errors: as hf_weights_transfer,
+ * HF_ERROR_EMPTY (no joint; no weight on the side to copy from), HF_ERROR_OUT_OF_RANGE (a partner, index = joint; a
+ * joint, index = vertex), HF_ERROR_INVALID_ARGUMENT (names with another count of lines; a partner that has another
+ * partner, index = joint; a normal of length 0). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_weights_mirror(hf_surface surface, const hf_weights_mirror_desc* desc,
                                    hf_weights_out* inout_weights, uint32_t* out_partners, uint32_t* out_pairings,
                                    hf_weights_mirror_info* out_info, hf_weights_mirror_statistics* out_statistics);

@@ -39,14 +39,6 @@ constexpr const char* null_device = "NUL";
 constexpr const char* null_device = "/dev/null";
 #endif
 
-// Some poses of a clip, to look for contacts.
-std::vector<std::vector<double>> some_poses(const Model& source, const FlatMesh& mesh, const Animation& clip) {
-  SurfacePoser surface(source, mesh);
-  std::vector<std::vector<double>> out;
-  for (int k = 0; k < 24; ++k) out.push_back(double_positions(surface.at(clip, clip_duration(clip) * k / 23)));
-  return out;
-}
-
 // Contacts of one run. Each clip has its own: a nose that grazes in one clip is free in the others.
 struct Contacts {
   std::vector<std::string> lines;
@@ -217,6 +209,12 @@ nlohmann::json put_clips(const Model& clips, const Model& target, const Transfer
           {"scale", bound.scale}};
 }
 
+void write_reports(const TransferCommand& command, const std::string& text, const nlohmann::json& json) {
+  std::fputs(text.c_str(), stdout);
+  if (!command.report.empty()) write_bytes(command.report, text);
+  if (!command.json.empty()) write_json(command.json, json);
+}
+
 // Morph targets in, morph targets out.
 int transfer_shapes(const TransferCommand& command, const Model& source, const Model& target, PairsFile pairs,
                     ProgressBar& bar, nlohmann::json& json) {
@@ -232,12 +230,10 @@ int transfer_shapes(const TransferCommand& command, const Model& source, const M
     for (const ShapeReport& shape : carried.shapes) names.push_back(shape.name);
     write_shape_sheet(command.sheet, session, source, target, carried.frames, names);
   }
-  const std::string text =
-      shapes_text(session, carried, command.output.string(), "shapes of " + source.name + " on " + target.name);
-  std::fputs(text.c_str(), stdout);
   json = shapes_json(session, carried, command.output.string());
-  if (!command.report.empty()) write_bytes(command.report, text);
-  if (!command.json.empty()) write_json(command.json, json);
+  write_reports(
+      command,
+      shapes_text(session, carried, command.output.string(), "shapes of " + source.name + " on " + target.name), json);
   return 0;
 }
 
@@ -246,11 +242,8 @@ int transfer_joints(const JointModels& models, const std::string& why, const Tra
                     nlohmann::json& json) {
   RunReport report = run_by_joints(models, choose_clips(models.source, command.clip), command, bar);
   report.way_why = why;
-  const std::string text = to_text(report, models.source.name + " on " + models.target.name);
-  std::fputs(text.c_str(), stdout);
   json = to_json(report);
-  if (!command.report.empty()) write_bytes(command.report, text);
-  if (!command.json.empty()) write_json(command.json, json);
+  write_reports(command, to_text(report, models.source.name + " on " + models.target.name), json);
   return 0;
 }
 
@@ -344,9 +337,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
     json["edited"] = to_json(second);
     factorised_again = before_source != second.source_factorisations || before_target != second.target_factorisations;
   }
-  std::fputs(text.c_str(), stdout);
-  if (!command.report.empty()) write_bytes(command.report, text);
-  if (!command.json.empty()) write_json(command.json, json);
+  write_reports(command, text, json);
   if (factorised_again) {
     std::fprintf(stderr, "hf_transfer: the edit factorised a surface again; that is a fault of the library\n");
     return 1;

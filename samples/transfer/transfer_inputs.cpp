@@ -95,4 +95,11 @@ Motion read_motion(const Model& source, const TransferCommand& command) {
   return out;
 }
 
+std::vector<std::vector<double>> some_poses(const Model& source, const FlatMesh& mesh, const Animation& clip) {
+  SurfacePoser surface(source, mesh);
+  std::vector<std::vector<double>> out;
+  for (int k = 0; k < 24; ++k) out.push_back(double_positions(surface.at(clip, clip_duration(clip) * k / 23)));
+  return out;
+}
+
 }  // namespace samples

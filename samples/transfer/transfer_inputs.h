@@ -34,6 +34,10 @@ struct Motion {
 // Throws std::runtime_error: there is no clip of that name, a mesh has another count of vertices.
 Motion read_motion(const hf_gltf::Model& source, const TransferCommand& command);
 
+// Some poses of a clip, to look for contacts.
+std::vector<std::vector<double>> some_poses(const hf_gltf::Model& source, const hf_gltf::FlatMesh& mesh,
+                                            const hf_gltf::Animation& clip);
+
 }  // namespace samples
 
 #endif

@@ -78,7 +78,9 @@ template <class Array>
 std::size_t check_array(const Array& array, std::int32_t other, std::size_t width, const char* name) {
   if (array.reserved != 0)
     fail(HF_ERROR_INVALID_DESC, HF_NO_INDEX, "%s.reserved is %u; set it to 0", name, array.reserved);
-  if (!array.data) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s.data is NULL, but its count is %u", name, array.count);
+  if (!array.data)
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s.data is NULL, but its count is %u; set both or neither", name,
+         array.count);
   if (array.type != HF_TYPE_PLAIN && array.type != other) {
     const char* const allowed = other == HF_TYPE_DOUBLE   ? "0 for float or HF_TYPE_DOUBLE"
                                 : other == HF_TYPE_UINT16 ? "0 for uint32_t or HF_TYPE_UINT16"
@@ -88,7 +90,8 @@ std::size_t check_array(const Array& array, std::int32_t other, std::size_t widt
   const std::size_t number = array.type == HF_TYPE_DOUBLE ? 8 : array.type == HF_TYPE_UINT16 ? 2 : 4;
   const std::size_t row = width * number;
   if (array.stride != 0 && array.stride < row)
-    fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s.stride is %u bytes; a row has %zu", name, array.stride, row);
+    fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s.stride is %u bytes; a row has %zu, and 0 is packed rows", name,
+         array.stride, row);
   return array.stride == 0 ? row : array.stride;
 }
 
@@ -130,19 +133,20 @@ inline Rows write_reals(const hf_array_out& array, std::size_t width, std::size_
   return view;
 }
 // The same of an array that a call cannot do without, given by its address.
+template <class View>
+View need(const View& view, const char* name) {
+  if (!view) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s.data is NULL", name);
+  return view;
+}
 inline ConstRows need_reals(const hf_array* array, std::size_t width, std::size_t rows, const char* noun,
                             const char* name) {
   require(array, name);
-  const ConstRows view = read_reals(*array, width, rows, noun, name);
-  if (!view) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s.data is NULL", name);
-  return view;
+  return need(read_reals(*array, width, rows, noun, name), name);
 }
 inline Rows need_reals(const hf_array_out* array, std::size_t width, std::size_t rows, const char* noun,
                        const char* name) {
   require(array, name);
-  const Rows view = write_reals(*array, width, rows, noun, name);
-  if (!view) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "%s.data is NULL", name);
-  return view;
+  return need(write_reals(*array, width, rows, noun, name), name);
 }
 // Views an array of indices.
 inline IndexRows read_indices(const hf_array& array, std::int32_t other, std::size_t width, const char* name) {

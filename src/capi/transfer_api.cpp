@@ -36,6 +36,20 @@ struct TransferObject final : Object {
   std::shared_ptr<NormalRoom> normals;
 };
 
+// Writes figures that fill() takes from a transfer. One thread at a time does so, as the first solves fields.
+template <class Figures, class Fill>
+hf_result write_figures(const char* function, hf_transfer handle, Figures* out, const char* name, const Fill& fill) {
+  return guarded(function, [&] {
+    const auto object = get<TransferObject>(handle, "transfer");
+    check_struct(out, name);
+    const Reading reading(*object);
+    const std::lock_guard<OwnedMutex> lock(object->preparing);
+    Figures figures{};
+    fill(object->transfer, figures);
+    write_struct(out, figures);
+  });
+}
+
 }  // namespace
 
 hf_result create_transfer(const char* function, hf_surface source, hf_surface target, const hf_transfer_desc* desc,
@@ -89,57 +103,42 @@ hf_result hf_transfer_remove_pairs(hf_transfer handle, uint32_t pair_count, cons
 }
 
 hf_result hf_transfer_get_pair(hf_transfer handle, uint32_t pair, hf_pair_info* out_info) {
-  return guarded("hf_transfer_get_pair", [&] {
-    const auto object = get<TransferObject>(handle, "transfer");
-    check_struct(out_info, "out_info");
-    const Reading reading(*object);
-    const std::lock_guard<OwnedMutex> lock(object->preparing);
-    const PairInfo found = object->transfer.pair_info(pair);
-    hf_pair_info info{};
-    info.flags = found.flags;
-    info.source_leak = found.source_leak;
-    info.target_leak = found.target_leak;
-    info.alignment_angle = found.alignment_angle;
-    info.confidence = found.confidence;
-    info.alignment_share = found.alignment_share;
-    info.aligned = found.alignment_share > 0 ? 1 : 0;
-    info.crossed = found.crossed ? 1 : 0;
-    write_struct(out_info, info);
-  });
+  return write_figures("hf_transfer_get_pair", handle, out_info, "out_info",
+                       [&](Transfer& transfer, hf_pair_info& info) {
+                         const PairInfo found = transfer.pair_info(pair);
+                         info.flags = found.flags;
+                         info.source_leak = found.source_leak;
+                         info.target_leak = found.target_leak;
+                         info.alignment_angle = found.alignment_angle;
+                         info.confidence = found.confidence;
+                         info.alignment_share = found.alignment_share;
+                         info.aligned = found.alignment_share > 0 ? 1 : 0;
+                         info.crossed = found.crossed ? 1 : 0;
+                       });
 }
 
 hf_result hf_transfer_get_info(hf_transfer handle, hf_transfer_info* out_info) {
-  return guarded("hf_transfer_get_info", [&] {
-    const auto object = get<TransferObject>(handle, "transfer");
-    check_struct(out_info, "out_info");
-    const Reading reading(*object);
-    const std::lock_guard<OwnedMutex> lock(object->preparing);
-    hf_transfer_info info{};
-    info.cluster_count = static_cast<std::uint32_t>(object->transfer.cluster_count());
-    info.pair_count = object->transfer.pair_count();
-    for (const std::uint32_t pair : object->transfer.pairs()) {
-      const PairInfo found = object->transfer.pair_info(pair);
-      info.aligned_count += found.alignment_share > 0 ? 1u : 0u;
-      info.crossed_count += found.crossed ? 1u : 0u;
-    }
-    info.scale = object->transfer.scale();
-    info.scale_found = object->transfer.scale_found() ? 1 : 0;
-    write_struct(out_info, info);
-  });
+  return write_figures("hf_transfer_get_info", handle, out_info, "out_info",
+                       [](Transfer& transfer, hf_transfer_info& info) {
+                         info.cluster_count = static_cast<std::uint32_t>(transfer.cluster_count());
+                         info.pair_count = transfer.pair_count();
+                         for (const std::uint32_t pair : transfer.pairs()) {
+                           const PairInfo found = transfer.pair_info(pair);
+                           info.aligned_count += found.alignment_share > 0 ? 1u : 0u;
+                           info.crossed_count += found.crossed ? 1u : 0u;
+                         }
+                         info.scale = transfer.scale();
+                         info.scale_found = transfer.scale_found() ? 1 : 0;
+                       });
 }
 
 hf_result hf_transfer_get_statistics(hf_transfer handle, hf_transfer_statistics* out_statistics) {
-  return guarded("hf_transfer_get_statistics", [&] {
-    const auto object = get<TransferObject>(handle, "transfer");
-    check_struct(out_statistics, "out_statistics");
-    const Reading reading(*object);
-    const std::lock_guard<OwnedMutex> lock(object->preparing);
-    hf_transfer_statistics statistics{};
-    // The counter includes the surface's own factor as its first factorisation, so one is subtracted.
-    statistics.source_factorisation_count = object->transfer.source_counters().factorisations - 1;
-    statistics.target_factorisation_count = object->transfer.target_counters().factorisations - 1;
-    write_struct(out_statistics, statistics);
-  });
+  return write_figures("hf_transfer_get_statistics", handle, out_statistics, "out_statistics",
+                       [](Transfer& transfer, hf_transfer_statistics& statistics) {
+                         // The counters include the surface's own factor as the first factorisation.
+                         statistics.source_factorisation_count = transfer.source_counters().factorisations - 1;
+                         statistics.target_factorisation_count = transfer.target_counters().factorisations - 1;
+                       });
 }
 
 hf_result hf_transfer_set_dials(hf_transfer handle, const hf_transfer_dials* dials) {

@@ -220,19 +220,6 @@ constexpr double crossfade_turn = 0.25;
 // double change the moves above by at most 0.0009, on a human whose pose settles slowly.
 constexpr std::uint32_t crossfade_iterations = 20;
 
-// ---- holds.cpp, pose_following.cpp ----
-
-// Strength of the pins at a share of one half, where all pins together count as one point of the surface. More lets a
-// hand take less of the body along at the same share. A hand pulled up by 0.25 of the box moves the head of eight
-// bipeds by 0.04 to 0.08, with a share of 0.25 by at most 0.03, and 0.039 with a fifth of this.
-constexpr double hold_strength = 6;
-// How fast pins get weaker towards the handle: (1 - field)^power. With 4 the head moves by 0.039.
-constexpr double hold_power = 2;
-// A share below it holds as if it were this: an infinite strength would hold the limb too.
-constexpr double least_following = 0.02;
-// Pins in all, and at least in a component: more hold every limb, fewer take less time and memory.
-constexpr std::int32_t most_holds = 96, least_component_holds = 4;
-
 // ---- rigid_pieces.cpp ----
 
 // How much of the fit of a rigid piece the vertices where links hold it decide; the rest is for its area. With 1 a
@@ -385,29 +372,10 @@ constexpr double longest_newton_step = 1.0;
 // number. Half and double move a tube in the paper's mode by 1e-7 of its length, the other poses by 1e-9.
 constexpr double settled_newton_step = 1e-14;
 
-// ---- skin.cpp ----
+// ---- skin.cpp, holds.cpp, rigid_pieces.cpp ----
 
-// The next numbers fit the joints of a skin to the posed surface. With stretching joints, the skin of a lifted plane is
-// within 0.2 % of the box, with rigid joints within 2.5 %. Bends and twists come within 0.1 % instead of 0.6 %.
-//
-// At most this many vertices fit the joints. Fewer take less time. Meshes with fewer use all, as a bent tube does: half
-// and double change nothing.
-constexpr double skin_vertices = 20000;
-// One round fits every joint of a skin once: each takes an eighth of the time. On a bent tube half leaves a mean
-// distance of 0.1525 % instead of 0.1519, double changes nothing.
-constexpr int skin_rounds = 8;
-// One round fits the rotation of a joint, then its stretch. They end early: half and double change nothing on a bent
-// tube.
-constexpr int stretch_rounds = 6;
 // Guards a division: joints without extent have moments of 0. At 1e-200 and 0 a bent tube has the same skin.
 constexpr double least_moment = 1e-300;
-// This share of a joint's second moments (how far its vertices spread along each axis) is added to them. A joint
-// without extent in a direction keeps the scale 1 there. More would hold joints back. Half and double leave the
-// distances of a bent tube, 0.152 % in the mean, the same to four digits.
-constexpr double stretch_ballast = 1e-6;
-// A joint shrinks to this scale at most, so scales stay positive. It is a guard: half and double change nothing on a
-// bent tube.
-constexpr double least_stretch = 1e-3;
 // Area of a vertex without area, as a share of the squared box, so that it still counts. It is a guard: half and double
 // leave the skin of a bent tube the same.
 constexpr double least_vertex_area = 1e-12;

@@ -107,9 +107,8 @@ void PoseStack::set_following(Span<const std::uint32_t> numbers, double followin
   for (std::uint32_t k = 0; k < numbers.size(); ++k) {
     const Entry& entry = entries_[require(numbers[k], k)];
     if (entry.layer > 0)
-      fail(HF_ERROR_UNSUPPORTED, k,
-           "handle %u is on layer %u; a following is for handles of layer 0, the layers below are not moved anyway",
-           numbers[k], entry.layer);
+      fail(HF_ERROR_UNSUPPORTED, k, "handle %u is on layer %u; set a following for handles of layer 0 only", numbers[k],
+           entry.layer);
     inner.push_back(entry.inner[0]);
   }
   base_->set_following(inner, following);

@@ -37,10 +37,9 @@ void PoseStack::check_rigid(const RigidPieces& rigid, Span<const std::int32_t> v
     for (std::uint32_t k = 0; k < vertices.size(); ++k) {
       const std::size_t p = static_cast<std::size_t>(rigid.piece_of(vertices[k])), part = inside[p];
       if (part > 0 && part < rigid.vertices_of(p).size())
-        fail(
-            HF_ERROR_CONFLICT, k,
-            "entry %u is on a piece of which handle %u has a part; remove the handle, and add it again after this call",
-            k, entry.number);
+        fail(HF_ERROR_CONFLICT, k,
+             "entry %u is on a piece that handle %u has a part of; remove the handle, and add it again after this call",
+             k, entry.number);
     }
     for (const std::int32_t v : region) {
       if (const std::int32_t p = rigid.piece_of(v); p >= 0) inside[p] = 0;
@@ -73,7 +72,7 @@ void PoseStack::take_whole_pieces(Span<const std::uint32_t> start, Span<const st
         const Span<const std::int32_t> piece = rigid_->vertices_of(static_cast<std::size_t>(p));
         whole.insert(whole.end(), piece.begin(), piece.end());
       } else if (owner[p] != own) {
-        fail(HF_ERROR_CONFLICT, k, "entry %u lies on a rigid piece that %s has already; one handle moves all of it", k,
+        fail(HF_ERROR_CONFLICT, k, "entry %u is on a rigid piece that %s has already; leave the entry out", k,
              owner[p] == earlier ? "a handle" : "an earlier region");
       }
     }

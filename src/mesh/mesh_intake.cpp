@@ -36,7 +36,7 @@ FaceRows read_faces(const hf_surface_desc& desc) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "triangles and faces are both set; set one");
   if (!is_given(given.corners)) fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "faces->corners.data is NULL");
   if (!is_given(given.starts) && !is_given(given.sizes))
-    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "faces->starts.data and faces->sizes.data are both NULL");
+    fail(HF_ERROR_NULL_POINTER, HF_NO_INDEX, "faces->starts.data and faces->sizes.data are both NULL; set one");
   faces.corners = read_indices(given.corners, HF_TYPE_PLAIN, 1, "faces->corners");
   faces.starts = read_indices(given.starts, HF_TYPE_PLAIN, 1, "faces->starts");
   faces.sizes = read_indices(given.sizes, HF_TYPE_PLAIN, 1, "faces->sizes");

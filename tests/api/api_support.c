@@ -180,6 +180,21 @@ uint32_t* tube_ends(uint32_t around, uint32_t rings) {
   return vertices;
 }
 
+void add_own_pairs(hf_transfer transfer, const uint32_t counts[2], const uint32_t* vertices) {
+  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
+  pairs.pair_count = 2;
+  pairs.source_counts = pairs.target_counts = counts;
+  pairs.source_vertices = pairs.target_vertices = vertices;
+  assert_ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
+}
+
+void add_tube_pairs(hf_transfer transfer, uint32_t around, uint32_t rings) {
+  const uint32_t counts[2] = {2 * around, 2 * around};
+  uint32_t* ends = tube_ends(around, rings);
+  add_own_pairs(transfer, counts, ends);
+  free(ends);
+}
+
 hf_pose tube_pose(hf_surface surface, uint32_t around, uint32_t rings, uint32_t out_handles[2]) {
   hf_pose pose = NULL;
   assert_ok(hf_pose_create(surface, NULL, &pose));

@@ -83,6 +83,10 @@ int same_bits(const void* a, const void* b, size_t size);
 hf_pose tube_pose(hf_surface surface, uint32_t around, uint32_t rings, uint32_t out_handles[2]);
 /* The indices of the first and the last two rings of a tube, one list after the other. */
 uint32_t* tube_ends(uint32_t around, uint32_t rings);
+/* Adds two pairs of a surface with itself: region k has counts[k] vertices, one list after the other. */
+void add_own_pairs(hf_transfer transfer, const uint32_t counts[2], const uint32_t* vertices);
+/* Adds the ends of a tube as pairs. */
+void add_tube_pairs(hf_transfer transfer, uint32_t around, uint32_t rings);
 
 /* An allocator on malloc that counts, and refuses allocation number `refuse_at` (1-based; 0 = never), and all later
  * ones when refuse_on is set. peak_bytes: the most at once since a test set it to 0. Not thread safe. */

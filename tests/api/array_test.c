@@ -208,12 +208,8 @@ static void every_output_takes_floats_doubles_and_strides(void** state) {
   hf_region_destroy(region);
   hf_transfer transfer = NULL;
   const uint32_t ones[2] = {1, 1}, at[2] = {0, COUNT - 1};
-  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2;
-  pairs.source_counts = pairs.target_counts = ones;
-  pairs.source_vertices = pairs.target_vertices = at;
   assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
-  assert_ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
+  add_own_pairs(transfer, ones, at);
   outputs_agree(write_transferred, &transfer, 3);
   hf_transfer_destroy(transfer);
 }

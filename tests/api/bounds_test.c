@@ -253,12 +253,8 @@ static void poses_of_huge_meshes_are_doubles(void** state) {
     assert_true(same_bits(frame, expected, sizeof frame));
     hf_transfer transfer;
     const uint32_t ones[2] = {1, 1}, ends[2] = {0, COUNT - 2};
-    hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-    pairs.pair_count = 2;
-    pairs.source_counts = pairs.target_counts = ones;
-    pairs.source_vertices = pairs.target_vertices = ends;
     assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
-    assert_ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
+    add_own_pairs(transfer, ones, ends);
     hf_transfer_frame apply = HF_INIT(hf_transfer_frame);
     apply.source_positions = HF_ARRAY(expected, COUNT);
     apply.target_positions = ROWS_OUT(floats);
@@ -286,11 +282,7 @@ static void frames_beyond_1e15_boxes_are_refused_in_every_mode(void** state) {
     hf_transfer transfer;
     desc.mode = mode_of(kind);
     assert_ok(create_transfer_with(kind, surface, surface, &desc, &transfer));
-    hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-    pairs.pair_count = 2;
-    pairs.source_counts = pairs.target_counts = ones;
-    pairs.source_vertices = pairs.target_vertices = ends;
-    assert_ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
+    add_own_pairs(transfer, ones, ends);
     const double far[] = {1e14, 1e15, -1e18, 1e60, 1e160, 1e305};
     for (size_t f = 0; f < COUNT_OF(far); ++f) {
       for (size_t i = 0; i < 3 * (size_t)sheet.vertex_count; ++i) source[i] = (double)sheet.positions[i];

@@ -74,14 +74,7 @@ static void create_family(Family* f, const Surface* tube) {
   f->poses[0] = tube_pose(f->surface, AROUND, RINGS, handles);
   assert_ok(hf_pose_clone(f->poses[0], &f->poses[1]));
   assert_ok(hf_transfer_create(f->surface, f->surface, NULL, &f->transfer));
-  uint32_t* ends = tube_ends(AROUND, RINGS);
-  const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
-  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2;
-  pairs.source_counts = pairs.target_counts = counts;
-  pairs.source_vertices = pairs.target_vertices = ends;
-  assert_ok(hf_transfer_add_pairs(f->transfer, &pairs, NULL));
-  free(ends);
+  add_tube_pairs(f->transfer, AROUND, RINGS);
 }
 
 static void use_member(Family* f, int member, const Surface* tube) {

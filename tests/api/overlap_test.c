@@ -75,13 +75,7 @@ static void a_posed_source_may_become_the_target_in_place(void** state) {
   hf_surface surface = surface_on(&tube);
   hf_transfer transfer = NULL;
   assert_ok(hf_transfer_create(surface, surface, NULL, &transfer));
-  uint32_t* ends = tube_ends(AROUND, RINGS);
-  const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
-  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2;
-  pairs.source_counts = pairs.target_counts = counts;
-  pairs.source_vertices = pairs.target_vertices = ends;
-  assert_ok(hf_transfer_add_pairs(transfer, &pairs, NULL));
+  add_tube_pairs(transfer, AROUND, RINGS);
   float posed[3 * VERTICES], apart[3 * VERTICES];
   for (size_t v = 0; v < VERTICES; ++v) {
     const float y = tube.positions[3 * v + 1];
@@ -97,7 +91,6 @@ static void a_posed_source_may_become_the_target_in_place(void** state) {
   assert_true(same_bits(posed, apart, sizeof apart));
   hf_transfer_destroy(transfer);
   hf_surface_destroy(surface);
-  free(ends);
   surface_free(&tube);
 }
 

@@ -116,17 +116,10 @@ static void a_transfer_of_the_paper_has_bands_for_each_pair(void** state) {
   desc.mode = HF_TRANSFER_STRETCH;
   REFUSED(HF_ERROR_INVALID_ARGUMENT, hf_peer_transfer_create(surface, surface, &desc, &out));
   assert_ok(hf_peer_transfer_create(surface, surface, NULL, &out));
-  uint32_t* ends = tube_ends(AROUND, RINGS);
-  const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
-  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2;
-  pairs.source_counts = pairs.target_counts = counts;
-  pairs.source_vertices = pairs.target_vertices = ends;
-  assert_ok(hf_transfer_add_pairs(out, &pairs, NULL));
+  add_tube_pairs(out, AROUND, RINGS);
   hf_transfer_info info = HF_INIT(hf_transfer_info);
   assert_ok(hf_transfer_get_info(out, &info));
   assert_true(info.cluster_count > 2 && info.cluster_count <= 16 && info.aligned_count == 0);
-  free(ends);
   hf_transfer_destroy(out);
   hf_surface_destroy(surface);
 }

@@ -124,11 +124,7 @@ static void create_world(void) {
   assert_ok(hf_transfer_create(w.surface, w.surface, NULL, &w.transfer));
   uint32_t* ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
-  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2;
-  pairs.source_counts = pairs.target_counts = counts;
-  pairs.source_vertices = pairs.target_vertices = ends;
-  assert_ok(hf_transfer_add_pairs(w.transfer, &pairs, NULL));
+  add_own_pairs(w.transfer, counts, ends);
   memcpy(w.posed, w.tube.positions, sizeof w.posed);
   const uint32_t vertex = VERTICES / 2;
   assert_ok(hf_direction_create(w.surface, NULL, &w.direction));

@@ -60,14 +60,8 @@ static void create_all(Household* h, const Surface* tube) {
   uint32_t handles[2];
   h->pose = tube_pose(h->surface, AROUND, RINGS, handles);
   assert_ok(hf_transfer_create(h->surface, h->surface, NULL, &h->transfer));
-  uint32_t* ends = tube_ends(AROUND, RINGS);
-  const uint32_t counts[2] = {2 * AROUND, 2 * AROUND}, inside[6] = {40, 41, 42, 52, 53, 54};
-  hf_pairs_desc pairs = HF_INIT(hf_pairs_desc);
-  pairs.pair_count = 2;
-  pairs.source_counts = pairs.target_counts = counts;
-  pairs.source_vertices = pairs.target_vertices = ends;
-  assert_ok(hf_transfer_add_pairs(h->transfer, &pairs, NULL));
-  free(ends);
+  add_tube_pairs(h->transfer, AROUND, RINGS);
+  const uint32_t inside[6] = {40, 41, 42, 52, 53, 54};
   const double up[3] = {0, 1, 0};
   assert_ok(hf_direction_create(h->surface, NULL, &h->direction));
   assert_ok(hf_direction_add_sites(h->direction, 1, inside, up, NULL));

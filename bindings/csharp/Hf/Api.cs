@@ -271,13 +271,13 @@ namespace Hf
     {
         /// <summary>a cluster: vertices with similar values of all fields; the default</summary>
         Fields = Constants.HF_TRANSFER_FIELDS,
-        /// <summary>Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each
+        /// <summary>Transfers stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each
         /// target vertex i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The
         /// result x' minimises sum over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2 with
         /// cotangent weights w. It is a Poisson equation with the factor of the surface. Borders match borders, and
         /// narrow openings between them, such as lids, close as on the source. There is no ground, no rest
-        /// alignment, no dial, no hold and no skin; flags of pairs have no effect but on the scale. A surface on
-        /// itself gets its own pose</summary>
+        /// alignment, no dial, no hold and no skin; flags of pairs only set the scale. A surface on itself gets its
+        /// own pose</summary>
         Stretch = Constants.HF_TRANSFER_STRETCH,
     }
 
@@ -451,21 +451,17 @@ namespace Hf
         }
     }
 
-    /// <summary>The options a surface was made with, defaults filled in. More than 16 fields: they mirror SurfaceDesc.</summary>
+    /// <summary>The options a surface was made with, defaults filled in.</summary>
     public sealed unsafe partial class SurfaceInfo
     {
         /// <summary>as given</summary>
         public uint VertexCount;
         /// <summary>as given; of faces, the triangles of their cut</summary>
         public uint TriangleCount;
-        /// <summary>Weld</summary>
         public Weld Weld;
         public double WeldTolerance;
-        /// <summary>Operator</summary>
         public Operator OperatorKind;
-        /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
-        /// <summary>Ordering</summary>
         public Ordering Ordering;
         public uint ThreadCount;
         public uint VertexLimit;
@@ -504,9 +500,9 @@ namespace Hf
         }
     }
 
-    /// <summary>Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are
-    /// 0. Where faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces.
-    /// Degenerate triangles are of the cut.</summary>
+    /// <summary>Counts of what the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If
+    /// faces were given, the report counts collapsed and duplicate faces, and sides of faces as edges. It counts
+    /// the degenerate triangles of the cut.</summary>
     public sealed unsafe partial class SurfaceReport
     {
         /// <summary>as given</summary>
@@ -531,8 +527,8 @@ namespace Hf
         /// <summary>edges that two triangles run through in the same direction</summary>
         public uint FlippedEdgeCount;
         public uint BoundaryEdgeCount;
-        /// <summary>closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The inner wall of a
-        /// hollow body is one too. Fields do not change; what uses normals does</summary>
+        /// <summary>closed pieces whose triangles face inwards: a mesh turned inside out, or the inner wall of a hollow
+        /// body. Fields do not change. Results that use normals do</summary>
         public uint InsideOutCount;
         /// <summary>the first vertex of one, as given; uint.MaxValue without one</summary>
         public uint FirstInsideOutVertex;
@@ -558,7 +554,7 @@ namespace Hf
         }
     }
 
-    /// <summary>What a developer reads about a mesh: its faces, and the weights of its operator.</summary>
+    /// <summary>Figures of a mesh for developers: its faces, and the weights of its operator.</summary>
     public sealed unsafe partial class MeshStatistics
     {
         /// <summary>faces of more than three corners</summary>
@@ -569,9 +565,9 @@ namespace Hf
         public uint LargestFace;
         /// <summary>edges of the cut of negative cotangent weight, before any clamping</summary>
         public uint NegativeEdgeCount;
-        /// <summary>welded vertices with a weight that is not the mesh's, in the operator of field_kind: of triangles too
-        /// thin for it, or cut to the digits that there are. A certificate holds for the weights used; near such
-        /// vertices the field may be another's</summary>
+        /// <summary>welded vertices with a changed weight, in the operator of field_kind. A weight is changed if its
+        /// triangles are too thin, or if a double has too few digits for it. A certificate holds for the weights
+        /// used; near these vertices the field may differ from the field of the mesh</summary>
         public uint ChangedVertexCount;
         /// <summary>the first of them, as given; uint.MaxValue without one</summary>
         public uint FirstChangedVertex;
@@ -600,7 +596,7 @@ namespace Hf
         public uint LightPieceCount;
         /// <summary>pieces without a link, if there are several</summary>
         public uint LonePieceCount;
-        /// <summary>of the tree over the pieces, in the unit of the positions</summary>
+        /// <summary>longest link of the tree over the pieces, in the unit of the positions</summary>
         public double LongestTreeLink;
 
         internal LinksInfo(hf_links_info* raw)
@@ -681,9 +677,9 @@ namespace Hf
         }
     }
 
-    /// <summary>One place on a surface: a vertex, or a point between three corners of a face. Hit has one, sites, pins,
-    /// curves, handles and paths take it. Lists of places have three forms, of which you set one: `vertices` (4
-    /// bytes each), `places`, and `points` in space.</summary>
+    /// <summary>A place on a surface: a vertex, or a point between three corners of a face. Hit gives a place. Sites, pins,
+    /// curves, handles and paths take places. A list of places has three forms: `vertices` (4 bytes each),
+    /// `places`, and `points` in space. Set one of the three.</summary>
     public sealed unsafe partial class Place
     {
         /// <summary>vertices of one face, as given; a corner of barycentric 0 is ignored and can be uint.MaxValue</summary>
@@ -713,8 +709,8 @@ namespace Hf
         public uint Triangle;
         /// <summary>its corner nearest to the hit, as given, of welded copies the first</summary>
         public uint Vertex;
-        /// <summary>corners of the triangle, of welded copies the first, and their weights. In a face of more corners three
-        /// of them: the triangle of the face's cut that the ray hits</summary>
+        /// <summary>the point hit: corners of the triangle (the first of welded copies) and their weights. In a face of more
+        /// corners, the corners are those three that the ray hits in the cut of the face</summary>
         public Place Place;
         /// <summary>in the unit of the positions</summary>
         public double[] Position = new double[3];
@@ -734,7 +730,6 @@ namespace Hf
     /// <summary>Solver.Info writes the options of a solver here, with defaults filled in, and the number of its sites.</summary>
     public sealed unsafe partial class SolverInfo
     {
-        /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
         public uint ChannelCount;
         public uint SiteLimit;
@@ -822,8 +817,8 @@ namespace Hf
         public double Overshoot;
         /// <summary>as given, where the largest of the three is</summary>
         public uint WorstVertex;
-        /// <summary>welded vertices with a weight that a rule set (MeshStatistics). On a mesh, and for bi-harmonic fields,
-        /// the errors hold for the weights used; on a graph for your own, within 1e30 of their median</summary>
+        /// <summary>welded vertices with a changed weight (MeshStatistics). The errors hold for the weights used. Harmonic
+        /// fields on a graph use your own weights, within 1e30 of their median</summary>
         public uint ChangedVertexCount;
         /// <summary>how far a value may be from the exact field: a bound by K alone where no weight is negative and the
         /// field harmonic, else an estimate by corrections</summary>
@@ -894,7 +889,6 @@ namespace Hf
     {
         /// <summary>as given, of welded copies the first</summary>
         public uint Vertex;
-        /// <summary>Critical</summary>
         public Critical Kind;
         /// <summary>1 for extrema (0 for a maximum on a border), -k for a saddle where k + 1 valleys meet</summary>
         public int Index;
@@ -1079,10 +1073,10 @@ namespace Hf
         public double[] Centroid = new double[3];
         /// <summary>how far fields are off on the regions: 0 in poses of Pose</summary>
         public double Leak;
-        /// <summary>where the handle stood in the last Pose.Deform, as in Transform; on higher layers with what the layers
-        /// below did to it</summary>
+        /// <summary>of the handle in the last Pose.Deform, as in Transform. On a higher layer the motion of the lower layers
+        /// is included</summary>
         public double[] Rotation = new double[4];
-        /// <summary>the same of its translation</summary>
+        /// <summary>of the handle, in the same way</summary>
         public double[] Translation = new double[3];
         public uint Layer;
         /// <summary>1: the solve finds the rotation</summary>
@@ -1105,7 +1099,7 @@ namespace Hf
         }
     }
 
-    /// <summary>What a deform did.</summary>
+    /// <summary>The work of a deform.</summary>
     public sealed unsafe partial class DeformInfo
     {
         /// <summary>done</summary>
@@ -1150,7 +1144,6 @@ namespace Hf
         public uint Vertex;
         /// <summary>as Surface.Components</summary>
         public uint Component;
-        /// <summary>HandleReason</summary>
         public HandleReason Reason;
         /// <summary>1: add it at once, it holds the body; 0: offer it, and add it when it is dragged</summary>
         public bool Pinned;
@@ -1212,7 +1205,6 @@ namespace Hf
     /// <summary>Counts and areas of a region. Welded copies count as one vertex.</summary>
     public sealed unsafe partial class RegionInfo
     {
-        /// <summary>FieldKind</summary>
         public FieldKind FieldKind;
         /// <summary>of the region, without its rim</summary>
         public uint VertexCount;
@@ -1239,7 +1231,7 @@ namespace Hf
     /// <summary>Work of the last edit of a region, and of all its edits.</summary>
     public sealed unsafe partial class RegionStatistics
     {
-        /// <summary>sites of the last edit ...</summary>
+        /// <summary>sites of the last edit, as in the next two fields</summary>
         public uint InsertedCount;
         public uint RemovedCount;
         public uint KeptCount;
@@ -1275,7 +1267,6 @@ namespace Hf
         public uint ChainCount;
         /// <summary>1: keys are copied</summary>
         public bool SameSkeleton;
-        /// <summary>ScaleFrom</summary>
         public ScaleFrom ScaleFrom;
         public uint FrameCount;
         /// <summary>travel of the target over travel of the source</summary>
@@ -1309,9 +1300,7 @@ namespace Hf
     /// the source, in radians. They are 0 for a chain of one joint, and for a chain whose rest is not aligned.</summary>
     public sealed unsafe partial class ChainMatch
     {
-        /// <summary>Role</summary>
         public Role Role;
-        /// <summary>BodySide</summary>
         public Side Side;
         public uint SourceJointCount;
         public uint TargetJointCount;
@@ -1389,11 +1378,9 @@ namespace Hf
     /// <summary>The findings about a joint.</summary>
     public sealed unsafe partial class JointInfo
     {
-        /// <summary>JointKind</summary>
         public JointKind Kind;
         /// <summary>Role; of a twist joint, the role of its bone</summary>
         public Role Role;
-        /// <summary>BodySide</summary>
         public Side Side;
         /// <summary>number of its chain, uint.MaxValue: none</summary>
         public uint Chain;
@@ -1424,9 +1411,7 @@ namespace Hf
     /// <summary>Joints of one role and side, from root to tip.</summary>
     public sealed unsafe partial class Chain
     {
-        /// <summary>Role</summary>
         public Role Role;
-        /// <summary>BodySide</summary>
         public Side Side;
         /// <summary>counts the chains of one role and side: legs from the front, others as their joints come</summary>
         public uint Number;
@@ -1506,7 +1491,7 @@ namespace Hf
         public uint CrossedCount;
         /// <summary>1: from the legs or the boxes; 0: given in the desc</summary>
         public bool ScaleFound;
-        /// <summary>lengths of the target over those of the source, both in the units of their meshes</summary>
+        /// <summary>lengths of the target over lengths of the source, each in the unit of its mesh</summary>
         public double Scale;
 
         internal TransferInfo(hf_transfer_info* raw)
@@ -1599,14 +1584,14 @@ namespace Hf
         }
     }
 
-    /// <summary>What a developer reads about weights: pieces that were guessed, joints that deserve a look, work done.</summary>
+    /// <summary>Figures of weights for developers: pieces that were guessed, joints to check, work done.</summary>
     public sealed unsafe partial class WeightsStatistics
     {
         /// <summary>pieces without information</summary>
         public uint NearestPieceCount;
         /// <summary>small ones of them</summary>
         public uint RigidPieceCount;
-        /// <summary>1: a piece sees none of its nearest joints and asks for them unseen</summary>
+        /// <summary>1: some piece sees none of its nearest joints and uses them unseen</summary>
         public bool Blind;
         /// <summary>joints by JointFlag</summary>
         public uint NoLengthCount;
@@ -1663,7 +1648,6 @@ namespace Hf
     public sealed unsafe partial class WeightsMirrorInfo
     {
         public uint VertexCount;
-        /// <summary>MirrorPlane</summary>
         public MirrorPlane PlaneFrom;
         /// <summary>joints by MirrorPairing</summary>
         public uint NamedCount;
@@ -1702,7 +1686,7 @@ namespace Hf
         }
     }
 
-    /// <summary>How far a surface and its joints are from their reflections. Lengths are in the unit of the mesh.</summary>
+    /// <summary>Distances of a surface and its joints from their reflections, in the unit of the mesh.</summary>
     public sealed unsafe partial class WeightsMirrorStatistics
     {
         /// <summary>the joint farthest off, uint.MaxValue: none has a partner</summary>
@@ -1890,7 +1874,6 @@ namespace Hf
         public uint[] LightVertices;
         /// <summary>[heavyCount]: their pieces are not, as one that gets a site or handle</summary>
         public uint[] HeavyVertices;
-        /// <summary>LinkMode</summary>
         public LinkMode Mode;
         /// <summary>longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal</summary>
         public double Distance;
@@ -1929,22 +1912,24 @@ namespace Hf
         }
     }
 
-    /// <summary>Faces of any number of corners. Set corners, and what your host stores: sizes (Maya, USD), starts and sizes
-    /// (Blender's loops), or starts as offsets (newer Blender). No field depends on how you would cut a face into
-    /// triangles. Operator.IntrinsicDelaunay takes the mean of both cuts of a bent quad, and moves it towards the
-    /// polygon Laplacian of Bunge and others 2020 until a weight would become negative. docs/studies/polygons.md
-    /// compares errors. Operator.Cotangent and Operator.Clamped take that polygon Laplacian, Operator.Uniform the
-    /// sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a cut of the library. It
-    /// does not depend on the order of the corners. Where this interface names a triangle, it names the face then.
-    /// Normals of poses are sums of the area vectors of faces.</summary>
+    /// <summary>Faces of any number of corners. Set corners, and the arrays that your host stores: sizes alone (Maya, USD),
+    /// starts and sizes (Blender's loops), or starts alone as offsets (newer Blender). Where this interface names a
+    /// triangle of such a mesh, it names a face.
+    ///
+    /// No field depends on how you would cut a face into triangles. Operator.IntrinsicDelaunay takes the mean of
+    /// both cuts of a bent quad. It moves this mean towards the polygon Laplacian of Bunge and others 2020 until a
+    /// weight would become negative; docs/studies/polygons.md compares errors. Operator.Cotangent and
+    /// Operator.Clamped use that polygon Laplacian. Operator.Uniform uses the sides of the faces. Directions,
+    /// distances, iso-lines, streamlines and quads work on triangles: the library cuts the faces. Its cut does not
+    /// depend on the order of the corners. Normals of poses are sums of the area vectors of faces.</summary>
     public sealed unsafe class FacesDesc
     {
         /// <summary>[cornerCount] of uint32_t: vertices, counter-clockwise seen from outside</summary>
         public uint[] Corners;
-        /// <summary>null, or [faces] of uint32_t: corners of each face, 3 to 65,535. null: starts are enough</summary>
+        /// <summary>null, or [faces] of uint32_t: corners of each face, 3 to 65,535. null: starts give them</summary>
         public uint[] Sizes;
         /// <summary>null, or [faces] of uint32_t: first corner of each face. null: the faces follow one another. Without
-        /// sizes [faces + 1]: the corners of face f end where those of f + 1 start</summary>
+        /// sizes [faces + 1]: the corners of face f end where face f + 1 starts</summary>
         public uint[] Starts;
 
         public static implicit operator FacesDesc(uint[] corners)
@@ -1963,10 +1948,11 @@ namespace Hf
         }
     }
 
-    /// <summary>Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point
-    /// site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below
-    /// the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic
-    /// fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.</summary>
+    /// <summary>Places and values of sites. Set one of vertices, places and points. The finer the mesh, the less influence a
+    /// point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius
+    /// below the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For
+    /// harmonic fields the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its
+    /// vertices do.</summary>
     public sealed unsafe class SitesDesc
     {
         /// <summary>[siteCount] vertices as given, or null</summary>
@@ -2006,11 +1992,11 @@ namespace Hf
         }
     }
 
-    /// <summary>Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The
-    /// vertices on its chosen side are the region, and any single vertex that these surround but for one edge. The
-    /// rim is the vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the
-    /// curve runs along edges the rim is the curve. A whole border of the surface is a curve too; it has only one
-    /// side. The curve passes a vertex at most 8 times.</summary>
+    /// <summary>Describes a closed curve through at least 3 points, on the mesh at rest. Set one of vertices, places and
+    /// points. The vertices on the chosen side of the curve are the region. A single vertex joins the region too if
+    /// all its neighbours but one are in it. The rim is the vertices next to the region, on or beyond the curve. It
+    /// follows the curve within an edge; where the curve runs along edges, the rim is the curve. A whole border of
+    /// the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times.</summary>
     public sealed unsafe class CurveDesc
     {
         /// <summary>[pointCount] vertices as given, or null</summary>
@@ -2020,11 +2006,9 @@ namespace Hf
         /// <summary>[pointCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
         /// the nearest point of the surface, up to two boxes away</summary>
         public double[] Points;
-        /// <summary>BodySide</summary>
         public Side Side;
         /// <summary>with Side.Seed</summary>
         public uint SeedVertex;
-        /// <summary>CurveKind</summary>
         public CurveKind Kind;
 
         public static implicit operator CurveDesc(uint[] vertices)
@@ -2228,15 +2212,15 @@ namespace Hf
         /// poses, regions, directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin
         /// weights, vector fields, links, screening, and sites at places, at points or on discs.
         ///
-        /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than
-        /// 1e30 from the median of their component are limited; MeshStatistics counts their vertices as changed.
-        /// Bi-harmonic fields limit weights to 1e3 times the median.
+        /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from
+        /// the median of their component by a factor above 1e30 are limited; MeshStatistics counts their vertices
+        /// as changed. Bi-harmonic fields limit weights to 1e3 times the median.
         ///
         /// edges: [edgeCount x 2] of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges
         ///     are added up. Self loops are ignored
         /// weights: [edgeCount] of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left out
         /// masses: [vertexCount] of float or double: M of FieldKind.Biharmonic, any unit, above 0 and up to 1e100;
-        ///     null: all 1. A mass below 1e-4 of the mean of its component counts as that
+        ///     null: all 1. A mass below 1e-4 of the mean of its component is raised to it
         /// vertexCount: &gt;= 1, also without masses
         /// allowNegative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
         ///     tetrahedra do. A field can then leave the range of its sites. 0: they are refused
@@ -2413,8 +2397,8 @@ namespace Hf
         /// <summary>Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther
         /// its ends are apart than at rest, and 0 if they are nearer.
         ///
-        /// positions: [vertexCount x 3] of float or double: those of a pose, a frame of a transfer, or any other
-        ///     deformation.
+        /// positions: [vertexCount x 3] of float or double: the deformed mesh, from a pose, a transfer or any other
+        ///     source.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -2532,7 +2516,7 @@ namespace Hf
         /// direction: [3] in the frame of the positions; the direction can have any length above 0.
         /// positions: [vertexCount x 3] of float or double: posed positions (Pose.Deform writes them). null: the
         ///     rest positions
-        /// frontOnly: 1: a ray passes triangles seen from behind
+        /// frontOnly: 1: a ray passes through triangles seen from behind
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.</summary>
         public Hit CastRay(double[] origin, double[] direction, Reals positions = null, bool frontOnly = false)
@@ -2557,7 +2541,7 @@ namespace Hf
         /// point: [3] in the frame of the positions.
         /// positions: [vertexCount x 3] of float or double: posed positions (Pose.Deform writes them). null: the
         ///     rest positions
-        /// frontOnly: 1: a ray passes triangles seen from behind
+        /// frontOnly: 1: a ray passes through triangles seen from behind
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
         public (uint Vertex, double Distance) FindVertex(double[] point, Reals positions = null, bool frontOnly = false)
@@ -3114,13 +3098,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their
-        /// values exactly. The field is 0 on components without a site.
-        ///
-        /// @out: [vertexCount x channelCount] of float or double.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Solve, into an array of yours.</summary>
         public void Solve(Span<float> into)
         {
             using (var c = new Call(this))
@@ -3137,13 +3115,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their
-        /// values exactly. The field is 0 on components without a site.
-        ///
-        /// @out: [vertexCount x channelCount] of float or double.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Solve, in double precision.</summary>
         public double[] SolveDouble()
         {
             using (var c = new Call(this))
@@ -3159,13 +3131,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves for the field at every vertex of your mesh, in single or double precision. Hard sites hold their
-        /// values exactly. The field is 0 on components without a site.
-        ///
-        /// @out: [vertexCount x channelCount] of float or double.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Solve, into an array of yours.</summary>
         public void Solve(Span<double> into)
         {
             using (var c = new Call(this))
@@ -3235,16 +3201,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009,
-        /// Section 3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a
-        /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
-        /// area-weighted normal.
-        ///
-        /// @out: [vertexCount x 3] of float or double, not normalised.
-        /// normals: [vertexCount x 3], packed: the normals used.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As SolveVectors, into an array of yours.</summary>
         public void SolveVectors(Span<float> into, Span<double> normals = default(Span<double>))
         {
             using (var c = new Call(this))
@@ -3266,16 +3223,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009,
-        /// Section 3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a
-        /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
-        /// area-weighted normal.
-        ///
-        /// @out: [vertexCount x 3] of float or double, not normalised.
-        /// normals: [vertexCount x 3], packed: the normals used.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As SolveVectors, in double precision.</summary>
         public double[] SolveVectorsDouble(Span<double> normals = default(Span<double>))
         {
             using (var c = new Call(this))
@@ -3296,16 +3244,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009,
-        /// Section 3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a
-        /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
-        /// area-weighted normal.
-        ///
-        /// @out: [vertexCount x 3] of float or double, not normalised.
-        /// normals: [vertexCount x 3], packed: the normals used.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As SolveVectors, into an array of yours.</summary>
         public void SolveVectors(Span<double> into, Span<double> normals = default(Span<double>))
         {
             using (var c = new Call(this))
@@ -3360,24 +3299,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves with a single-precision copy of the factor. This reads half the bytes of Solver.Solve; use it
-        /// while the user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields.
-        /// Bi-harmonic fields, long shapes and crowded sites can have an error of any size: ask for corrections
-        /// there and read error_estimate. Hard sites at vertices are exact. One correction (iterative refinement,
-        /// Wilkinson 1963) of a harmonic field takes the error below 1e-9, a second one below 1e-12. Each
-        /// correction costs as much as two to three calls of Solver.Solve.
-        ///
-        /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
-        /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
-        /// 1.
-        ///
-        /// correctionCount: 0 to 8.
-        /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
-        /// corrections away.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
+        /// <summary>As SolvePreview, into an array of yours.</summary>
         public void SolvePreview(Span<float> into, uint correctionCount = 0)
         {
             using (var c = new Call(this))
@@ -3394,24 +3316,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves with a single-precision copy of the factor. This reads half the bytes of Solver.Solve; use it
-        /// while the user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields.
-        /// Bi-harmonic fields, long shapes and crowded sites can have an error of any size: ask for corrections
-        /// there and read error_estimate. Hard sites at vertices are exact. One correction (iterative refinement,
-        /// Wilkinson 1963) of a harmonic field takes the error below 1e-9, a second one below 1e-12. Each
-        /// correction costs as much as two to three calls of Solver.Solve.
-        ///
-        /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
-        /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
-        /// 1.
-        ///
-        /// correctionCount: 0 to 8.
-        /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
-        /// corrections away.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
+        /// <summary>As SolvePreview, in double precision.</summary>
         public double[] SolvePreviewDouble(uint correctionCount = 0)
         {
             using (var c = new Call(this))
@@ -3427,24 +3332,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves with a single-precision copy of the factor. This reads half the bytes of Solver.Solve; use it
-        /// while the user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields.
-        /// Bi-harmonic fields, long shapes and crowded sites can have an error of any size: ask for corrections
-        /// there and read error_estimate. Hard sites at vertices are exact. One correction (iterative refinement,
-        /// Wilkinson 1963) of a harmonic field takes the error below 1e-9, a second one below 1e-12. Each
-        /// correction costs as much as two to three calls of Solver.Solve.
-        ///
-        /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
-        /// kind on the surface share the copy. It is freed with the last of these solvers, or by
-        /// Solver.ReleasePreview. A solver whose factor eliminates sites gives the exact field. info.exact is then
-        /// 1.
-        ///
-        /// correctionCount: 0 to 8.
-        /// @out: [vertexCount x channelCount] of float or double, as Solver.Solve. Single precision rounds most
-        /// corrections away.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
+        /// <summary>As SolvePreview, into an array of yours.</summary>
         public void SolvePreview(Span<double> into, uint correctionCount = 0)
         {
             using (var c = new Call(this))
@@ -3637,17 +3525,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
-        /// The distance is 0 at the sources, and -1 at vertices that no source can reach.
-        ///
-        /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
-        ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
-        ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
-        ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
-        ///     where two shortest paths meet.
-        /// @out: [vertexCount] of float or double.
-        ///
-        /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Solve, into an array of yours.</summary>
         public void Solve(uint[] sources, Span<float> into)
         {
             using (var c = new Call(this))
@@ -3664,17 +3542,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
-        /// The distance is 0 at the sources, and -1 at vertices that no source can reach.
-        ///
-        /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
-        ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
-        ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
-        ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
-        ///     where two shortest paths meet.
-        /// @out: [vertexCount] of float or double.
-        ///
-        /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Solve, in double precision.</summary>
         public double[] SolveDouble(uint[] sources)
         {
             using (var c = new Call(this))
@@ -3690,17 +3558,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the distance along the surface from every vertex to the nearest source, in the unit of the mesh.
-        /// The distance is 0 at the sources, and -1 at vertices that no source can reach.
-        ///
-        /// sources: [sourceCount] vertices of your mesh; repeats are allowed. Paths follow the triangles and ignore
-        ///     links. Triangles with the same corners count once: a two-sided sheet measures as a single one. No
-        ///     distance of EXACT and FRONT is below the straight line to the nearest source. EXACT is right up to
-        ///     rounding. The error of FRONT falls with the edge length. HEAT rounds the distance off at corners and
-        ///     where two shortest paths meet.
-        /// @out: [vertexCount] of float or double.
-        ///
-        /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Solve, into an array of yours.</summary>
         public void Solve(uint[] sources, Span<double> into)
         {
             using (var c = new Call(this))
@@ -3976,14 +3834,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the field as vectors in space. The vectors are tangent to the surface up to 1e-12 of their
-        /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
-        /// their vectors; vertices that no constraint reaches get 0.
-        ///
-        /// @out: [vertexCount x 3] of float or double.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY.</summary>
+        /// <summary>As Solve, into an array of yours.</summary>
         public void Solve(Span<float> into)
         {
             using (var c = new Call(this))
@@ -4000,14 +3851,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the field as vectors in space. The vectors are tangent to the surface up to 1e-12 of their
-        /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
-        /// their vectors; vertices that no constraint reaches get 0.
-        ///
-        /// @out: [vertexCount x 3] of float or double.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY.</summary>
+        /// <summary>As Solve, in double precision.</summary>
         public double[] SolveDouble()
         {
             using (var c = new Call(this))
@@ -4023,14 +3867,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the field as vectors in space. The vectors are tangent to the surface up to 1e-12 of their
-        /// length. For degree 2 or 4 the function writes one of the 2 or 4 directions. Constrained vertices hold
-        /// their vectors; vertices that no constraint reaches get 0.
-        ///
-        /// @out: [vertexCount x 3] of float or double.
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY.</summary>
+        /// <summary>As Solve, into an array of yours.</summary>
         public void Solve(Span<double> into)
         {
             using (var c = new Call(this))
@@ -4285,17 +4122,19 @@ namespace Hf
             }
         }
 
-        /// <summary>Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands
-        /// exactly where its transform puts it; the rotation of the transform is ignored. Each Pose.Deform finds
-        /// the rotation together with the pose (positional constraints, Sorkine and Alexa 2007): the one of least
-        /// as-rigid-as-possible energy towards the shapes that groups of vertices aim at. A group that is pulled
-        /// aims at a longer and thinner shape than at rest, so the rotation is not exactly the one of least energy
-        /// towards the rest shape. Pose.Handle writes it. Drag with a free rotation: the wrist follows the hand.
-        /// Give the rotation when the user turns a ring. A given rotation starts as the handle stands, so the pose
-        /// does not change. Where you free a rotation on layer 0 the surface stays as it is and lets the old
-        /// rotation go as handles move, as with in_place; place the handles after that call. On a higher layer a
-        /// changed handle moves the surface at the next frame. A handle alone in its component keeps the rotation
-        /// it has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose.
+        /// <summary>Chooses who gives the rotations of handles: the solve or you. A handle of free rotation is a positional
+        /// constraint (Sorkine and Alexa 2007). Its centroid lands exactly where its transform puts it; the
+        /// rotation of the transform is ignored. Each Pose.Deform finds the rotation together with the pose, and
+        /// Pose.Handle writes it. The rotation has the least as-rigid-as-possible energy. A group of vertices that
+        /// is pulled compares itself with a longer and thinner shape than its rest shape. So the energy is not
+        /// exactly the energy towards the rest shape.
+        ///
+        /// Free the rotation while the user drags a handle: the wrist then follows the hand. Give the rotation
+        /// while the user turns a ring. A given rotation starts at the present rotation of the handle, so the pose
+        /// does not change. When you free a rotation on layer 0, the surface stays as it is. It releases the old
+        /// rotation as handles move, as with in_place; so move the handles after this call. On a higher layer a
+        /// changed handle moves the surface at the next frame. A handle alone in its component keeps its rotation.
+        /// restart also restarts free rotations. refine keeps the rotation of the smooth pose.
         ///
         /// handles: [handleCount].
         /// freeRotation: 1: the solve finds the rotations; 0: you give them.
@@ -4311,16 +4150,16 @@ namespace Hf
             }
         }
 
-        /// <summary>Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface
-        /// where it would be without these handles, so that a body does not lean after a hand. Handles of following
-        /// 1 carry the body: give less to a handle that is dragged. The handles themselves land exactly, and a limb
-        /// that is too short gets longer. The fields tell the limb: on it the field of the handle is near 1. The
-        /// next Pose.Deform shows a change at once. Full-mesh steps (refine) do not know the pins; with
+        /// <summary>Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the rest of the surface
+        /// where it would be without these handles. So a body does not lean after a dragged hand. Keep 1 for the
+        /// handles that hold the body, and set less for a handle that is dragged. Every handle still lands exactly,
+        /// and a limb that is too short gets longer. The limb of a handle is the part where its field is near 1.
+        /// The next Pose.Deform shows a change at once. Full-mesh steps (refine) ignore the pins; with
         /// refine_from_last they let the body lean again.
         ///
         /// handles: [handleCount].
-        /// following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone
-        ///     follows, an arm for example.
+        /// following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of
+        ///     the handle follows, such as an arm.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
         public void SetFollowing(uint[] handles, double following = 0)
@@ -4333,14 +4172,15 @@ namespace Hf
             }
         }
 
-        /// <summary>Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame
-        /// gives each rigid piece the one motion that fits it best, also after refine. Where links join the piece
-        /// to others it is held most. A handle whose region touches a rigid piece takes all of it, so that the
-        /// piece moves with it; a second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this before
-        /// such handles are added. Pose.Skin writes the motions without this step.
+        /// <summary>Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each
+        /// frame moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit
+        /// counts the vertices near links most. If the region of a handle touches a rigid piece, the whole piece
+        /// joins the region and moves with the handle. A second handle on the same piece is refused
+        /// (HF_ERROR_CONFLICT). Call this function before you add such handles. Pose.Skin writes the motions before
+        /// this fit.
         ///
-        /// vertices: [vertexCount], one or more of each piece; vertex_count 0: no piece is rigid. The list replaces
-        ///     the one before.
+        /// vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid.
+        ///     The list replaces the previous list.
         ///
         /// Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public void SetRigidPieces(uint[] vertices)
@@ -4357,7 +4197,7 @@ namespace Hf
         /// <summary>Places handles by 4 x 4 matrices M.
         ///
         /// handles: [handleCount].
-        /// matrices: [handleCount x 16], column by column, elements 12 to 14 the translation. M takes a rest
+        /// matrices: [handleCount x 16], column by column, elements 12 to 14 the translation. M moves a rest
         ///     position p to the posed position M p. Its linear part must be a rotation within 1e-4; the function
         ///     takes the nearest rotation. Its last row must be 0 0 0 1.
         ///
@@ -4417,12 +4257,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
-        /// handle reaches, the fields of all handles sum to 1.
-        ///
-        /// @out: [vertexCount] of float or double.
-        ///
-        /// Throws HF_ERROR_NOT_FOUND.</summary>
+        /// <summary>As Field, into an array of yours.</summary>
         public void Field(uint handle, Span<float> into)
         {
             using (var c = new Call(this))
@@ -4437,12 +4272,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
-        /// handle reaches, the fields of all handles sum to 1.
-        ///
-        /// @out: [vertexCount] of float or double.
-        ///
-        /// Throws HF_ERROR_NOT_FOUND.</summary>
+        /// <summary>As Field, in double precision.</summary>
         public double[] FieldDouble(uint handle)
         {
             using (var c = new Call(this))
@@ -4456,12 +4286,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the field of a handle, which says how much each vertex follows the handle. At a vertex that a
-        /// handle reaches, the fields of all handles sum to 1.
-        ///
-        /// @out: [vertexCount] of float or double.
-        ///
-        /// Throws HF_ERROR_NOT_FOUND.</summary>
+        /// <summary>As Field, into an array of yours.</summary>
         public void Field(uint handle, Span<double> into)
         {
             using (var c = new Call(this))
@@ -4523,26 +4348,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Does the same as Pose.Deform, with the options of a desc.
-        ///
-        /// iterationCount: 1 to 1000; 0 = the pose's
-        /// restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose
-        ///     with the same handles, added in the same order, and the same transforms. Without restart a frame
-        ///     continues from the last one, so it also depends on that
-        /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
-        ///     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
-        ///     sharper
-        /// refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth
-        ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand
-        ///     still, more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs
-        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
-        /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-        /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: [vertexCount x 3] of float or double: posed positions
-        /// normals: [vertexCount x 3] of float or double: unit normals of the posed surface, shared across seams
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Deform, into an array of yours.</summary>
         public void Deform(Span<float> into, Span<float> normals = default(Span<float>), uint iterationCount = 0,
                 bool restart = false, int refine = 0, bool refineFromLast = false, uint firstVertex = 0,
                 uint vertexCount = 0)
@@ -4571,26 +4377,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Does the same as Pose.Deform, with the options of a desc.
-        ///
-        /// iterationCount: 1 to 1000; 0 = the pose's
-        /// restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose
-        ///     with the same handles, added in the same order, and the same transforms. Without restart a frame
-        ///     continues from the last one, so it also depends on that
-        /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
-        ///     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
-        ///     sharper
-        /// refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth
-        ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand
-        ///     still, more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs
-        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
-        /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-        /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: [vertexCount x 3] of float or double: posed positions
-        /// normals: [vertexCount x 3] of float or double: unit normals of the posed surface, shared across seams
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Deform, in double precision.</summary>
         public double[] DeformDouble(uint iterationCount = 0, bool restart = false, int refine = 0,
                 bool refineFromLast = false, uint firstVertex = 0, uint vertexCount = 0,
                 Span<float> normals = default(Span<float>))
@@ -4618,26 +4405,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Does the same as Pose.Deform, with the options of a desc.
-        ///
-        /// iterationCount: 1 to 1000; 0 = the pose's
-        /// restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose
-        ///     with the same handles, added in the same order, and the same transforms. Without restart a frame
-        ///     continues from the last one, so it also depends on that
-        /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
-        ///     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
-        ///     sharper
-        /// refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth
-        ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand
-        ///     still, more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs
-        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
-        /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-        /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
-        /// @out: [vertexCount x 3] of float or double: posed positions
-        /// normals: [vertexCount x 3] of float or double: unit normals of the posed surface, shared across seams
-        /// info: filled in when given
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Deform, into an array of yours.</summary>
         public void Deform(Span<double> into, Span<float> normals = default(Span<float>), uint iterationCount = 0,
                 bool restart = false, int refine = 0, bool refineFromLast = false, uint firstVertex = 0,
                 uint vertexCount = 0)
@@ -5070,8 +4838,8 @@ namespace Hf
     ///
     /// Creates a region without vertices.
     ///
-    /// positions: [vertexCount x 3] of float or double: the surface of weight 0, bit for bit, as the positions of
-    ///     the mesh or any pose of them. null: the mesh's own to 1e-15 of the box. Copied
+    /// positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. Weight 0 gives the same
+    ///     bits. null: the positions of the mesh, to 1e-15 of the box. The call copies them
     /// @base: Base. If the surface has no factor for it yet, it is made now
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Region : Recorded
@@ -5080,8 +4848,8 @@ namespace Hf
 
         /// <summary>Creates a region without vertices.
         ///
-        /// positions: [vertexCount x 3] of float or double: the surface of weight 0, bit for bit, as the positions
-        ///     of the mesh or any pose of them. null: the mesh's own to 1e-15 of the box. Copied
+        /// positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. Weight 0 gives the
+        ///     same bits. null: the positions of the mesh, to 1e-15 of the box. The call copies them
         /// @base: Base. If the surface has no factor for it yet, it is made now
         /// progress: an object to poll and cancel through
         ///
@@ -5233,7 +5001,7 @@ namespace Hf
         /// The call solves nothing.
         ///
         /// weight: any finite number
-        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+        /// @out: [vertexCount x 3] of float or double, in the unit of the mesh
         /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -5257,16 +5025,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
-        /// RegionDesc. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A
-        /// weight below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p.
-        /// The call solves nothing.
-        ///
-        /// weight: any finite number
-        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
-        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
-        ///
-        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Morph, into an array of yours.</summary>
         public void Morph(Span<float> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
@@ -5288,16 +5047,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
-        /// RegionDesc. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A
-        /// weight below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p.
-        /// The call solves nothing.
-        ///
-        /// weight: any finite number
-        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
-        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
-        ///
-        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Morph, in double precision.</summary>
         public double[] MorphDouble(double weight = 0, Span<float> normals = default(Span<float>))
         {
             using (var c = new Call(this))
@@ -5318,16 +5068,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Morphs the region. A vertex of the region moves from p to p + weight (base - p), with p its position in
-        /// RegionDesc. All other vertices stay at p. Weight 0 gives p bit for bit, and weight 1 gives the base. A
-        /// weight below 0 exaggerates detail, and a weight above 1 turns it inside out. An empty region gives p.
-        /// The call solves nothing.
-        ///
-        /// weight: any finite number
-        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
-        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
-        ///
-        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Morph, into an array of yours.</summary>
         public void Morph(Span<double> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
@@ -5416,7 +5157,7 @@ namespace Hf
         /// inside out.
         ///
         /// weight: any finite number
-        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+        /// @out: [vertexCount x 3] of float or double, in the unit of the mesh
         /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -5440,16 +5181,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the target's surface with its detail replaced. A vertex of the target region gets base + weight
-        /// (transferred detail); all others keep their positions. Weight 0 gives the smooth base, and weight 1 the
-        /// detail as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it
-        /// inside out.
-        ///
-        /// weight: any finite number
-        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
-        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
-        ///
-        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Morph, into an array of yours.</summary>
         public void Morph(Span<float> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
@@ -5471,16 +5203,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the target's surface with its detail replaced. A vertex of the target region gets base + weight
-        /// (transferred detail); all others keep their positions. Weight 0 gives the smooth base, and weight 1 the
-        /// detail as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it
-        /// inside out.
-        ///
-        /// weight: any finite number
-        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
-        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
-        ///
-        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Morph, in double precision.</summary>
         public double[] MorphDouble(double weight = 0, Span<float> normals = default(Span<float>))
         {
             using (var c = new Call(this))
@@ -5501,16 +5224,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the target's surface with its detail replaced. A vertex of the target region gets base + weight
-        /// (transferred detail); all others keep their positions. Weight 0 gives the smooth base, and weight 1 the
-        /// detail as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it
-        /// inside out.
-        ///
-        /// weight: any finite number
-        /// @out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
-        /// normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
-        ///
-        /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
+        /// <summary>As Morph, into an array of yours.</summary>
         public void Morph(Span<double> into, Span<float> normals = default(Span<float>), double weight = 0)
         {
             using (var c = new Call(this))
@@ -5900,15 +5614,15 @@ namespace Hf
     /// Creates a transfer between two surfaces; both may be the same.
     ///
     /// sourceRest: [source.vertexCount x 3] of float or double Poses in which the two bodies correspond, in each
-    ///     surface's unit, read by the call, or null for the positions of the surface. A character bound in a
-    ///     crouch gets a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+    ///     surface's unit. null: the positions of the surface. Give a standing pose here for a character bound in a
+    ///     crouch. Motion is measured from these poses. They do not change the fields.
     /// targetRest: [target.vertexCount x 3] of float or double
     /// mode: TransferMode
     /// clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
     /// ground: Ground
     /// kernelWidth: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is
     ///     more, up to 0.12
-    /// scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes
+    /// scale: lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes
     ///     when no pair is a foot
     /// alignmentAngle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6
     ///     times the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative =
@@ -5921,17 +5635,16 @@ namespace Hf
         /// <summary>Creates a transfer between two surfaces; both may be the same.
         ///
         /// sourceRest: [source.vertexCount x 3] of float or double Poses in which the two bodies correspond, in
-        ///     each surface's unit, read by the call, or null for the positions of the surface. A character bound
-        ///     in a crouch gets a standing pose here. Motion counts from these poses; the fields stay those of the
-        ///     surfaces.
+        ///     each surface's unit. null: the positions of the surface. Give a standing pose here for a character
+        ///     bound in a crouch. Motion is measured from these poses. They do not change the fields.
         /// targetRest: [target.vertexCount x 3] of float or double
         /// mode: TransferMode
         /// clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
         /// ground: Ground
         /// kernelWidth: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that
         ///     is more, up to 0.12
-        /// scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes
-        ///     when no pair is a foot
+        /// scale: lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the
+        ///     boxes when no pair is a foot
         /// alignmentAngle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6
         ///     times the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative =
         ///     never.
@@ -6156,33 +5869,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest
-        /// directions differ much on the two surfaces (PairInfo), it takes the direction of the source's limb
-        /// instead, by a share.
-        ///
-        /// The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc
-        /// alone. Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a
-        /// played one. The result changes as little as the source does: a source that stands still, but for noise,
-        /// gives a target that stands still.
-        ///
-        /// The ground counts too if the mode is TransferMode.Fields and some pairs are anchors (their target region
-        /// follows the path of the source's region). While a foot of the source stands on the ground, the target's
-        /// foot follows its scaled path exactly. No part of the target sinks deeper into the ground than the
-        /// source, scaled, but for those of Transfer.Sinking. What would sink bends up. The ground does not move
-        /// regions that you hold. A lying target rests on the parts that the source rests on. A rigid motion of the
-        /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
-        /// off.
-        ///
-        /// sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
-        /// holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a
-        ///     position of yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices
-        ///     lands there; welded copies count once. The rest of the surface follows.
-        /// holdPositions: [holdCount x 3] in the target's unit and frame
-        /// @out: [target.vertexCount x 3] of float or double
-        /// targetNormals: [target.vertexCount x 3] of float or double
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
-        /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        /// <summary>As Apply, into an array of yours.</summary>
         public void Apply(Span<float> into, Span<float> targetNormals = default(Span<float>),
                 Reals sourcePositions = null, uint[] holdPairs = null, double[] holdPositions = null)
         {
@@ -6209,33 +5896,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest
-        /// directions differ much on the two surfaces (PairInfo), it takes the direction of the source's limb
-        /// instead, by a share.
-        ///
-        /// The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc
-        /// alone. Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a
-        /// played one. The result changes as little as the source does: a source that stands still, but for noise,
-        /// gives a target that stands still.
-        ///
-        /// The ground counts too if the mode is TransferMode.Fields and some pairs are anchors (their target region
-        /// follows the path of the source's region). While a foot of the source stands on the ground, the target's
-        /// foot follows its scaled path exactly. No part of the target sinks deeper into the ground than the
-        /// source, scaled, but for those of Transfer.Sinking. What would sink bends up. The ground does not move
-        /// regions that you hold. A lying target rests on the parts that the source rests on. A rigid motion of the
-        /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
-        /// off.
-        ///
-        /// sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
-        /// holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a
-        ///     position of yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices
-        ///     lands there; welded copies count once. The rest of the surface follows.
-        /// holdPositions: [holdCount x 3] in the target's unit and frame
-        /// @out: [target.vertexCount x 3] of float or double
-        /// targetNormals: [target.vertexCount x 3] of float or double
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
-        /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        /// <summary>As Apply, in double precision.</summary>
         public double[] ApplyDouble(Reals sourcePositions = null, uint[] holdPairs = null,
                 double[] holdPositions = null, Span<float> targetNormals = default(Span<float>))
         {
@@ -6261,33 +5922,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest
-        /// directions differ much on the two surfaces (PairInfo), it takes the direction of the source's limb
-        /// instead, by a share.
-        ///
-        /// The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc
-        /// alone. Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a
-        /// played one. The result changes as little as the source does: a source that stands still, but for noise,
-        /// gives a target that stands still.
-        ///
-        /// The ground counts too if the mode is TransferMode.Fields and some pairs are anchors (their target region
-        /// follows the path of the source's region). While a foot of the source stands on the ground, the target's
-        /// foot follows its scaled path exactly. No part of the target sinks deeper into the ground than the
-        /// source, scaled, but for those of Transfer.Sinking. What would sink bends up. The ground does not move
-        /// regions that you hold. A lying target rests on the parts that the source rests on. A rigid motion of the
-        /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
-        /// off.
-        ///
-        /// sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
-        /// holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a
-        ///     position of yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices
-        ///     lands there; welded copies count once. The rest of the surface follows.
-        /// holdPositions: [holdCount x 3] in the target's unit and frame
-        /// @out: [target.vertexCount x 3] of float or double
-        /// targetNormals: [target.vertexCount x 3] of float or double
-        ///
-        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND,
-        /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        /// <summary>As Apply, into an array of yours.</summary>
         public void Apply(Span<double> into, Span<float> targetNormals = default(Span<float>),
                 Reals sourcePositions = null, uint[] holdPairs = null, double[] holdPositions = null)
         {
@@ -6722,8 +6357,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of
-        /// the nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-
+        /// <summary>Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights
+        /// of the nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-
         /// harmonic field fills in the rest. The plane comes from joints with partners, else from the surface. A
         /// found normal has a positive largest component, so along x, MirrorTo.ToNegative copies from +x to -x.
         ///

@@ -58,7 +58,7 @@ export interface Link {
   inTree: number;
 }
 
-/** The options a surface was made with, defaults filled in. More than 16 fields: they mirror hf_surface_desc. */
+/** The options a surface was made with, defaults filled in. */
 export interface SurfaceInfo {
   /** as given */
   vertexCount: number;
@@ -91,9 +91,9 @@ export interface SurfaceInfo {
 }
 
 /**
- * Counts of what the surface found in the mesh. A graph has edges for triangles: its counts of triangles are 0.
- * Where faces were given, collapsed and duplicate triangles are faces, and edges are sides of faces. Degenerate
- * triangles are of the cut.
+ * Counts of what the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If faces
+ * were given, the report counts collapsed and duplicate faces, and sides of faces as edges. It counts the
+ * degenerate triangles of the cut.
  */
 export interface SurfaceReport {
   /** as given */
@@ -118,8 +118,8 @@ export interface SurfaceReport {
   flippedEdgeCount: number;
   boundaryEdgeCount: number;
   /**
-   * closed pieces whose triangles face inwards, as those of a whole inside-out mesh do. The inner wall of a hollow
-   * body is one too. Fields do not change; what uses normals does
+   * closed pieces whose triangles face inwards: a mesh turned inside out, or the inner wall of a hollow body.
+   * Fields do not change. Results that use normals do
    */
   insideOutCount: number;
   /** the first vertex of one, as given; constants.HF_NO_INDEX without one */
@@ -128,7 +128,7 @@ export interface SurfaceReport {
   boundingBoxDiagonal: number;
 }
 
-/** What a developer reads about a mesh: its faces, and the weights of its operator. */
+/** Figures of a mesh for developers: its faces, and the weights of its operator. */
 export interface MeshStatistics {
   /** faces of more than three corners */
   polygonCount: number;
@@ -139,9 +139,9 @@ export interface MeshStatistics {
   /** edges of the cut of negative cotangent weight, before any clamping */
   negativeEdgeCount: number;
   /**
-   * welded vertices with a weight that is not the mesh's, in the operator of field_kind: of triangles too thin for
-   * it, or cut to the digits that there are. A certificate holds for the weights used; near such vertices the
-   * field may be another's
+   * welded vertices with a changed weight, in the operator of field_kind. A weight is changed if its triangles are
+   * too thin, or if a double has too few digits for it. A certificate holds for the weights used; near these
+   * vertices the field may differ from the field of the mesh
    */
   changedVertexCount: number;
   /** the first of them, as given; constants.HF_NO_INDEX without one */
@@ -159,7 +159,7 @@ export interface LinksInfo {
   lightPieceCount: number;
   /** pieces without a link, if there are several */
   lonePieceCount: number;
-  /** of the tree over the pieces, in the unit of the positions */
+  /** longest link of the tree over the pieces, in the unit of the positions */
   longestTreeLink: number;
 }
 
@@ -207,9 +207,9 @@ export interface SurfaceStatistics {
 }
 
 /**
- * One place on a surface: a vertex, or a point between three corners of a face. Hit has one, sites, pins, curves,
- * handles and paths take it. Lists of places have three forms, of which you set one: `vertices` (4 bytes each),
- * `places`, and `points` in space.
+ * A place on a surface: a vertex, or a point between three corners of a face. Hit gives a place. Sites, pins,
+ * curves, handles and paths take places. A list of places has three forms: `vertices` (4 bytes each), `places`,
+ * and `points` in space. Set one of the three.
  */
 export interface Place {
   /** vertices of one face, as given; a corner of barycentric 0 is ignored and can be constants.HF_NO_INDEX */
@@ -227,8 +227,8 @@ export interface Hit {
   /** its corner nearest to the hit, as given, of welded copies the first */
   vertex: number;
   /**
-   * corners of the triangle, of welded copies the first, and their weights. In a face of more corners three of
-   * them: the triangle of the face's cut that the ray hits
+   * the point hit: corners of the triangle (the first of welded copies) and their weights. In a face of more
+   * corners, the corners are those three that the ray hits in the cut of the face
    */
   place: Place;
   /** in the unit of the positions */
@@ -330,8 +330,8 @@ export interface Certificate {
   /** as given, where the largest of the three is */
   worstVertex: number;
   /**
-   * welded vertices with a weight that a rule set (MeshStatistics). On a mesh, and for bi-harmonic fields, the
-   * errors hold for the weights used; on a graph for your own, within 1e30 of their median
+   * welded vertices with a changed weight (MeshStatistics). The errors hold for the weights used. Harmonic fields
+   * on a graph use your own weights, within 1e30 of their median
    */
   changedVertexCount: number;
   /**
@@ -376,9 +376,7 @@ export interface SolverStatistics {
  * is null or as large as its capacity.
  */
 export interface Isolines {
-  /**  */
   pointCount: number;
-  /**  */
   lineCount: number;
   /** [pointCapacity x 2] vertices a and b as given, of welded copies the first */
   pointEdges: Uint32Array;
@@ -520,11 +518,11 @@ export interface HandleInfo {
   /** how far fields are off on the regions: 0 in poses of Pose */
   leak: number;
   /**
-   * where the handle stood in the last Pose.deform, as in Transform; on higher layers with what the layers below
-   * did to it
+   * of the handle in the last Pose.deform, as in Transform. On a higher layer the motion of the lower layers is
+   * included
    */
   rotation: number[];
-  /** the same of its translation */
+  /** of the handle, in the same way */
   translation: number[];
   layer: number;
   /** 1: the solve finds the rotation */
@@ -533,7 +531,7 @@ export interface HandleInfo {
   following: number;
 }
 
-/** What a deform did. */
+/** The work of a deform. */
 export interface DeformInfo {
   /** done */
   iterationCount: number;
@@ -564,7 +562,6 @@ export interface PoseStatistics {
 export interface SkinInfo {
   /** joints, one per cluster of vertices */
   jointCount: number;
-  /**  */
   vertexCount: number;
   /** [jointCapacity x 3] rest centroid of what each joint moves */
   pivots: Float64Array;
@@ -617,9 +614,7 @@ export interface QuadsInfo {
 
 /** Quads.mesh writes the quad mesh to these arrays. They are yours: each is null or as large as its capacity. */
 export interface QuadsMesh {
-  /**  */
   vertexCount: number;
-  /**  */
   faceCount: number;
   /** [vertexCapacity x 3] in the unit and frame of the mesh as given */
   positions: Float64Array;
@@ -637,9 +632,7 @@ export interface QuadsMesh {
 }
 
 export interface Streamlines {
-  /**  */
   pointCount: number;
-  /**  */
   lineCount: number;
   /** [pointCapacity x 3] in the unit and frame of the mesh as given */
   positions: Float64Array;
@@ -669,7 +662,7 @@ export interface RegionInfo {
 
 /** Work of the last edit of a region, and of all its edits. */
 export interface RegionStatistics {
-  /** sites of the last edit ... */
+  /** sites of the last edit, as in the next two fields */
   insertedCount: number;
   removedCount: number;
   keptCount: number;
@@ -814,7 +807,7 @@ export interface TransferInfo {
   crossedCount: number;
   /** 1: from the legs or the boxes; 0: given in the desc */
   scaleFound: number;
-  /** lengths of the target over those of the source, both in the units of their meshes */
+  /** lengths of the target over lengths of the source, each in the unit of its mesh */
   scale: number;
 }
 
@@ -863,7 +856,6 @@ export interface TransferDials {
 
 /** Receives the weights. The arrays are yours; each may be null. */
 export interface WeightsOut {
-  /**  */
   vertexCount: number;
   /** joints per vertex, 4 or 8 */
   influenceCount: number;
@@ -890,13 +882,13 @@ export interface WeightsInfo {
   isolatedCount: number;
 }
 
-/** What a developer reads about weights: pieces that were guessed, joints that deserve a look, work done. */
+/** Figures of weights for developers: pieces that were guessed, joints to check, work done. */
 export interface WeightsStatistics {
   /** pieces without information */
   nearestPieceCount: number;
   /** small ones of them */
   rigidPieceCount: number;
-  /** 1: a piece sees none of its nearest joints and asks for them unseen */
+  /** 1: some piece sees none of its nearest joints and uses them unseen */
   blind: number;
   /** joints by HF_JOINT_* */
   noLengthCount: number;
@@ -946,7 +938,7 @@ export interface WeightsMirrorInfo {
   normal: number[];
 }
 
-/** How far a surface and its joints are from their reflections. Lengths are in the unit of the mesh. */
+/** Distances of a surface and its joints from their reflections, in the unit of the mesh. */
 export interface WeightsMirrorStatistics {
   /** the joint farthest off, constants.HF_NO_INDEX: none has a partner */
   worstJoint: number;
@@ -961,11 +953,11 @@ export interface WeightsMirrorStatistics {
 }
 
 /**
- * Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The
- * vertices on its chosen side are the region, and any single vertex that these surround but for one edge. The rim
- * is the vertices next to them, on or beyond the curve: it follows the curve within an edge, and where the curve
- * runs along edges the rim is the curve. A whole border of the surface is a curve too; it has only one side. The
- * curve passes a vertex at most 8 times.
+ * Describes a closed curve through at least 3 points, on the mesh at rest. Set one of vertices, places and points.
+ * The vertices on the chosen side of the curve are the region. A single vertex joins the region too if all its
+ * neighbours but one are in it. The rim is the vertices next to the region, on or beyond the curve. It follows the
+ * curve within an edge; where the curve runs along edges, the rim is the curve. A whole border of the surface is a
+ * curve too; it has only one side. The curve passes a vertex at most 8 times.
  */
 export interface CurveDescGiven {
   /** [pointCount] vertices as given, or null */
@@ -986,23 +978,25 @@ export interface CurveDescGiven {
 }
 
 /**
- * Faces of any number of corners. Set corners, and what your host stores: sizes (Maya, USD), starts and sizes
- * (Blender's loops), or starts as offsets (newer Blender). No field depends on how you would cut a face into
- * triangles. HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both cuts of a bent quad, and moves it towards the
- * polygon Laplacian of Bunge and others 2020 until a weight would become negative. docs/studies/polygons.md
- * compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED take that polygon Laplacian, HF_OPERATOR_UNIFORM
- * the sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a cut of the library. It
- * does not depend on the order of the corners. Where this interface names a triangle, it names the face then.
- * Normals of poses are sums of the area vectors of faces.
+ * Faces of any number of corners. Set corners, and the arrays that your host stores: sizes alone (Maya, USD),
+ * starts and sizes (Blender's loops), or starts alone as offsets (newer Blender). Where this interface names a
+ * triangle of such a mesh, it names a face.
+ *
+ * No field depends on how you would cut a face into triangles. HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of
+ * both cuts of a bent quad. It moves this mean towards the polygon Laplacian of Bunge and others 2020 until a
+ * weight would become negative; docs/studies/polygons.md compares errors. HF_OPERATOR_COTANGENT and
+ * HF_OPERATOR_CLAMPED use that polygon Laplacian. HF_OPERATOR_UNIFORM uses the sides of the faces. Directions,
+ * distances, iso-lines, streamlines and quads work on triangles: the library cuts the faces. Its cut does not
+ * depend on the order of the corners. Normals of poses are sums of the area vectors of faces.
  */
 export interface FacesDescGiven {
   /** [cornerCount] of uint32_t: vertices, counter-clockwise seen from outside */
   corners?: Rows | null;
-  /** null, or [faces] of uint32_t: corners of each face, 3 to 65,535. null: starts are enough */
+  /** null, or [faces] of uint32_t: corners of each face, 3 to 65,535. null: starts give them */
   sizes?: Rows | null;
   /**
    * null, or [faces] of uint32_t: first corner of each face. null: the faces follow one another. Without sizes
-   * [faces + 1]: the corners of face f end where those of f + 1 start
+   * [faces + 1]: the corners of face f end where face f + 1 starts
    */
   starts?: Rows | null;
 }
@@ -1047,10 +1041,10 @@ export interface LinksDescGiven {
 }
 
 /**
- * Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site
- * has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh
- * spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the
- * boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
+ * Places and values of sites. Set one of vertices, places and points. The finer the mesh, the less influence a
+ * point site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below
+ * the mesh spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields
+ * the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
  */
 export interface SitesDescGiven {
   /** [siteCount] vertices as given, or null */
@@ -1169,8 +1163,8 @@ export interface Surface extends Handle {
    * Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
    * ends are apart than at rest, and 0 if they are nearer.
    *
-   * positions: [vertexCount x 3] of float or double: those of a pose, a frame of a transfer, or any other
-   *     deformation.
+   * positions: [vertexCount x 3] of float or double: the deformed mesh, from a pose, a transfer or any other
+   *     source.
    * info: filled in when given
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -1218,7 +1212,7 @@ export interface Surface extends Handle {
    * direction: [3] in the frame of the positions; the direction can have any length above 0.
    * positions: [vertexCount x 3] of float or double: posed positions (Pose.deform writes them). null: the rest
    *     positions
-   * frontOnly: 1: a ray passes triangles seen from behind
+   * frontOnly: 1: a ray passes through triangles seen from behind
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
    */
@@ -1230,7 +1224,7 @@ export interface Surface extends Handle {
    * point: [3] in the frame of the positions.
    * positions: [vertexCount x 3] of float or double: posed positions (Pose.deform writes them). null: the rest
    *     positions
-   * frontOnly: 1: a ray passes triangles seen from behind
+   * frontOnly: 1: a ray passes through triangles seen from behind
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
    */
@@ -1327,15 +1321,15 @@ export interface SurfaceClass {
    * directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
    * links, screening, and sites at places, at points or on discs.
    *
-   * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from
-   * the median of their component are limited; MeshStatistics counts their vertices as changed. Bi-harmonic fields
-   * limit weights to 1e3 times the median.
+   * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from the
+   * median of their component by a factor above 1e30 are limited; MeshStatistics counts their vertices as changed.
+   * Bi-harmonic fields limit weights to 1e3 times the median.
    *
    * edges: [edgeCount x 2] of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are
    *     added up. Self loops are ignored
    * weights: [edgeCount] of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left out
    * masses: [vertexCount] of float or double: M of HF_FIELD_BIHARMONIC, any unit, above 0 and up to 1e100; null:
-   *     all 1. A mass below 1e-4 of the mean of its component counts as that
+   *     all 1. A mass below 1e-4 of the mean of its component is raised to it
    * vertexCount: >= 1, also without masses
    * allowNegative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
    *     tetrahedra do. A field can then leave the range of its sites. 0: they are refused
@@ -1816,17 +1810,19 @@ export interface Pose extends Recorded {
    */
   setTransform(handle: number, options?: { rotation?: Rows | null; translation?: Rows | null }): void;
   /**
-   * Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands
-   * exactly where its transform puts it; the rotation of the transform is ignored. Each Pose.deform finds the
-   * rotation together with the pose (positional constraints, Sorkine and Alexa 2007): the one of least as-rigid-
-   * as-possible energy towards the shapes that groups of vertices aim at. A group that is pulled aims at a longer
-   * and thinner shape than at rest, so the rotation is not exactly the one of least energy towards the rest shape.
-   * Pose.handle writes it. Drag with a free rotation: the wrist follows the hand. Give the rotation when the user
-   * turns a ring. A given rotation starts as the handle stands, so the pose does not change. Where you free a
-   * rotation on layer 0 the surface stays as it is and lets the old rotation go as handles move, as with in_place;
-   * place the handles after that call. On a higher layer a changed handle moves the surface at the next frame. A
-   * handle alone in its component keeps the rotation it has. restart also starts free rotations anew. refine keeps
-   * the rotation of the smooth pose.
+   * Chooses who gives the rotations of handles: the solve or you. A handle of free rotation is a positional
+   * constraint (Sorkine and Alexa 2007). Its centroid lands exactly where its transform puts it; the rotation of
+   * the transform is ignored. Each Pose.deform finds the rotation together with the pose, and Pose.handle writes
+   * it. The rotation has the least as-rigid-as-possible energy. A group of vertices that is pulled compares itself
+   * with a longer and thinner shape than its rest shape. So the energy is not exactly the energy towards the rest
+   * shape.
+   *
+   * Free the rotation while the user drags a handle: the wrist then follows the hand. Give the rotation while the
+   * user turns a ring. A given rotation starts at the present rotation of the handle, so the pose does not change.
+   * When you free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move,
+   * as with in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at
+   * the next frame. A handle alone in its component keeps its rotation. restart also restarts free rotations.
+   * refine keeps the rotation of the smooth pose.
    *
    * handles: [handleCount].
    * freeRotation: 1: the solve finds the rotations; 0: you give them.
@@ -1835,29 +1831,29 @@ export interface Pose extends Recorded {
    */
   setFreeRotations(handles: Rows, freeRotation?: boolean | number): void;
   /**
-   * Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where
-   * it would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the
-   * body: give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short
-   * gets longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a
-   * change at once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean
+   * Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the rest of the surface where
+   * it would be without these handles. So a body does not lean after a dragged hand. Keep 1 for the handles that
+   * hold the body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is
+   * too short gets longer. The limb of a handle is the part where its field is near 1. The next Pose.deform shows
+   * a change at once. Full-mesh steps (refine) ignore the pins; with refine_from_last they let the body lean
    * again.
    *
    * handles: [handleCount].
-   * following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone
-   *     follows, an arm for example.
+   * following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the
+   *     handle follows, such as an arm.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
    */
   setFollowing(handles: Rows, following?: number): void;
   /**
-   * Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives
-   * each rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it
-   * is held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a
-   * second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this before such handles are added.
-   * Pose.skin writes the motions without this step.
+   * Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
+   * moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the
+   * vertices near links most. If the region of a handle touches a rigid piece, the whole piece joins the region
+   * and moves with the handle. A second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this
+   * function before you add such handles. Pose.skin writes the motions before this fit.
    *
-   * vertices: [vertexCount], one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the
-   *     one before.
+   * vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
+   *     replaces the previous list.
    *
    * Throws HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
@@ -1866,7 +1862,7 @@ export interface Pose extends Recorded {
    * Places handles by 4 x 4 matrices M.
    *
    * handles: [handleCount].
-   * matrices: [handleCount x 16], column by column, elements 12 to 14 the translation. M takes a rest position p
+   * matrices: [handleCount x 16], column by column, elements 12 to 14 the translation. M moves a rest position p
    *     to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
    *     rotation. Its last row must be 0 0 0 1.
    *
@@ -2065,8 +2061,8 @@ export interface FlowClass {
  *
  * Creates a region without vertices.
  *
- * positions: [vertexCount x 3] of float or double: the surface of weight 0, bit for bit, as the positions of the
- *     mesh or any pose of them. null: the mesh's own to 1e-15 of the box. Copied
+ * positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. Weight 0 gives the same
+ *     bits. null: the positions of the mesh, to 1e-15 of the box. The call copies them
  * base: HF_BASE_*. If the surface has no factor for it yet, it is made now
  * progress: an object to poll and cancel through
  */
@@ -2118,7 +2114,7 @@ export interface Region extends Recorded {
    * solves nothing.
    *
    * weight: any finite number
-   * out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+   * out: [vertexCount x 3] of float or double, in the unit of the mesh
    * normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -2156,7 +2152,7 @@ export interface Detail extends Handle {
    * as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
    *
    * weight: any finite number
-   * out: [vertexCount x 3] of float or double, in the unit and frame of the mesh as given
+   * out: [vertexCount x 3] of float or double, in the unit of the mesh
    * normals: [vertexCount x 3] of float or double: unit normals of the morphed surface, shared across seams
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -2280,16 +2276,16 @@ export interface SkeletonClass {
  * Creates a transfer between two surfaces; both may be the same.
  *
  * sourceRest: [source.vertexCount x 3] of float or double Poses in which the two bodies correspond, in each
- *     surface's unit, read by the call, or null for the positions of the surface. A character bound in a crouch
- *     gets a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+ *     surface's unit. null: the positions of the surface. Give a standing pose here for a character bound in a
+ *     crouch. Motion is measured from these poses. They do not change the fields.
  * targetRest: [target.vertexCount x 3] of float or double
  * mode: HF_TRANSFER_*
  * clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
  * ground: HF_GROUND_*
  * kernelWidth: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is
  *     more, up to 0.12
- * scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no
- *     pair is a foot
+ * scale: lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when
+ *     no pair is a foot
  * alignmentAngle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times
  *     the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
  * sourceAxes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward
@@ -2529,7 +2525,7 @@ export interface WeightsClass {
   transfer(source: Surface, target: Surface,
           options?: { joints?: Rows | null; weights?: Rows | null; distance?: number; angle?: number; influenceCount?: number; progress?: Progress | null }): WeightsOut & { info: WeightsTransferInfo };
   /**
-   * Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the
+   * Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights of the
    * nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
    * fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a
    * positive largest component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x.

@@ -329,12 +329,12 @@ class TransferMode(IntEnum):
     FIELDS = _raw.HF_TRANSFER_FIELDS
     """a cluster: vertices with similar values of all fields; the default"""
     STRETCH = _raw.HF_TRANSFER_STRETCH
-    """Carries stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target vertex
-    i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x' minimises sum
-    over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2 with cotangent weights w. It is a Poisson
-    equation with the factor of the surface. Borders match borders, and narrow openings between them, such as lids,
-    close as on the source. There is no ground, no rest alignment, no dial, no hold and no skin; flags of pairs have
-    no effect but on the scale. A surface on itself gets its own pose
+    """Transfers stretch too: faces, breathing, squash. Play each morph target of the source as a frame. Each target
+    vertex i matches a source point with the deformation gradient F_i (Sumner and Popovic 2004). The result x'
+    minimises sum over edges of w_ij |(x'_i - x'_j) - (F_i + F_j) / 2 (x_i - x_j)|^2 with cotangent weights w. It is a
+    Poisson equation with the factor of the surface. Borders match borders, and narrow openings between them, such as
+    lids, close as on the source. There is no ground, no rest alignment, no dial, no hold and no skin; flags of pairs
+    only set the scale. A surface on itself gets its own pose
     """
 
 
@@ -1096,15 +1096,15 @@ class Surface(Object):
         geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links,
         screening, and sites at places, at points or on discs.
 
-        A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from
-        the median of their component are limited; MeshStatistics counts their vertices as changed. Bi-harmonic fields
-        limit weights to 1e3 times the median.
+        A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from the
+        median of their component by a factor above 1e30 are limited; MeshStatistics counts their vertices as changed.
+        Bi-harmonic fields limit weights to 1e3 times the median.
 
         edges: (edge_count, 2) of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are
             added up. Self loops are ignored
         weights: (edge_count,) of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left out
         masses: (vertex_count,) of float or double: M of FieldKind.BIHARMONIC, any unit, above 0 and up to 1e100;
-            None: all 1. A mass below 1e-4 of the mean of its component counts as that
+            None: all 1. A mass below 1e-4 of the mean of its component is raised to it
         vertex_count: >= 1, also without masses
         allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of
             tetrahedra do. A field can then leave the range of its sites. 0: they are refused
@@ -1211,8 +1211,8 @@ class Surface(Object):
         """Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
         ends are apart than at rest, and 0 if they are nearer.
 
-        positions: (vertex_count, 3) of float or double: those of a pose, a frame of a transfer, or any other
-            deformation.
+        positions: (vertex_count, 3) of float or double: the deformed mesh, from a pose, a transfer or any other
+            source.
         info: filled in when given
 
         Raises NonFiniteError, TooLargeError.
@@ -1298,7 +1298,7 @@ class Surface(Object):
         direction: (3,) in the frame of the positions; the direction can have any length above 0.
         positions: (vertex_count, 3) of float or double: posed positions (Pose.deform writes them). None: the rest
             positions
-        front_only: 1: a ray passes triangles seen from behind
+        front_only: 1: a ray passes through triangles seen from behind
 
         Raises InvalidArgumentError, NonFiniteError.
         """
@@ -1317,7 +1317,7 @@ class Surface(Object):
         point: (3,) in the frame of the positions.
         positions: (vertex_count, 3) of float or double: posed positions (Pose.deform writes them). None: the rest
             positions
-        front_only: 1: a ray passes triangles seen from behind
+        front_only: 1: a ray passes through triangles seen from behind
 
         Raises NonFiniteError, TooLargeError.
         """
@@ -2200,17 +2200,19 @@ class Pose(Recorded):
         call('hf_pose_set_transform', self._handle, number(handle, 'handle', ctypes.c_uint32), ref(transform))
 
     def set_free_rotations(self, handles: ArrayLike, free_rotation: bool = False) -> None:
-        """Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands
-        exactly where its transform puts it; the rotation of the transform is ignored. Each Pose.deform finds the
-        rotation together with the pose (positional constraints, Sorkine and Alexa 2007): the one of least as-rigid-
-        as-possible energy towards the shapes that groups of vertices aim at. A group that is pulled aims at a longer
-        and thinner shape than at rest, so the rotation is not exactly the one of least energy towards the rest shape.
-        Pose.handle writes it. Drag with a free rotation: the wrist follows the hand. Give the rotation when the user
-        turns a ring. A given rotation starts as the handle stands, so the pose does not change. Where you free a
-        rotation on layer 0 the surface stays as it is and lets the old rotation go as handles move, as with in_place;
-        place the handles after that call. On a higher layer a changed handle moves the surface at the next frame. A
-        handle alone in its component keeps the rotation it has. restart also starts free rotations anew. refine keeps
-        the rotation of the smooth pose.
+        """Chooses who gives the rotations of handles: the solve or you. A handle of free rotation is a positional
+        constraint (Sorkine and Alexa 2007). Its centroid lands exactly where its transform puts it; the rotation of
+        the transform is ignored. Each Pose.deform finds the rotation together with the pose, and Pose.handle writes
+        it. The rotation has the least as-rigid-as-possible energy. A group of vertices that is pulled compares itself
+        with a longer and thinner shape than its rest shape. So the energy is not exactly the energy towards the rest
+        shape.
+
+        Free the rotation while the user drags a handle: the wrist then follows the hand. Give the rotation while the
+        user turns a ring. A given rotation starts at the present rotation of the handle, so the pose does not change.
+        When you free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move,
+        as with in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at
+        the next frame. A handle alone in its component keeps its rotation. restart also restarts free rotations.
+        refine keeps the rotation of the smooth pose.
 
         handles: (handle_count,).
         free_rotation: 1: the solve finds the rotations; 0: you give them.
@@ -2223,16 +2225,16 @@ class Pose(Recorded):
                 number(free_rotation, 'free_rotation', ctypes.c_int32))
 
     def set_following(self, handles: ArrayLike, following: float = 0.0) -> None:
-        """Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where
-        it would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the
-        body: give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short
-        gets longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a
-        change at once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean
+        """Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the rest of the surface where
+        it would be without these handles. So a body does not lean after a dragged hand. Keep 1 for the handles that
+        hold the body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is
+        too short gets longer. The limb of a handle is the part where its field is near 1. The next Pose.deform shows
+        a change at once. Full-mesh steps (refine) ignore the pins; with refine_from_last they let the body lean
         again.
 
         handles: (handle_count,).
-        following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone
-            follows, an arm for example.
+        following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the
+            handle follows, such as an arm.
 
         Raises InvalidArgumentError, NonFiniteError, NotFoundError, UnsupportedError.
         """
@@ -2242,14 +2244,14 @@ class Pose(Recorded):
                 'following', ctypes.c_double))
 
     def set_rigid_pieces(self, vertices: ArrayLike) -> None:
-        """Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives
-        each rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it
-        is held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a
-        second handle on the same piece is refused (ConflictError). Call this before such handles are added. Pose.skin
-        writes the motions without this step.
+        """Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
+        moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the
+        vertices near links most. If the region of a handle touches a rigid piece, the whole piece joins the region
+        and moves with the handle. A second handle on the same piece is refused (ConflictError). Call this function
+        before you add such handles. Pose.skin writes the motions before this fit.
 
-        vertices: (vertex_count,), one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the
-            one before.
+        vertices: (vertex_count,), one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The
+            list replaces the previous list.
 
         Raises ConflictError, InvalidArgumentError, OutOfRangeError, TooLargeError.
         """
@@ -2262,7 +2264,7 @@ class Pose(Recorded):
         """Places handles by 4 x 4 matrices M.
 
         handles: (handle_count,).
-        matrices: (handle_count, 16), column by column, elements 12 to 14 the translation. M takes a rest position p
+        matrices: (handle_count, 16), column by column, elements 12 to 14 the translation. M moves a rest position p
             to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
             rotation. Its last row must be 0 0 0 1.
 
@@ -2569,8 +2571,8 @@ class Region(Recorded):
 
     Creates a region without vertices.
 
-    positions: (vertex_count, 3) of float or double: the surface of weight 0, bit for bit, as the positions of the
-        mesh or any pose of them. None: the mesh's own to 1e-15 of the box. Copied
+    positions: (vertex_count, 3) of float or double: positions of the mesh or of a pose. Weight 0 gives the same bits.
+        None: the positions of the mesh, to 1e-15 of the box. The call copies them
     base: Base. If the surface has no factor for it yet, it is made now
     progress: an object to poll and cancel through
     """
@@ -2676,7 +2678,7 @@ class Region(Recorded):
         solves nothing.
 
         weight: any finite number
-        out: (vertex_count, 3) of float or double, in the unit and frame of the mesh as given
+        out: (vertex_count, 3) of float or double, in the unit of the mesh
         normals: (vertex_count, 3) of float or double: unit normals of the morphed surface, shared across seams
 
         Raises NonFiniteError, TooLargeError.
@@ -2735,7 +2737,7 @@ class Detail(Object):
         as it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
 
         weight: any finite number
-        out: (vertex_count, 3) of float or double, in the unit and frame of the mesh as given
+        out: (vertex_count, 3) of float or double, in the unit of the mesh
         normals: (vertex_count, 3) of float or double: unit normals of the morphed surface, shared across seams
 
         Raises NonFiniteError, TooLargeError.
@@ -2974,15 +2976,15 @@ class Transfer(Object):
     Creates a transfer between two surfaces; both may be the same.
 
     source_rest: (source.vertex_count, 3) of float or double Poses in which the two bodies correspond, in each
-        surface's unit, read by the call, or None for the positions of the surface. A character bound in a crouch gets
-        a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+        surface's unit. None: the positions of the surface. Give a standing pose here for a character bound in a
+        crouch. Motion is measured from these poses. They do not change the fields.
     target_rest: (target.vertex_count, 3) of float or double
     mode: TransferMode
     cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
     ground: Ground
     kernel_width: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is more,
         up to 0.12
-    scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no
+    scale: lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no
         pair is a foot
     alignment_angle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times
         the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
@@ -3405,7 +3407,7 @@ class Weights(Recorded):
             angle: float = 0.0, influence_count: int = 0, progress: Optional[Progress] = None,
             info: Optional[WeightsMirrorInfo] = None,
             statistics: Optional[WeightsMirrorStatistics] = None) -> Tuple[WeightsOut, np.ndarray, np.ndarray]:
-        """Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the
+        """Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights of the
         nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
         fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a
         positive largest component, so along x, MirrorTo.TO_NEGATIVE copies from +x to -x.

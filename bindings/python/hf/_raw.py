@@ -218,29 +218,19 @@ class hf_array(Struct):
     stride: int
     type: int
     reserved: int
-    _fields_ = [
-        ("data", c_void_p),
-        ("count", c_uint32),
-        ("stride", c_uint32),
-        ("type", c_int32),
-        ("reserved", c_uint32),
-    ]
+    _fields_ = [("data", c_void_p), ("count", c_uint32), ("stride", c_uint32), ("type", c_int32), ("reserved",
+                c_uint32)]
 
 
 class hf_array_out(Struct):
-    """An array of yours that the library writes; otherwise as hf_array."""
+    """An array of yours that the library writes."""
     data: int
     count: int
     stride: int
     type: int
     reserved: int
-    _fields_ = [
-        ("data", c_void_p),
-        ("count", c_uint32),
-        ("stride", c_uint32),
-        ("type", c_int32),
-        ("reserved", c_uint32),
-    ]
+    _fields_ = [("data", c_void_p), ("count", c_uint32), ("stride", c_uint32), ("type", c_int32), ("reserved",
+                c_uint32)]
 
 
 class hf_error_detail(Struct):
@@ -249,12 +239,7 @@ class hf_error_detail(Struct):
     index: int
     function: bytes
     message: bytes
-    _fields_ = [
-        ("code", c_int32),
-        ("index", c_uint32),
-        ("function", c_char * 48),
-        ("message", c_char * 256),
-    ]
+    _fields_ = [("code", c_int32), ("index", c_uint32), ("function", c_char * 48), ("message", c_char * 256)]
 
 
 class hf_allocator(Struct):
@@ -262,21 +247,14 @@ class hf_allocator(Struct):
     allocate: int
     release: int
     user: int
-    _fields_ = [
-        ("allocate", c_void_p),
-        ("release", c_void_p),
-        ("user", c_void_p),
-    ]
+    _fields_ = [("allocate", c_void_p), ("release", c_void_p), ("user", c_void_p)]
 
 
 class hf_job_runner(Struct):
     """Your job system."""
     run: int
     user: int
-    _fields_ = [
-        ("run", c_void_p),
-        ("user", c_void_p),
-    ]
+    _fields_ = [("run", c_void_p), ("user", c_void_p)]
 
 
 class hf_factor_desc(Struct):
@@ -285,12 +263,7 @@ class hf_factor_desc(Struct):
     borrow: int
     bytes: int
     byte_count: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("borrow", c_int32),
-        ("bytes", c_void_p),
-        ("byte_count", c_size_t),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("borrow", c_int32), ("bytes", c_void_p), ("byte_count", c_size_t)]
 
 
 class hf_link(Struct):
@@ -302,15 +275,8 @@ class hf_link(Struct):
     weight: float
     in_tree: int
     reserved: int
-    _fields_ = [
-        ("vertex", c_uint32),
-        ("corners", c_uint32 * 3),
-        ("barycentrics", c_double * 3),
-        ("length", c_double),
-        ("weight", c_double),
-        ("in_tree", c_int32),
-        ("reserved", c_uint32),
-    ]
+    _fields_ = [("vertex", c_uint32), ("corners", c_uint32 * 3), ("barycentrics", c_double * 3), ("length", c_double),
+                ("weight", c_double), ("in_tree", c_int32), ("reserved", c_uint32)]
 
 
 class hf_links_desc(Struct):
@@ -330,23 +296,10 @@ class hf_links_desc(Struct):
     links: int
     light_vertices: int
     heavy_vertices: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("mode", c_int32),
-        ("distance", c_double),
-        ("stiffness", c_double),
-        ("overlay_distance", c_double),
-        ("influence_count", c_uint32),
-        ("link_count", c_uint32),
-        ("light_count", c_uint32),
-        ("heavy_count", c_uint32),
-        ("joints", c_void_p),
-        ("weights", c_void_p),
-        ("tags", c_void_p),
-        ("links", c_void_p),
-        ("light_vertices", c_void_p),
-        ("heavy_vertices", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("mode", c_int32), ("distance", c_double), ("stiffness", c_double),
+                ("overlay_distance", c_double), ("influence_count", c_uint32), ("link_count", c_uint32),
+                ("light_count", c_uint32), ("heavy_count", c_uint32), ("joints", c_void_p), ("weights", c_void_p),
+                ("tags", c_void_p), ("links", c_void_p), ("light_vertices", c_void_p), ("heavy_vertices", c_void_p)]
 
 
 class hf_faces_desc(Struct):
@@ -356,13 +309,8 @@ class hf_faces_desc(Struct):
     corners: object
     sizes: object
     starts: object
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("corners", hf_array),
-        ("sizes", hf_array),
-        ("starts", hf_array),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("corners", hf_array), ("sizes", hf_array),
+                ("starts", hf_array)]
 
 
 class hf_surface_desc(Struct):
@@ -386,27 +334,12 @@ class hf_surface_desc(Struct):
     progress: int
     saved_factor: int
     links: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("weld", c_int32),
-        ("positions", hf_array),
-        ("triangles", hf_array),
-        ("faces", c_void_p),
-        ("weld_tolerance", c_double),
-        ("operator_kind", c_int32),
-        ("field_kind", c_int32),
-        ("ordering", c_int32),
-        ("thread_count", c_uint32),
-        ("vertex_limit", c_uint32),
-        ("triangle_limit", c_uint32),
-        ("memory_limit_mb", c_uint32),
-        ("work_limit_gflop", c_uint32),
-        ("allocator", hf_allocator),
-        ("job_runner", hf_job_runner),
-        ("progress", c_void_p),
-        ("saved_factor", c_void_p),
-        ("links", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("weld", c_int32), ("positions", hf_array), ("triangles", hf_array),
+                ("faces", c_void_p), ("weld_tolerance", c_double), ("operator_kind", c_int32), ("field_kind",
+                c_int32), ("ordering", c_int32), ("thread_count", c_uint32), ("vertex_limit", c_uint32),
+                ("triangle_limit", c_uint32), ("memory_limit_mb", c_uint32), ("work_limit_gflop", c_uint32),
+                ("allocator", hf_allocator), ("job_runner", hf_job_runner), ("progress", c_void_p), ("saved_factor",
+                c_void_p), ("links", c_void_p)]
 
 
 class hf_graph_desc(Struct):
@@ -428,25 +361,11 @@ class hf_graph_desc(Struct):
     job_runner: object
     progress: int
     saved_factor: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("edges", hf_array),
-        ("weights", hf_array),
-        ("masses", hf_array),
-        ("allow_negative", c_int32),
-        ("field_kind", c_int32),
-        ("ordering", c_int32),
-        ("thread_count", c_uint32),
-        ("vertex_limit", c_uint32),
-        ("edge_limit", c_uint32),
-        ("memory_limit_mb", c_uint32),
-        ("work_limit_gflop", c_uint32),
-        ("allocator", hf_allocator),
-        ("job_runner", hf_job_runner),
-        ("progress", c_void_p),
-        ("saved_factor", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("edges", hf_array), ("weights", hf_array),
+                ("masses", hf_array), ("allow_negative", c_int32), ("field_kind", c_int32), ("ordering", c_int32),
+                ("thread_count", c_uint32), ("vertex_limit", c_uint32), ("edge_limit", c_uint32), ("memory_limit_mb",
+                c_uint32), ("work_limit_gflop", c_uint32), ("allocator", hf_allocator), ("job_runner", hf_job_runner),
+                ("progress", c_void_p), ("saved_factor", c_void_p)]
 
 
 class hf_surface_info(Struct):
@@ -468,25 +387,11 @@ class hf_surface_info(Struct):
     edge_limit: int
     face_count: int
     corner_count: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("triangle_count", c_uint32),
-        ("weld", c_int32),
-        ("weld_tolerance", c_double),
-        ("operator_kind", c_int32),
-        ("field_kind", c_int32),
-        ("ordering", c_int32),
-        ("thread_count", c_uint32),
-        ("vertex_limit", c_uint32),
-        ("triangle_limit", c_uint32),
-        ("memory_limit_mb", c_uint32),
-        ("work_limit_gflop", c_uint32),
-        ("edge_count", c_uint32),
-        ("edge_limit", c_uint32),
-        ("face_count", c_uint32),
-        ("corner_count", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("triangle_count", c_uint32), ("weld",
+                c_int32), ("weld_tolerance", c_double), ("operator_kind", c_int32), ("field_kind", c_int32),
+                ("ordering", c_int32), ("thread_count", c_uint32), ("vertex_limit", c_uint32), ("triangle_limit",
+                c_uint32), ("memory_limit_mb", c_uint32), ("work_limit_gflop", c_uint32), ("edge_count", c_uint32),
+                ("edge_limit", c_uint32), ("face_count", c_uint32), ("corner_count", c_uint32)]
 
 
 class hf_surface_report(Struct):
@@ -506,27 +411,16 @@ class hf_surface_report(Struct):
     inside_out_count: int
     first_inside_out_vertex: int
     bounding_box_diagonal: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("triangle_count", c_uint32),
-        ("welded_vertex_count", c_uint32),
-        ("component_count", c_uint32),
-        ("isolated_vertex_count", c_uint32),
-        ("degenerate_triangle_count", c_uint32),
-        ("collapsed_triangle_count", c_uint32),
-        ("duplicate_triangle_count", c_uint32),
-        ("non_manifold_edge_count", c_uint32),
-        ("flipped_edge_count", c_uint32),
-        ("boundary_edge_count", c_uint32),
-        ("inside_out_count", c_uint32),
-        ("first_inside_out_vertex", c_uint32),
-        ("bounding_box_diagonal", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("triangle_count", c_uint32),
+                ("welded_vertex_count", c_uint32), ("component_count", c_uint32), ("isolated_vertex_count", c_uint32),
+                ("degenerate_triangle_count", c_uint32), ("collapsed_triangle_count", c_uint32),
+                ("duplicate_triangle_count", c_uint32), ("non_manifold_edge_count", c_uint32), ("flipped_edge_count",
+                c_uint32), ("boundary_edge_count", c_uint32), ("inside_out_count", c_uint32),
+                ("first_inside_out_vertex", c_uint32), ("bounding_box_diagonal", c_double)]
 
 
 class hf_mesh_statistics(Struct):
-    """What a developer reads about a mesh"""
+    """Figures of a mesh for developers"""
     struct_size: int
     polygon_count: int
     non_planar_count: int
@@ -536,17 +430,9 @@ class hf_mesh_statistics(Struct):
     first_changed_vertex: int
     reserved: int
     smallest_angle: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("polygon_count", c_uint32),
-        ("non_planar_count", c_uint32),
-        ("largest_face", c_uint32),
-        ("negative_edge_count", c_uint32),
-        ("changed_vertex_count", c_uint32),
-        ("first_changed_vertex", c_uint32),
-        ("reserved", c_uint32),
-        ("smallest_angle", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("polygon_count", c_uint32), ("non_planar_count", c_uint32),
+                ("largest_face", c_uint32), ("negative_edge_count", c_uint32), ("changed_vertex_count", c_uint32),
+                ("first_changed_vertex", c_uint32), ("reserved", c_uint32), ("smallest_angle", c_double)]
 
 
 class hf_links_info(Struct):
@@ -558,15 +444,8 @@ class hf_links_info(Struct):
     lone_piece_count: int
     reserved: int
     longest_tree_link: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("piece_count", c_uint32),
-        ("link_count", c_uint32),
-        ("light_piece_count", c_uint32),
-        ("lone_piece_count", c_uint32),
-        ("reserved", c_uint32),
-        ("longest_tree_link", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("piece_count", c_uint32), ("link_count", c_uint32), ("light_piece_count",
+                c_uint32), ("lone_piece_count", c_uint32), ("reserved", c_uint32), ("longest_tree_link", c_double)]
 
 
 class hf_gaps_info(Struct):
@@ -577,14 +456,8 @@ class hf_gaps_info(Struct):
     worst: float
     worst_link: int
     reserved: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("link_count", c_uint32),
-        ("percentile_95", c_double),
-        ("worst", c_double),
-        ("worst_link", c_uint32),
-        ("reserved", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("link_count", c_uint32), ("percentile_95", c_double), ("worst", c_double),
+                ("worst_link", c_uint32), ("reserved", c_uint32)]
 
 
 class hf_surface_statistics(Struct):
@@ -605,36 +478,19 @@ class hf_surface_statistics(Struct):
     factor_loaded: int
     factor_borrowed: int
     links_ms: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("unknown_count", c_uint32),
-        ("weld_ms", c_double),
-        ("operator_ms", c_double),
-        ("ordering_ms", c_double),
-        ("symbolic_ms", c_double),
-        ("numeric_ms", c_double),
-        ("factor_entries", c_double),
-        ("factor_bytes", c_double),
-        ("factor_flops", c_double),
-        ("memory_bytes", c_double),
-        ("peak_memory_bytes", c_double),
-        ("load_ms", c_double),
-        ("factor_loaded", c_int32),
-        ("factor_borrowed", c_int32),
-        ("links_ms", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("unknown_count", c_uint32), ("weld_ms", c_double), ("operator_ms",
+                c_double), ("ordering_ms", c_double), ("symbolic_ms", c_double), ("numeric_ms", c_double),
+                ("factor_entries", c_double), ("factor_bytes", c_double), ("factor_flops", c_double), ("memory_bytes",
+                c_double), ("peak_memory_bytes", c_double), ("load_ms", c_double), ("factor_loaded", c_int32),
+                ("factor_borrowed", c_int32), ("links_ms", c_double)]
 
 
 class hf_place(Struct):
-    """One place on a surface"""
+    """A place on a surface"""
     corners: object
     reserved: int
     barycentrics: object
-    _fields_ = [
-        ("corners", c_uint32 * 3),
-        ("reserved", c_uint32),
-        ("barycentrics", c_double * 3),
-    ]
+    _fields_ = [("corners", c_uint32 * 3), ("reserved", c_uint32), ("barycentrics", c_double * 3)]
 
 
 class hf_pick_desc(Struct):
@@ -642,11 +498,7 @@ class hf_pick_desc(Struct):
     struct_size: int
     front_only: int
     positions: object
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("front_only", c_int32),
-        ("positions", hf_array),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("front_only", c_int32), ("positions", hf_array)]
 
 
 class hf_hit(Struct):
@@ -658,15 +510,8 @@ class hf_hit(Struct):
     place: object
     position: object
     distance: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("found", c_int32),
-        ("triangle", c_uint32),
-        ("vertex", c_uint32),
-        ("place", hf_place),
-        ("position", c_double * 3),
-        ("distance", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("found", c_int32), ("triangle", c_uint32), ("vertex", c_uint32), ("place",
+                hf_place), ("position", c_double * 3), ("distance", c_double)]
 
 
 class hf_solver_desc(Struct):
@@ -675,13 +520,8 @@ class hf_solver_desc(Struct):
     channel_count: int
     site_limit: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("field_kind", c_int32),
-        ("channel_count", c_uint32),
-        ("site_limit", c_uint32),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("field_kind", c_int32), ("channel_count", c_uint32), ("site_limit",
+                c_uint32), ("progress", c_void_p)]
 
 
 class hf_solver_info(Struct):
@@ -692,14 +532,8 @@ class hf_solver_info(Struct):
     site_limit: int
     site_count: int
     vertex_count: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("field_kind", c_int32),
-        ("channel_count", c_uint32),
-        ("site_limit", c_uint32),
-        ("site_count", c_uint32),
-        ("vertex_count", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("field_kind", c_int32), ("channel_count", c_uint32), ("site_limit",
+                c_uint32), ("site_count", c_uint32), ("vertex_count", c_uint32)]
 
 
 class hf_sites_desc(Struct):
@@ -712,16 +546,8 @@ class hf_sites_desc(Struct):
     values: int
     stiffness: int
     radii: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("site_count", c_uint32),
-        ("vertices", c_void_p),
-        ("places", c_void_p),
-        ("points", c_void_p),
-        ("values", c_void_p),
-        ("stiffness", c_void_p),
-        ("radii", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("site_count", c_uint32), ("vertices", c_void_p), ("places", c_void_p),
+                ("points", c_void_p), ("values", c_void_p), ("stiffness", c_void_p), ("radii", c_void_p)]
 
 
 class hf_edit_desc(Struct):
@@ -736,18 +562,9 @@ class hf_edit_desc(Struct):
     set_sites: int
     set_values: int
     add: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("remove_count", c_uint32),
-        ("remove_sites", c_void_p),
-        ("move_count", c_uint32),
-        ("set_count", c_uint32),
-        ("move_sites", c_void_p),
-        ("move_to", c_void_p),
-        ("set_sites", c_void_p),
-        ("set_values", c_void_p),
-        ("add", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("remove_count", c_uint32), ("remove_sites", c_void_p), ("move_count",
+                c_uint32), ("set_count", c_uint32), ("move_sites", c_void_p), ("move_to", c_void_p), ("set_sites",
+                c_void_p), ("set_values", c_void_p), ("add", c_void_p)]
 
 
 class hf_sites_info(Struct):
@@ -763,19 +580,9 @@ class hf_sites_info(Struct):
     stiffness: int
     flux: int
     radii: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("capacity", c_uint32),
-        ("count", c_uint32),
-        ("reserved", c_uint32),
-        ("sites", c_void_p),
-        ("vertices", c_void_p),
-        ("components", c_void_p),
-        ("values", c_void_p),
-        ("stiffness", c_void_p),
-        ("flux", c_void_p),
-        ("radii", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("capacity", c_uint32), ("count", c_uint32), ("reserved", c_uint32),
+                ("sites", c_void_p), ("vertices", c_void_p), ("components", c_void_p), ("values", c_void_p),
+                ("stiffness", c_void_p), ("flux", c_void_p), ("radii", c_void_p)]
 
 
 class hf_solve_info(Struct):
@@ -784,12 +591,8 @@ class hf_solve_info(Struct):
     unreached_component_count: int
     first_unreached_component: int
     unreached_vertex_count: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("unreached_component_count", c_uint32),
-        ("first_unreached_component", c_uint32),
-        ("unreached_vertex_count", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("unreached_component_count", c_uint32), ("first_unreached_component",
+                c_uint32), ("unreached_vertex_count", c_uint32)]
 
 
 class hf_preview_info(Struct):
@@ -802,16 +605,9 @@ class hf_preview_info(Struct):
     largest_correction: float
     error_estimate: float
     preview_bytes: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("exact", c_int32),
-        ("correction_count", c_uint32),
-        ("unreached_component_count", c_uint32),
-        ("value_range", c_double),
-        ("largest_correction", c_double),
-        ("error_estimate", c_double),
-        ("preview_bytes", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("exact", c_int32), ("correction_count", c_uint32),
+                ("unreached_component_count", c_uint32), ("value_range", c_double), ("largest_correction", c_double),
+                ("error_estimate", c_double), ("preview_bytes", c_double)]
 
 
 class hf_certificate(Struct):
@@ -826,18 +622,9 @@ class hf_certificate(Struct):
     worst_vertex: int
     changed_vertex_count: int
     error_estimate: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("overshoot_checked", c_int32),
-        ("tolerance", c_double),
-        ("value_range", c_double),
-        ("residual", c_double),
-        ("site_error", c_double),
-        ("overshoot", c_double),
-        ("worst_vertex", c_uint32),
-        ("changed_vertex_count", c_uint32),
-        ("error_estimate", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("overshoot_checked", c_int32), ("tolerance", c_double), ("value_range",
+                c_double), ("residual", c_double), ("site_error", c_double), ("overshoot", c_double), ("worst_vertex",
+                c_uint32), ("changed_vertex_count", c_uint32), ("error_estimate", c_double)]
 
 
 class hf_solver_statistics(Struct):
@@ -857,23 +644,11 @@ class hf_solver_statistics(Struct):
     site_memory_bytes: float
     predicted_dense_ms: float
     predicted_rebase_ms: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("site_count", c_uint32),
-        ("factorisation_count", c_uint32),
-        ("path_solve_count", c_uint32),
-        ("sweep_count", c_uint32),
-        ("last_route", c_uint32),
-        ("rebase_count", c_uint32),
-        ("dense_edit_count", c_uint32),
-        ("dense_row_count", c_uint32),
-        ("eliminated_count", c_uint32),
-        ("rebase_advised", c_int32),
-        ("reserved", c_uint32),
-        ("site_memory_bytes", c_double),
-        ("predicted_dense_ms", c_double),
-        ("predicted_rebase_ms", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("site_count", c_uint32), ("factorisation_count", c_uint32),
+                ("path_solve_count", c_uint32), ("sweep_count", c_uint32), ("last_route", c_uint32), ("rebase_count",
+                c_uint32), ("dense_edit_count", c_uint32), ("dense_row_count", c_uint32), ("eliminated_count",
+                c_uint32), ("rebase_advised", c_int32), ("reserved", c_uint32), ("site_memory_bytes", c_double),
+                ("predicted_dense_ms", c_double), ("predicted_rebase_ms", c_double)]
 
 
 class hf_isolines(Struct):
@@ -890,20 +665,10 @@ class hf_isolines(Struct):
     line_starts: int
     line_levels: int
     line_closed: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("point_capacity", c_uint32),
-        ("line_capacity", c_uint32),
-        ("point_count", c_uint32),
-        ("line_count", c_uint32),
-        ("reserved", c_uint32),
-        ("point_edges", c_void_p),
-        ("parameters", c_void_p),
-        ("positions", c_void_p),
-        ("line_starts", c_void_p),
-        ("line_levels", c_void_p),
-        ("line_closed", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("point_capacity", c_uint32), ("line_capacity", c_uint32), ("point_count",
+                c_uint32), ("line_count", c_uint32), ("reserved", c_uint32), ("point_edges", c_void_p), ("parameters",
+                c_void_p), ("positions", c_void_p), ("line_starts", c_void_p), ("line_levels", c_void_p),
+                ("line_closed", c_void_p)]
 
 
 class hf_critical_point(Struct):
@@ -912,13 +677,8 @@ class hf_critical_point(Struct):
     index: int
     component: int
     value: float
-    _fields_ = [
-        ("vertex", c_uint32),
-        ("kind", c_int32),
-        ("index", c_int32),
-        ("component", c_uint32),
-        ("value", c_double),
-    ]
+    _fields_ = [("vertex", c_uint32), ("kind", c_int32), ("index", c_int32), ("component", c_uint32), ("value",
+                c_double)]
 
 
 class hf_critical_info(Struct):
@@ -930,16 +690,9 @@ class hf_critical_info(Struct):
     index_sum: int
     euler_characteristic: int
     reserved: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("point_count", c_uint32),
-        ("minimum_count", c_uint32),
-        ("maximum_count", c_uint32),
-        ("saddle_count", c_uint32),
-        ("index_sum", c_int32),
-        ("euler_characteristic", c_int32),
-        ("reserved", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("point_count", c_uint32), ("minimum_count", c_uint32), ("maximum_count",
+                c_uint32), ("saddle_count", c_uint32), ("index_sum", c_int32), ("euler_characteristic", c_int32),
+                ("reserved", c_uint32)]
 
 
 class hf_geodesics_desc(Struct):
@@ -947,12 +700,7 @@ class hf_geodesics_desc(Struct):
     method: int
     smoothing: float
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("method", c_int32),
-        ("smoothing", c_double),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("method", c_int32), ("smoothing", c_double), ("progress", c_void_p)]
 
 
 class hf_path(Struct):
@@ -965,16 +713,9 @@ class hf_path(Struct):
     point_edges: int
     parameters: int
     positions: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("point_capacity", c_uint32),
-        ("point_count", c_uint32),
-        ("reserved", c_uint32),
-        ("length", c_double),
-        ("point_edges", c_void_p),
-        ("parameters", c_void_p),
-        ("positions", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("point_capacity", c_uint32), ("point_count", c_uint32), ("reserved",
+                c_uint32), ("length", c_double), ("point_edges", c_void_p), ("parameters", c_void_p), ("positions",
+                c_void_p)]
 
 
 class hf_extremities_desc(Struct):
@@ -986,16 +727,9 @@ class hf_extremities_desc(Struct):
     geodesics: int
     progress: int
     out_field: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("kind", c_int32),
-        ("least_length_share", c_double),
-        ("source_count", c_uint32),
-        ("reserved", c_uint32),
-        ("geodesics", c_void_p),
-        ("progress", c_void_p),
-        ("out_field", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("least_length_share", c_double), ("source_count",
+                c_uint32), ("reserved", c_uint32), ("geodesics", c_void_p), ("progress", c_void_p), ("out_field",
+                c_void_p)]
 
 
 class hf_extremity(Struct):
@@ -1003,12 +737,7 @@ class hf_extremity(Struct):
     component: int
     length: float
     position: object
-    _fields_ = [
-        ("vertex", c_uint32),
-        ("component", c_uint32),
-        ("length", c_double),
-        ("position", c_double * 3),
-    ]
+    _fields_ = [("vertex", c_uint32), ("component", c_uint32), ("length", c_double), ("position", c_double * 3)]
 
 
 class hf_direction_desc(Struct):
@@ -1017,13 +746,8 @@ class hf_direction_desc(Struct):
     site_limit: int
     reserved: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("degree", c_uint32),
-        ("site_limit", c_uint32),
-        ("reserved", c_uint32),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("degree", c_uint32), ("site_limit", c_uint32), ("reserved", c_uint32),
+                ("progress", c_void_p)]
 
 
 class hf_singularity(Struct):
@@ -1031,11 +755,7 @@ class hf_singularity(Struct):
     triangle: int
     vertex: int
     index: int
-    _fields_ = [
-        ("triangle", c_uint32),
-        ("vertex", c_uint32),
-        ("index", c_int32),
-    ]
+    _fields_ = [("triangle", c_uint32), ("vertex", c_uint32), ("index", c_int32)]
 
 
 class hf_direction_statistics(Struct):
@@ -1055,23 +775,11 @@ class hf_direction_statistics(Struct):
     factor_entries: float
     factor_bytes: float
     site_memory_bytes: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("degree", c_uint32),
-        ("site_limit", c_uint32),
-        ("unknown_count", c_uint32),
-        ("site_count", c_uint32),
-        ("factorisation_count", c_uint32),
-        ("path_solve_count", c_uint32),
-        ("sweep_count", c_uint32),
-        ("irregular_vertex_count", c_uint32),
-        ("eliminated_count", c_uint32),
-        ("operator_ms", c_double),
-        ("numeric_ms", c_double),
-        ("factor_entries", c_double),
-        ("factor_bytes", c_double),
-        ("site_memory_bytes", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("degree", c_uint32), ("site_limit", c_uint32), ("unknown_count",
+                c_uint32), ("site_count", c_uint32), ("factorisation_count", c_uint32), ("path_solve_count",
+                c_uint32), ("sweep_count", c_uint32), ("irregular_vertex_count", c_uint32), ("eliminated_count",
+                c_uint32), ("operator_ms", c_double), ("numeric_ms", c_double), ("factor_entries", c_double),
+                ("factor_bytes", c_double), ("site_memory_bytes", c_double)]
 
 
 class hf_pose_desc(Struct):
@@ -1079,12 +787,8 @@ class hf_pose_desc(Struct):
     band_count: int
     iteration_count: int
     group_count: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("band_count", c_uint32),
-        ("iteration_count", c_uint32),
-        ("group_count", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("band_count", c_uint32), ("iteration_count", c_uint32), ("group_count",
+                c_uint32)]
 
 
 class hf_pose_info(Struct):
@@ -1095,14 +799,8 @@ class hf_pose_info(Struct):
     group_count: int
     handle_count: int
     vertex_count: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("band_count", c_uint32),
-        ("iteration_count", c_uint32),
-        ("group_count", c_uint32),
-        ("handle_count", c_uint32),
-        ("vertex_count", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("band_count", c_uint32), ("iteration_count", c_uint32), ("group_count",
+                c_uint32), ("handle_count", c_uint32), ("vertex_count", c_uint32)]
 
 
 class hf_handles_desc(Struct):
@@ -1120,31 +818,17 @@ class hf_handles_desc(Struct):
     free_rotation: int
     reserved: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("handle_count", c_uint32),
-        ("region_counts", c_void_p),
-        ("region_vertices", c_void_p),
-        ("vertices", c_void_p),
-        ("places", c_void_p),
-        ("points", c_void_p),
-        ("radii", c_void_p),
-        ("layer", c_uint32),
-        ("in_place", c_int32),
-        ("free_rotation", c_int32),
-        ("reserved", c_uint32),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("handle_count", c_uint32), ("region_counts", c_void_p),
+                ("region_vertices", c_void_p), ("vertices", c_void_p), ("places", c_void_p), ("points", c_void_p),
+                ("radii", c_void_p), ("layer", c_uint32), ("in_place", c_int32), ("free_rotation", c_int32),
+                ("reserved", c_uint32), ("progress", c_void_p)]
 
 
 class hf_transform(Struct):
     """A rigid motion of a handle from its rest place."""
     rotation: object
     translation: object
-    _fields_ = [
-        ("rotation", c_double * 4),
-        ("translation", c_double * 3),
-    ]
+    _fields_ = [("rotation", c_double * 4), ("translation", c_double * 3)]
 
 
 class hf_handle_info(Struct):
@@ -1160,35 +844,20 @@ class hf_handle_info(Struct):
     layer: int
     free_rotation: int
     following: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("site_count", c_uint32),
-        ("component", c_uint32),
-        ("centroid", c_double * 3),
-        ("leak", c_double),
-        ("rotation", c_double * 4),
-        ("translation", c_double * 3),
-        ("layer", c_uint32),
-        ("free_rotation", c_int32),
-        ("following", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("site_count", c_uint32), ("component",
+                c_uint32), ("centroid", c_double * 3), ("leak", c_double), ("rotation", c_double * 4), ("translation",
+                c_double * 3), ("layer", c_uint32), ("free_rotation", c_int32), ("following", c_double)]
 
 
 class hf_deform_info(Struct):
-    """What a deform did."""
+    """The work of a deform."""
     struct_size: int
     iteration_count: int
     unreached_vertex_count: int
     reserved: int
     last_change: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("iteration_count", c_uint32),
-        ("unreached_vertex_count", c_uint32),
-        ("reserved", c_uint32),
-        ("last_change", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("iteration_count", c_uint32), ("unreached_vertex_count", c_uint32),
+                ("reserved", c_uint32), ("last_change", c_double)]
 
 
 class hf_deform_desc(Struct):
@@ -1203,18 +872,9 @@ class hf_deform_desc(Struct):
     first_vertex: int
     vertex_count: int
     reserved: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("iteration_count", c_uint32),
-        ("positions", hf_array_out),
-        ("normals", hf_array_out),
-        ("restart", c_int32),
-        ("refine", c_int32),
-        ("refine_from_last", c_int32),
-        ("first_vertex", c_uint32),
-        ("vertex_count", c_uint32),
-        ("reserved", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("iteration_count", c_uint32), ("positions", hf_array_out), ("normals",
+                hf_array_out), ("restart", c_int32), ("refine", c_int32), ("refine_from_last", c_int32),
+                ("first_vertex", c_uint32), ("vertex_count", c_uint32), ("reserved", c_uint32)]
 
 
 class hf_pose_statistics(Struct):
@@ -1225,14 +885,8 @@ class hf_pose_statistics(Struct):
     blend_ms: float
     normal_ms: float
     refine_ms: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("cluster_count", c_uint32),
-        ("solve_ms", c_double),
-        ("blend_ms", c_double),
-        ("normal_ms", c_double),
-        ("refine_ms", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("cluster_count", c_uint32), ("solve_ms", c_double), ("blend_ms",
+                c_double), ("normal_ms", c_double), ("refine_ms", c_double)]
 
 
 class hf_skin_info(Struct):
@@ -1250,21 +904,10 @@ class hf_skin_info(Struct):
     scales: int
     vertex_joints: int
     vertex_weights: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("joint_capacity", c_uint32),
-        ("vertex_capacity", c_uint32),
-        ("influence_count", c_uint32),
-        ("joint_count", c_uint32),
-        ("vertex_count", c_uint32),
-        ("pivots", c_void_p),
-        ("rotations", c_void_p),
-        ("translations", c_void_p),
-        ("axes", c_void_p),
-        ("scales", c_void_p),
-        ("vertex_joints", c_void_p),
-        ("vertex_weights", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("joint_capacity", c_uint32), ("vertex_capacity", c_uint32),
+                ("influence_count", c_uint32), ("joint_count", c_uint32), ("vertex_count", c_uint32), ("pivots",
+                c_void_p), ("rotations", c_void_p), ("translations", c_void_p), ("axes", c_void_p), ("scales",
+                c_void_p), ("vertex_joints", c_void_p), ("vertex_weights", c_void_p)]
 
 
 class hf_handle_proposals_desc(Struct):
@@ -1277,17 +920,9 @@ class hf_handle_proposals_desc(Struct):
     limit: int
     reserved: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("joint_count", c_uint32),
-        ("joints", c_void_p),
-        ("parents", c_void_p),
-        ("up", c_double * 3),
-        ("least_length_share", c_double),
-        ("limit", c_uint32),
-        ("reserved", c_uint32),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("joint_count", c_uint32), ("joints", c_void_p), ("parents", c_void_p),
+                ("up", c_double * 3), ("least_length_share", c_double), ("limit", c_uint32), ("reserved", c_uint32),
+                ("progress", c_void_p)]
 
 
 class hf_handle_proposal(Struct):
@@ -1301,17 +936,9 @@ class hf_handle_proposal(Struct):
     position: object
     radius: float
     length: float
-    _fields_ = [
-        ("vertex", c_uint32),
-        ("component", c_uint32),
-        ("reason", c_int32),
-        ("pinned", c_int32),
-        ("joint", c_uint32),
-        ("reserved", c_uint32),
-        ("position", c_double * 3),
-        ("radius", c_double),
-        ("length", c_double),
-    ]
+    _fields_ = [("vertex", c_uint32), ("component", c_uint32), ("reason", c_int32), ("pinned", c_int32), ("joint",
+                c_uint32), ("reserved", c_uint32), ("position", c_double * 3), ("radius", c_double), ("length",
+                c_double)]
 
 
 class hf_quads_desc(Struct):
@@ -1333,25 +960,12 @@ class hf_quads_desc(Struct):
     irregular_valences: int
     irregular_directions: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("face_count", c_uint32),
-        ("edge_length", c_double),
-        ("crease_angle", c_double),
-        ("relax_count", c_uint32),
-        ("crease_count", c_uint32),
-        ("guide_count", c_uint32),
-        ("irregular_count", c_uint32),
-        ("symmetry_plane", c_double * 4),
-        ("crease_edges", c_void_p),
-        ("guide_vertices", c_void_p),
-        ("guide_vectors", c_void_p),
-        ("guide_weights", c_void_p),
-        ("irregular_points", c_void_p),
-        ("irregular_valences", c_void_p),
-        ("irregular_directions", c_void_p),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("face_count", c_uint32), ("edge_length", c_double), ("crease_angle",
+                c_double), ("relax_count", c_uint32), ("crease_count", c_uint32), ("guide_count", c_uint32),
+                ("irregular_count", c_uint32), ("symmetry_plane", c_double * 4), ("crease_edges", c_void_p),
+                ("guide_vertices", c_void_p), ("guide_vectors", c_void_p), ("guide_weights", c_void_p),
+                ("irregular_points", c_void_p), ("irregular_valences", c_void_p), ("irregular_directions", c_void_p),
+                ("progress", c_void_p)]
 
 
 class hf_quads_info(Struct):
@@ -1361,13 +975,8 @@ class hf_quads_info(Struct):
     face_count: int
     euler_characteristic: int
     edge_length: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("face_count", c_uint32),
-        ("euler_characteristic", c_int32),
-        ("edge_length", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("face_count", c_uint32),
+                ("euler_characteristic", c_int32), ("edge_length", c_double)]
 
 
 class hf_quads_mesh(Struct):
@@ -1383,19 +992,9 @@ class hf_quads_mesh(Struct):
     triangles: int
     barycentrics: int
     corners: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_capacity", c_uint32),
-        ("face_capacity", c_uint32),
-        ("vertex_count", c_uint32),
-        ("face_count", c_uint32),
-        ("reserved", c_uint32),
-        ("positions", c_void_p),
-        ("faces", c_void_p),
-        ("triangles", c_void_p),
-        ("barycentrics", c_void_p),
-        ("corners", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_capacity", c_uint32), ("face_capacity", c_uint32),
+                ("vertex_count", c_uint32), ("face_count", c_uint32), ("reserved", c_uint32), ("positions", c_void_p),
+                ("faces", c_void_p), ("triangles", c_void_p), ("barycentrics", c_void_p), ("corners", c_void_p)]
 
 
 class hf_streamlines(Struct):
@@ -1412,21 +1011,10 @@ class hf_streamlines(Struct):
     values: int
     line_starts: int
     line_ends: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("wanted_count", c_uint32),
-        ("seed_count", c_uint32),
-        ("point_capacity", c_uint32),
-        ("line_capacity", c_uint32),
-        ("point_count", c_uint32),
-        ("line_count", c_uint32),
-        ("reserved", c_uint32),
-        ("seeds", c_void_p),
-        ("positions", c_void_p),
-        ("values", c_void_p),
-        ("line_starts", c_void_p),
-        ("line_ends", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("wanted_count", c_uint32), ("seed_count", c_uint32), ("point_capacity",
+                c_uint32), ("line_capacity", c_uint32), ("point_count", c_uint32), ("line_count", c_uint32),
+                ("reserved", c_uint32), ("seeds", c_void_p), ("positions", c_void_p), ("values", c_void_p),
+                ("line_starts", c_void_p), ("line_ends", c_void_p)]
 
 
 class hf_region_desc(Struct):
@@ -1434,12 +1022,7 @@ class hf_region_desc(Struct):
     base: int
     positions: object
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("base", c_int32),
-        ("positions", hf_array),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("base", c_int32), ("positions", hf_array), ("progress", c_void_p)]
 
 
 class hf_curve_desc(Struct):
@@ -1453,17 +1036,9 @@ class hf_curve_desc(Struct):
     seed_vertex: int
     kind: int
     reserved: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("point_count", c_uint32),
-        ("vertices", c_void_p),
-        ("places", c_void_p),
-        ("points", c_void_p),
-        ("side", c_int32),
-        ("seed_vertex", c_uint32),
-        ("kind", c_int32),
-        ("reserved", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("point_count", c_uint32), ("vertices", c_void_p), ("places", c_void_p),
+                ("points", c_void_p), ("side", c_int32), ("seed_vertex", c_uint32), ("kind", c_int32), ("reserved",
+                c_uint32)]
 
 
 class hf_region_edit_desc(Struct):
@@ -1476,16 +1051,9 @@ class hf_region_edit_desc(Struct):
     remove_vertices: int
     add_vertices: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("ring_count", c_int32),
-        ("curve", c_void_p),
-        ("remove_count", c_uint32),
-        ("add_count", c_uint32),
-        ("remove_vertices", c_void_p),
-        ("add_vertices", c_void_p),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("ring_count", c_int32), ("curve", c_void_p), ("remove_count", c_uint32),
+                ("add_count", c_uint32), ("remove_vertices", c_void_p), ("add_vertices", c_void_p), ("progress",
+                c_void_p)]
 
 
 class hf_region_info(Struct):
@@ -1498,16 +1066,9 @@ class hf_region_info(Struct):
     reserved: int
     area: float
     base_area: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("field_kind", c_int32),
-        ("vertex_count", c_uint32),
-        ("rim_count", c_uint32),
-        ("site_count", c_uint32),
-        ("reserved", c_uint32),
-        ("area", c_double),
-        ("base_area", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("field_kind", c_int32), ("vertex_count", c_uint32), ("rim_count",
+                c_uint32), ("site_count", c_uint32), ("reserved", c_uint32), ("area", c_double), ("base_area",
+                c_double)]
 
 
 class hf_region_statistics(Struct):
@@ -1520,16 +1081,9 @@ class hf_region_statistics(Struct):
     path_solve_count: int
     last_route: int
     whole_sweep: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("inserted_count", c_uint32),
-        ("removed_count", c_uint32),
-        ("kept_count", c_uint32),
-        ("factorisation_count", c_uint32),
-        ("path_solve_count", c_uint32),
-        ("last_route", c_uint32),
-        ("whole_sweep", c_int32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("inserted_count", c_uint32), ("removed_count", c_uint32), ("kept_count",
+                c_uint32), ("factorisation_count", c_uint32), ("path_solve_count", c_uint32), ("last_route",
+                c_uint32), ("whole_sweep", c_int32)]
 
 
 class hf_morph_desc(Struct):
@@ -1539,13 +1093,8 @@ class hf_morph_desc(Struct):
     weight: float
     positions: object
     normals: object
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("weight", c_double),
-        ("positions", hf_array_out),
-        ("normals", hf_array_out),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("weight", c_double), ("positions", hf_array_out),
+                ("normals", hf_array_out)]
 
 
 class hf_detail_desc(Struct):
@@ -1555,14 +1104,8 @@ class hf_detail_desc(Struct):
     target_vertices: int
     scale: float
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("pair_count", c_uint32),
-        ("source_vertices", c_void_p),
-        ("target_vertices", c_void_p),
-        ("scale", c_double),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("pair_count", c_uint32), ("source_vertices", c_void_p),
+                ("target_vertices", c_void_p), ("scale", c_double), ("progress", c_void_p)]
 
 
 class hf_retarget_desc(Struct):
@@ -1576,17 +1119,9 @@ class hf_retarget_desc(Struct):
     source_rest: int
     target_rest: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("root_motion", c_int32),
-        ("leave_out", c_uint32),
-        ("reserved", c_uint32),
-        ("scale", c_double),
-        ("ground_velocity", c_double * 3),
-        ("source_rest", c_void_p),
-        ("target_rest", c_void_p),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("root_motion", c_int32), ("leave_out", c_uint32), ("reserved", c_uint32),
+                ("scale", c_double), ("ground_velocity", c_double * 3), ("source_rest", c_void_p), ("target_rest",
+                c_void_p), ("progress", c_void_p)]
 
 
 class hf_retarget_info(Struct):
@@ -1603,20 +1138,10 @@ class hf_retarget_info(Struct):
     limb_angle: float
     stride_share: float
     deepest_drop: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("source_joint_count", c_uint32),
-        ("target_joint_count", c_uint32),
-        ("matched_joint_count", c_uint32),
-        ("chain_count", c_uint32),
-        ("same_skeleton", c_int32),
-        ("scale_from", c_int32),
-        ("frame_count", c_uint32),
-        ("scale", c_double),
-        ("limb_angle", c_double),
-        ("stride_share", c_double),
-        ("deepest_drop", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("source_joint_count", c_uint32), ("target_joint_count", c_uint32),
+                ("matched_joint_count", c_uint32), ("chain_count", c_uint32), ("same_skeleton", c_int32),
+                ("scale_from", c_int32), ("frame_count", c_uint32), ("scale", c_double), ("limb_angle", c_double),
+                ("stride_share", c_double), ("deepest_drop", c_double)]
 
 
 class hf_chain_match(Struct):
@@ -1627,14 +1152,8 @@ class hf_chain_match(Struct):
     target_joint_count: int
     mean_angle: float
     worst_angle: float
-    _fields_ = [
-        ("role", c_int32),
-        ("side", c_int32),
-        ("source_joint_count", c_uint32),
-        ("target_joint_count", c_uint32),
-        ("mean_angle", c_double),
-        ("worst_angle", c_double),
-    ]
+    _fields_ = [("role", c_int32), ("side", c_int32), ("source_joint_count", c_uint32), ("target_joint_count",
+                c_uint32), ("mean_angle", c_double), ("worst_angle", c_double)]
 
 
 class hf_skin_desc(Struct):
@@ -1647,16 +1166,9 @@ class hf_skin_desc(Struct):
     triangles: int
     joints: int
     weights: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("triangle_count", c_uint32),
-        ("influence_count", c_uint32),
-        ("positions", c_void_p),
-        ("triangles", c_void_p),
-        ("joints", c_void_p),
-        ("weights", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("triangle_count", c_uint32),
+                ("influence_count", c_uint32), ("positions", c_void_p), ("triangles", c_void_p), ("joints", c_void_p),
+                ("weights", c_void_p)]
 
 
 class hf_skeleton_desc(Struct):
@@ -1677,24 +1189,10 @@ class hf_skeleton_desc(Struct):
     skin: int
     allocator: object
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("joint_count", c_uint32),
-        ("names", c_void_p),
-        ("parents", c_void_p),
-        ("rest", c_void_p),
-        ("inverse_binds", c_void_p),
-        ("up", c_void_p),
-        ("forward", c_void_p),
-        ("roles", c_void_p),
-        ("sides", c_void_p),
-        ("travel_count", c_uint32),
-        ("reserved", c_uint32),
-        ("travels", c_void_p),
-        ("skin", c_void_p),
-        ("allocator", hf_allocator),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("joint_count", c_uint32), ("names", c_void_p), ("parents", c_void_p),
+                ("rest", c_void_p), ("inverse_binds", c_void_p), ("up", c_void_p), ("forward", c_void_p), ("roles",
+                c_void_p), ("sides", c_void_p), ("travel_count", c_uint32), ("reserved", c_uint32), ("travels",
+                c_void_p), ("skin", c_void_p), ("allocator", hf_allocator), ("progress", c_void_p)]
 
 
 class hf_skeleton_info(Struct):
@@ -1715,24 +1213,11 @@ class hf_skeleton_info(Struct):
     leg_length: float
     hip_height: float
     arm_length: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("joint_count", c_uint32),
-        ("chain_count", c_uint32),
-        ("reserved", c_uint32),
-        ("up", c_double * 3),
-        ("forward", c_double * 3),
-        ("left", c_double * 3),
-        ("middle", c_double * 3),
-        ("up_confidence", c_double),
-        ("forward_confidence", c_double),
-        ("left_confidence", c_double),
-        ("role_confidence", c_double),
-        ("height", c_double),
-        ("leg_length", c_double),
-        ("hip_height", c_double),
-        ("arm_length", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("joint_count", c_uint32), ("chain_count", c_uint32), ("reserved",
+                c_uint32), ("up", c_double * 3), ("forward", c_double * 3), ("left", c_double * 3), ("middle",
+                c_double * 3), ("up_confidence", c_double), ("forward_confidence", c_double), ("left_confidence",
+                c_double), ("role_confidence", c_double), ("height", c_double), ("leg_length", c_double),
+                ("hip_height", c_double), ("arm_length", c_double)]
 
 
 class hf_joint_info(Struct):
@@ -1742,13 +1227,7 @@ class hf_joint_info(Struct):
     side: int
     chain: int
     mate: int
-    _fields_ = [
-        ("kind", c_int32),
-        ("role", c_int32),
-        ("side", c_int32),
-        ("chain", c_uint32),
-        ("mate", c_uint32),
-    ]
+    _fields_ = [("kind", c_int32), ("role", c_int32), ("side", c_int32), ("chain", c_uint32), ("mate", c_uint32)]
 
 
 class hf_chain(Struct):
@@ -1760,15 +1239,8 @@ class hf_chain(Struct):
     first: int
     joint_count: int
     length: float
-    _fields_ = [
-        ("role", c_int32),
-        ("side", c_int32),
-        ("number", c_uint32),
-        ("parent", c_uint32),
-        ("first", c_uint32),
-        ("joint_count", c_uint32),
-        ("length", c_double),
-    ]
+    _fields_ = [("role", c_int32), ("side", c_int32), ("number", c_uint32), ("parent", c_uint32), ("first", c_uint32),
+                ("joint_count", c_uint32), ("length", c_double)]
 
 
 class hf_transfer_desc(Struct):
@@ -1784,19 +1256,9 @@ class hf_transfer_desc(Struct):
     target_axes: object
     source_rest: object
     target_rest: object
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("mode", c_int32),
-        ("cluster_count", c_uint32),
-        ("ground", c_int32),
-        ("kernel_width", c_double),
-        ("scale", c_double),
-        ("alignment_angle", c_double),
-        ("source_axes", c_double * 9),
-        ("target_axes", c_double * 9),
-        ("source_rest", hf_array),
-        ("target_rest", hf_array),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("mode", c_int32), ("cluster_count", c_uint32), ("ground", c_int32),
+                ("kernel_width", c_double), ("scale", c_double), ("alignment_angle", c_double), ("source_axes",
+                c_double * 9), ("target_axes", c_double * 9), ("source_rest", hf_array), ("target_rest", hf_array)]
 
 
 class hf_pairs_desc(Struct):
@@ -1809,16 +1271,9 @@ class hf_pairs_desc(Struct):
     target_vertices: int
     flags: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("pair_count", c_uint32),
-        ("source_counts", c_void_p),
-        ("source_vertices", c_void_p),
-        ("target_counts", c_void_p),
-        ("target_vertices", c_void_p),
-        ("flags", c_void_p),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("pair_count", c_uint32), ("source_counts", c_void_p), ("source_vertices",
+                c_void_p), ("target_counts", c_void_p), ("target_vertices", c_void_p), ("flags", c_void_p),
+                ("progress", c_void_p)]
 
 
 class hf_pair_info(Struct):
@@ -1831,17 +1286,9 @@ class hf_pair_info(Struct):
     alignment_share: float
     aligned: int
     crossed: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("flags", c_uint32),
-        ("source_leak", c_double),
-        ("target_leak", c_double),
-        ("alignment_angle", c_double),
-        ("confidence", c_double),
-        ("alignment_share", c_double),
-        ("aligned", c_int32),
-        ("crossed", c_int32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("flags", c_uint32), ("source_leak", c_double), ("target_leak", c_double),
+                ("alignment_angle", c_double), ("confidence", c_double), ("alignment_share", c_double), ("aligned",
+                c_int32), ("crossed", c_int32)]
 
 
 class hf_transfer_info(Struct):
@@ -1853,15 +1300,8 @@ class hf_transfer_info(Struct):
     crossed_count: int
     scale_found: int
     scale: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("pair_count", c_uint32),
-        ("cluster_count", c_uint32),
-        ("aligned_count", c_uint32),
-        ("crossed_count", c_uint32),
-        ("scale_found", c_int32),
-        ("scale", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("pair_count", c_uint32), ("cluster_count", c_uint32), ("aligned_count",
+                c_uint32), ("crossed_count", c_uint32), ("scale_found", c_int32), ("scale", c_double)]
 
 
 class hf_transfer_statistics(Struct):
@@ -1869,11 +1309,8 @@ class hf_transfer_statistics(Struct):
     struct_size: int
     source_factorisation_count: int
     target_factorisation_count: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("source_factorisation_count", c_uint32),
-        ("target_factorisation_count", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("source_factorisation_count", c_uint32), ("target_factorisation_count",
+                c_uint32)]
 
 
 class hf_transfer_dials(Struct):
@@ -1886,16 +1323,9 @@ class hf_transfer_dials(Struct):
     tail_follow: float
     arm_space: float
     long_follow: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("stride", c_double),
-        ("hip_height_share", c_double),
-        ("neck_follow", c_double),
-        ("tail_follow", c_double),
-        ("arm_space", c_double),
-        ("long_follow", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("stride", c_double), ("hip_height_share",
+                c_double), ("neck_follow", c_double), ("tail_follow", c_double), ("arm_space", c_double),
+                ("long_follow", c_double)]
 
 
 class hf_transfer_frame(Struct):
@@ -1907,15 +1337,9 @@ class hf_transfer_frame(Struct):
     target_normals: object
     hold_pairs: int
     hold_positions: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("hold_count", c_uint32),
-        ("source_positions", hf_array),
-        ("target_positions", hf_array_out),
-        ("target_normals", hf_array_out),
-        ("hold_pairs", c_void_p),
-        ("hold_positions", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("hold_count", c_uint32), ("source_positions", hf_array),
+                ("target_positions", hf_array_out), ("target_normals", hf_array_out), ("hold_pairs", c_void_p),
+                ("hold_positions", c_void_p)]
 
 
 class hf_joints_desc(Struct):
@@ -1929,17 +1353,9 @@ class hf_joints_desc(Struct):
     deforms: int
     sources: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("joint_count", c_uint32),
-        ("heads", c_void_p),
-        ("tails", c_void_p),
-        ("axes", c_void_p),
-        ("parents", c_void_p),
-        ("deforms", c_void_p),
-        ("sources", c_void_p),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("joint_count", c_uint32), ("heads", c_void_p), ("tails", c_void_p),
+                ("axes", c_void_p), ("parents", c_void_p), ("deforms", c_void_p), ("sources", c_void_p), ("progress",
+                c_void_p)]
 
 
 class hf_pins_desc(Struct):
@@ -1955,19 +1371,9 @@ class hf_pins_desc(Struct):
     joints: int
     weights: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("pin_count", c_uint32),
-        ("vertices", c_void_p),
-        ("places", c_void_p),
-        ("points", c_void_p),
-        ("radii", c_void_p),
-        ("influence_count", c_uint32),
-        ("reserved", c_uint32),
-        ("joints", c_void_p),
-        ("weights", c_void_p),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("pin_count", c_uint32), ("vertices", c_void_p), ("places", c_void_p),
+                ("points", c_void_p), ("radii", c_void_p), ("influence_count", c_uint32), ("reserved", c_uint32),
+                ("joints", c_void_p), ("weights", c_void_p), ("progress", c_void_p)]
 
 
 class hf_weights_out(Struct):
@@ -1980,16 +1386,9 @@ class hf_weights_out(Struct):
     joints_u16: int
     weights: int
     origins: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_capacity", c_uint32),
-        ("vertex_count", c_uint32),
-        ("influence_count", c_uint32),
-        ("joints", c_void_p),
-        ("joints_u16", c_void_p),
-        ("weights", c_void_p),
-        ("origins", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_capacity", c_uint32), ("vertex_count", c_uint32),
+                ("influence_count", c_uint32), ("joints", c_void_p), ("joints_u16", c_void_p), ("weights", c_void_p),
+                ("origins", c_void_p)]
 
 
 class hf_weights_info(Struct):
@@ -2005,23 +1404,14 @@ class hf_weights_info(Struct):
     nearest_count: int
     rigid_count: int
     isolated_count: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("joint_count", c_uint32),
-        ("pin_count", c_uint32),
-        ("lock_count", c_uint32),
-        ("informed_count", c_uint32),
-        ("solved_count", c_uint32),
-        ("pinned_count", c_uint32),
-        ("nearest_count", c_uint32),
-        ("rigid_count", c_uint32),
-        ("isolated_count", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("joint_count", c_uint32), ("pin_count",
+                c_uint32), ("lock_count", c_uint32), ("informed_count", c_uint32), ("solved_count", c_uint32),
+                ("pinned_count", c_uint32), ("nearest_count", c_uint32), ("rigid_count", c_uint32), ("isolated_count",
+                c_uint32)]
 
 
 class hf_weights_statistics(Struct):
-    """What a developer reads about weights"""
+    """Figures of weights for developers"""
     struct_size: int
     nearest_piece_count: int
     rigid_piece_count: int
@@ -2033,19 +1423,10 @@ class hf_weights_statistics(Struct):
     helper_count: int
     factorisation_count: int
     path_solve_count: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("nearest_piece_count", c_uint32),
-        ("rigid_piece_count", c_uint32),
-        ("blind", c_int32),
-        ("no_length_count", c_uint32),
-        ("coincident_count", c_uint32),
-        ("informs_none_count", c_uint32),
-        ("outside_count", c_uint32),
-        ("helper_count", c_uint32),
-        ("factorisation_count", c_uint32),
-        ("path_solve_count", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("nearest_piece_count", c_uint32), ("rigid_piece_count", c_uint32),
+                ("blind", c_int32), ("no_length_count", c_uint32), ("coincident_count", c_uint32),
+                ("informs_none_count", c_uint32), ("outside_count", c_uint32), ("helper_count", c_uint32),
+                ("factorisation_count", c_uint32), ("path_solve_count", c_uint32)]
 
 
 class hf_weights_transfer_desc(Struct):
@@ -2059,17 +1440,9 @@ class hf_weights_transfer_desc(Struct):
     influence_count: int
     reserved: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("source_influence_count", c_uint32),
-        ("joints", c_void_p),
-        ("weights", c_void_p),
-        ("distance", c_double),
-        ("angle", c_double),
-        ("influence_count", c_uint32),
-        ("reserved", c_uint32),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("source_influence_count", c_uint32), ("joints", c_void_p), ("weights",
+                c_void_p), ("distance", c_double), ("angle", c_double), ("influence_count", c_uint32), ("reserved",
+                c_uint32), ("progress", c_void_p)]
 
 
 class hf_weights_transfer_info(Struct):
@@ -2082,16 +1455,9 @@ class hf_weights_transfer_info(Struct):
     rigid_count: int
     isolated_count: int
     guessed_piece_count: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("matched_count", c_uint32),
-        ("solved_count", c_uint32),
-        ("nearest_count", c_uint32),
-        ("rigid_count", c_uint32),
-        ("isolated_count", c_uint32),
-        ("guessed_piece_count", c_uint32),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("matched_count", c_uint32), ("solved_count",
+                c_uint32), ("nearest_count", c_uint32), ("rigid_count", c_uint32), ("isolated_count", c_uint32),
+                ("guessed_piece_count", c_uint32)]
 
 
 class hf_weights_mirror_desc(Struct):
@@ -2111,23 +1477,10 @@ class hf_weights_mirror_desc(Struct):
     influence_count: int
     reserved: int
     progress: int
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("joint_count", c_uint32),
-        ("heads", c_void_p),
-        ("names", c_void_p),
-        ("partners", c_void_p),
-        ("plane", c_void_p),
-        ("source_influence_count", c_uint32),
-        ("to", c_int32),
-        ("joints", c_void_p),
-        ("weights", c_void_p),
-        ("distance", c_double),
-        ("angle", c_double),
-        ("influence_count", c_uint32),
-        ("reserved", c_uint32),
-        ("progress", c_void_p),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("joint_count", c_uint32), ("heads", c_void_p), ("names", c_void_p),
+                ("partners", c_void_p), ("plane", c_void_p), ("source_influence_count", c_uint32), ("to", c_int32),
+                ("joints", c_void_p), ("weights", c_void_p), ("distance", c_double), ("angle", c_double),
+                ("influence_count", c_uint32), ("reserved", c_uint32), ("progress", c_void_p)]
 
 
 class hf_weights_mirror_info(Struct):
@@ -2148,28 +1501,15 @@ class hf_weights_mirror_info(Struct):
     isolated_count: int
     point: object
     normal: object
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertex_count", c_uint32),
-        ("plane_from", c_int32),
-        ("named_count", c_uint32),
-        ("placed_count", c_uint32),
-        ("centre_count", c_uint32),
-        ("given_count", c_uint32),
-        ("alone_count", c_uint32),
-        ("kept_count", c_uint32),
-        ("matched_count", c_uint32),
-        ("solved_count", c_uint32),
-        ("nearest_count", c_uint32),
-        ("rigid_count", c_uint32),
-        ("isolated_count", c_uint32),
-        ("point", c_double * 3),
-        ("normal", c_double * 3),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("plane_from", c_int32), ("named_count",
+                c_uint32), ("placed_count", c_uint32), ("centre_count", c_uint32), ("given_count", c_uint32),
+                ("alone_count", c_uint32), ("kept_count", c_uint32), ("matched_count", c_uint32), ("solved_count",
+                c_uint32), ("nearest_count", c_uint32), ("rigid_count", c_uint32), ("isolated_count", c_uint32),
+                ("point", c_double * 3), ("normal", c_double * 3)]
 
 
 class hf_weights_mirror_statistics(Struct):
-    """How far a surface and its joints are from their reflections."""
+    """Distances of a surface and its joints from their reflections, in the unit of the mesh."""
     struct_size: int
     worst_joint: int
     worst_vertex: int
@@ -2178,16 +1518,9 @@ class hf_weights_mirror_statistics(Struct):
     worst_joint_off: float
     vertex_off: float
     worst_vertex_off: float
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("worst_joint", c_uint32),
-        ("worst_vertex", c_uint32),
-        ("reserved", c_uint32),
-        ("joint_off", c_double),
-        ("worst_joint_off", c_double),
-        ("vertex_off", c_double),
-        ("worst_vertex_off", c_double),
-    ]
+    _fields_ = [("struct_size", c_uint32), ("worst_joint", c_uint32), ("worst_vertex", c_uint32), ("reserved",
+                c_uint32), ("joint_off", c_double), ("worst_joint_off", c_double), ("vertex_off", c_double),
+                ("worst_vertex_off", c_double)]
 
 
 STRUCTS = [hf_array, hf_array_out, hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_faces_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_mesh_statistics, hf_links_info, hf_gaps_info, hf_surface_statistics, hf_place, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_pose_statistics, hf_skin_info, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_statistics, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_statistics, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_weights_mirror_statistics]

@@ -1,5 +1,6 @@
 // Generated from include/hf/*.h by bindings/generate; do not edit.
 //! The objects, their options and results.
+#![allow(unused_mut, unused_variables, clippy::all)]
 use crate::call::{known, object, unknown, Call, Indices, Number, Reals, Room};
 use crate::core::{check, of_length, start_of, Real, TryClone};
 use crate::{raw, Result};
@@ -11,7 +12,6 @@ pub struct Factor<'a> {
     pub bytes: Option<&'a [u8]>,
 }
 impl<'a> Factor<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_factor_desc> {
         let mut desc = raw::hf_factor_desc { ..Default::default() };
         desc.bytes = start_of(self.bytes).cast();
@@ -60,7 +60,6 @@ impl<'a> Links<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_links_desc> {
         let mut desc = raw::hf_links_desc { mode: self.mode, distance: self.distance, stiffness: self.stiffness,
             overlay_distance: self.overlay_distance, ..Default::default() };
@@ -78,26 +77,27 @@ impl<'a> Links<'a> {
     }
 }
 
-/// Faces of any number of corners. Set corners, and what your host stores: sizes (Maya, USD), starts and sizes (Blender's
-/// loops), or starts as offsets (newer Blender). No field depends on how you would cut a face into triangles.
-/// [`raw::HF_OPERATOR_INTRINSIC_DELAUNAY`] takes the mean of both cuts of a bent quad, and moves it towards the polygon
-/// Laplacian of Bunge and others 2020 until a weight would become negative. docs/studies/polygons.md compares errors.
-/// [`raw::HF_OPERATOR_COTANGENT`] and [`raw::HF_OPERATOR_CLAMPED`] take that polygon Laplacian,
-/// [`raw::HF_OPERATOR_UNIFORM`] the sides of the faces. Directions, distances, iso-lines, streamlines and quads work on a
-/// cut of the library. It does not depend on the order of the corners. Where this interface names a triangle, it names
-/// the face then. Normals of poses are sums of the area vectors of faces.
+/// Faces of any number of corners. Set corners, and the arrays that your host stores: sizes alone (Maya, USD), starts and
+/// sizes (Blender's loops), or starts alone as offsets (newer Blender). Where this interface names a triangle of such a
+/// mesh, it names a face.
+///
+/// No field depends on how you would cut a face into triangles. [`raw::HF_OPERATOR_INTRINSIC_DELAUNAY`] takes the mean of
+/// both cuts of a bent quad. It moves this mean towards the polygon Laplacian of Bunge and others 2020 until a weight
+/// would become negative; docs/studies/polygons.md compares errors. [`raw::HF_OPERATOR_COTANGENT`] and
+/// [`raw::HF_OPERATOR_CLAMPED`] use that polygon Laplacian. [`raw::HF_OPERATOR_UNIFORM`] uses the sides of the faces.
+/// Directions, distances, iso-lines, streamlines and quads work on triangles: the library cuts the faces. Its cut does
+/// not depend on the order of the corners. Normals of poses are sums of the area vectors of faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Faces<'a> {
     /// `[corner_count]` of uint32_t: vertices, counter-clockwise seen from outside
     pub corners: Option<&'a [u32]>,
-    /// `None`, or `[faces]` of uint32_t: corners of each face, 3 to 65,535. `None`: starts are enough
+    /// `None`, or `[faces]` of uint32_t: corners of each face, 3 to 65,535. `None`: starts give them
     pub sizes: Option<&'a [u32]>,
     /// `None`, or `[faces]` of uint32_t: first corner of each face. `None`: the faces follow one another. Without sizes
-    /// `[faces + 1]`: the corners of face f end where those of f + 1 start
+    /// `[faces + 1]`: the corners of face f end where face f + 1 starts
     pub starts: Option<&'a [u32]>,
 }
 impl<'a> Faces<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_faces_desc> {
         let mut desc = raw::hf_faces_desc { ..Default::default() };
         desc.corners = c.words(self.corners, "corners", &["corner_count"])?;
@@ -108,9 +108,7 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// The mesh and the options of a surface. Set triangles or faces.
-///
-/// More than 16 fields: limits and hooks stand here one by one, since languages pass them by name.
+/// The mesh and the options of a surface. Set either triangles or faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceOptions<'a> {
     /// `HF_WELD_*`
@@ -163,7 +161,6 @@ impl<'a> SurfaceOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str, positions: Option<Reals<'_>>,
             triangles: Option<Indices<'_>>) -> Result<raw::hf_surface_desc> {
         let mut desc = raw::hf_surface_desc { weld: self.weld, weld_tolerance: self.weld_tolerance,
@@ -190,12 +187,11 @@ impl<'a> SurfaceOptions<'a> {
 }
 
 /// A graph of your own and the options of its surface: tetrahedra, points, a network. The weights w_ij of its edges make
-/// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). The limits and hooks are those of [`SurfaceOptions`]. More than 16
-/// fields: they mirror [`SurfaceOptions`].
+/// the Laplacian (L u)_i = sum_j w_ij (u_i - u_j). Limits and hooks are as in [`SurfaceOptions`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GraphOptions<'a> {
     /// `None`, or `[vertex_count]` of float or double: M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to
-    /// 1e100; `None`: all 1. A mass below 1e-4 of the mean of its component counts as that
+    /// 1e100; `None`: all 1. A mass below 1e-4 of the mean of its component is raised to it
     pub masses: Option<Reals<'a>>,
     /// >= 1, also without masses
     pub vertex_count: u32,
@@ -239,7 +235,6 @@ impl<'a> GraphOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str, edges: Option<Indices<'_>>,
             weights: Option<Reals<'_>>) -> Result<raw::hf_graph_desc> {
         let mut desc = raw::hf_graph_desc { vertex_count: self.vertex_count,
@@ -265,7 +260,7 @@ pub struct PickOptions<'a> {
     /// `None`, or `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). `None`: the rest
     /// positions
     pub positions: Option<Reals<'a>>,
-    /// 1: a ray passes triangles seen from behind
+    /// 1: a ray passes through triangles seen from behind
     pub front_only: bool,
 }
 impl<'a> PickOptions<'a> {
@@ -278,7 +273,6 @@ impl<'a> PickOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_pick_desc> {
         let mut desc = raw::hf_pick_desc { front_only: i32::from(self.front_only), ..Default::default() };
         desc.positions = c.reals(self.positions, "positions", &["vertex_count", "3"])?;
@@ -310,7 +304,6 @@ impl<'a> SolverOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_solver_desc> {
         let mut desc = raw::hf_solver_desc { field_kind: self.field_kind, channel_count: self.channel_count,
             site_limit: self.site_limit, ..Default::default() };
@@ -320,10 +313,10 @@ impl<'a> SolverOptions<'a> {
     }
 }
 
-/// Places and values of sites. Set vertices, places or points. The finer the mesh, the less influence a point site has.
-/// Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh spacing
-/// still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary vertices of
-/// a disc count towards site_limit; for bi-harmonic fields all its vertices do.
+/// Places and values of sites. Set one of vertices, places and points. The finer the mesh, the less influence a point
+/// site has. Give the site a radius to avoid this: it then holds the field on a geodesic disc. A radius below the mesh
+/// spacing still gives a point. A soft disc shares its stiffness among its vertices. For harmonic fields the boundary
+/// vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sites<'a> {
     /// `[site_count]` vertices as given, or `None`
@@ -342,7 +335,6 @@ pub struct Sites<'a> {
     pub radii: Option<&'a [f64]>,
 }
 impl<'a> Sites<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_sites_desc> {
         let mut desc = raw::hf_sites_desc { ..Default::default() };
         desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}site_count")])?;
@@ -373,7 +365,6 @@ pub struct Edit<'a> {
     pub add: Option<Sites<'a>>,
 }
 impl<'a> Edit<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_edit_desc> {
         let mut desc = raw::hf_edit_desc { ..Default::default() };
         desc.remove_sites = c.array(self.remove_sites, "remove_sites", &[&format!("{prefix}remove_count")])?;
@@ -416,7 +407,6 @@ impl<'a> GeodesicsOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_geodesics_desc> {
         let mut desc = raw::hf_geodesics_desc { method: self.method, smoothing: self.smoothing, ..Default::default() };
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
@@ -451,7 +441,6 @@ impl<'a> ExtremitiesOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_extremities_desc> {
         let mut desc = raw::hf_extremities_desc { kind: self.kind, least_length_share: self.least_length_share,
             source_count: self.source_count, ..Default::default() };
@@ -483,7 +472,6 @@ impl<'a> DirectionOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_direction_desc> {
         let mut desc = raw::hf_direction_desc { degree: self.degree, site_limit: self.site_limit,
             ..Default::default() };
@@ -514,7 +502,6 @@ impl PoseOptions {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_pose_desc> {
         let mut desc = raw::hf_pose_desc { band_count: self.band_count, iteration_count: self.iteration_count,
             group_count: self.group_count, ..Default::default() };
@@ -522,9 +509,8 @@ impl PoseOptions {
     }
 }
 
-/// The handles to add. Give their regions as vertex lists one after the other, or as places with radii: set
-/// region_vertices, vertices, places or points. The region of a place is its nearest vertex and what is edge-connected to
-/// it within the radius.
+/// The handles to add. Set region_counts and region_vertices, or radii and one of vertices, places and points. The region
+/// of a place is its nearest vertex, and all vertices that are edge-connected to it within the radius.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HandlesOptions<'a> {
     /// `[handle_count]` vertices as given, or `None`
@@ -558,7 +544,6 @@ impl<'a> HandlesOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str,
             region_vertices: Option<&[&[u32]]>) -> Result<raw::hf_handles_desc> {
         let mut desc = raw::hf_handles_desc { layer: self.layer, in_place: i32::from(self.in_place),
@@ -612,7 +597,6 @@ impl DeformOptions {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_deform_desc> {
         let mut desc = raw::hf_deform_desc { iteration_count: self.iteration_count, restart: i32::from(self.restart),
             refine: self.refine, refine_from_last: i32::from(self.refine_from_last), first_vertex: self.first_vertex,
@@ -649,7 +633,6 @@ impl<'a> HandleProposalsOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_handle_proposals_desc> {
         let mut desc = raw::hf_handle_proposals_desc { least_length_share: self.least_length_share, limit: self.limit,
             ..Default::default() };
@@ -662,8 +645,7 @@ impl<'a> HandleProposalsOptions<'a> {
     }
 }
 
-/// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals. More than 16
-/// fields: creases, guides and irregular vertices are lists with their counts.
+/// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QuadsOptions<'a> {
     /// `[crease_count x 2]` the two vertices of each edge, as given
@@ -711,7 +693,6 @@ impl<'a> QuadsOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_quads_desc> {
         let mut desc = raw::hf_quads_desc { face_count: self.face_count, edge_length: self.edge_length,
             crease_angle: self.crease_angle, relax_count: self.relax_count, ..Default::default() };
@@ -737,8 +718,8 @@ impl<'a> QuadsOptions<'a> {
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RegionOptions<'a> {
-    /// `None`, or `[vertex_count x 3]` of float or double: the surface of weight 0, bit for bit, as the positions of the
-    /// mesh or any pose of them. `None`: the mesh's own to 1e-15 of the box. Copied
+    /// `None`, or `[vertex_count x 3]` of float or double: positions of the mesh or of a pose. Weight 0 gives the same
+    /// bits. `None`: the positions of the mesh, to 1e-15 of the box. The call copies them
     pub positions: Option<Reals<'a>>,
     /// `HF_BASE_*`. If the surface has no factor for it yet, it is made now
     pub base: i32,
@@ -755,7 +736,6 @@ impl<'a> RegionOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_region_desc> {
         let mut desc = raw::hf_region_desc { base: self.base, ..Default::default() };
         desc.positions = c.reals(self.positions, "positions", &["vertex_count", "3"])?;
@@ -764,11 +744,11 @@ impl<'a> RegionOptions<'a> {
     }
 }
 
-/// Describes a closed curve through at least 3 points, on the mesh at rest. Set vertices, places or points. The vertices
-/// on its chosen side are the region, and any single vertex that these surround but for one edge. The rim is the vertices
-/// next to them, on or beyond the curve: it follows the curve within an edge, and where the curve runs along edges the
-/// rim is the curve. A whole border of the surface is a curve too; it has only one side. The curve passes a vertex at
-/// most 8 times.
+/// Describes a closed curve through at least 3 points, on the mesh at rest. Set one of vertices, places and points. The
+/// vertices on the chosen side of the curve are the region. A single vertex joins the region too if all its neighbours
+/// but one are in it. The rim is the vertices next to the region, on or beyond the curve. It follows the curve within an
+/// edge; where the curve runs along edges, the rim is the curve. A whole border of the surface is a curve too; it has
+/// only one side. The curve passes a vertex at most 8 times.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Curve<'a> {
     /// `[point_count]` vertices as given, or `None`
@@ -797,7 +777,6 @@ impl<'a> Curve<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_curve_desc> {
         let mut desc = raw::hf_curve_desc { side: self.side, seed_vertex: self.seed_vertex, kind: self.kind,
             ..Default::default() };
@@ -834,7 +813,6 @@ impl<'a> RegionEditOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_region_edit_desc> {
         let mut desc = raw::hf_region_edit_desc { ring_count: self.ring_count, ..Default::default() };
         desc.remove_vertices = c.array(self.remove_vertices, "remove_vertices", &[&format!("{prefix}remove_count")])?;
@@ -855,7 +833,6 @@ impl<'a> RegionEditOptions<'a> {
 struct MorphOptions {
 }
 impl MorphOptions {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str, weight: f64) -> Result<raw::hf_morph_desc> {
         let mut desc = raw::hf_morph_desc { weight: weight, ..Default::default() };
         Ok(desc)
@@ -884,7 +861,6 @@ impl<'a> DetailOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_detail_desc> {
         let mut desc = raw::hf_detail_desc { scale: self.scale, ..Default::default() };
         desc.source_vertices = c.array(self.source_vertices, "source_vertices", &[&format!("{prefix}pair_count")])?;
@@ -927,7 +903,6 @@ impl<'a> RetargetOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_retarget_desc> {
         let mut desc = raw::hf_retarget_desc { root_motion: self.root_motion, leave_out: self.leave_out,
             scale: self.scale, ..Default::default() };
@@ -952,7 +927,6 @@ pub struct Skin<'a> {
     pub weights: Option<&'a [f32]>,
 }
 impl<'a> Skin<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_skin_desc> {
         let mut desc = raw::hf_skin_desc { ..Default::default() };
         desc.positions = c.array(self.positions, "positions", &[&format!("{prefix}vertex_count"), "3"])?;
@@ -991,7 +965,6 @@ pub struct SkeletonOptions<'a> {
     pub progress: Option<&'a Progress>,
 }
 impl<'a> SkeletonOptions<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str, names: Option<&[&str]>, parents: Option<&[u32]>,
             rest: Option<&[f32]>) -> Result<raw::hf_skeleton_desc> {
         let mut desc = raw::hf_skeleton_desc { ..Default::default() };
@@ -1019,8 +992,8 @@ impl<'a> SkeletonOptions<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TransferOptions<'a> {
     /// `None`, or `[source.vertex_count x 3]` of float or double Poses in which the two bodies correspond, in each
-    /// surface's unit, read by the call, or `None` for the positions of the surface. A character bound in a crouch gets a
-    /// standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
+    /// surface's unit. `None`: the positions of the surface. Give a standing pose here for a character bound in a crouch.
+    /// Motion is measured from these poses. They do not change the fields.
     pub source_rest: Option<Reals<'a>>,
     /// `None`, or `[target.vertex_count x 3]` of float or double
     pub target_rest: Option<Reals<'a>>,
@@ -1032,8 +1005,8 @@ pub struct TransferOptions<'a> {
     pub ground: i32,
     /// width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is more, up to 0.12
     pub kernel_width: f64,
-    /// lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no pair is
-    /// a foot
+    /// lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no pair
+    /// is a foot
     pub scale: f64,
     /// A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times the angle it is not
     /// aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
@@ -1059,7 +1032,6 @@ impl<'a> TransferOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_transfer_desc> {
         let mut desc = raw::hf_transfer_desc { mode: self.mode, cluster_count: self.cluster_count, ground: self.ground,
             kernel_width: self.kernel_width, scale: self.scale, alignment_angle: self.alignment_angle,
@@ -1079,7 +1051,6 @@ pub struct Pairs<'a> {
     pub progress: Option<&'a Progress>,
 }
 impl<'a> Pairs<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str, source_vertices: Option<&[&[u32]]>,
             target_vertices: Option<&[&[u32]]>, flags: Option<&[u32]>) -> Result<raw::hf_pairs_desc> {
         let mut desc = raw::hf_pairs_desc { ..Default::default() };
@@ -1132,7 +1103,6 @@ impl TransferDials {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_transfer_dials> {
         let mut desc = raw::hf_transfer_dials { stride: self.stride, hip_height_share: self.hip_height_share,
             neck_follow: self.neck_follow, tail_follow: self.tail_follow, arm_space: self.arm_space,
@@ -1152,7 +1122,6 @@ pub struct TransferFrame<'a> {
     pub hold_positions: Option<&'a [f64]>,
 }
 impl<'a> TransferFrame<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str,
             source_positions: Option<Reals<'_>>) -> Result<raw::hf_transfer_frame> {
         let mut desc = raw::hf_transfer_frame { ..Default::default() };
@@ -1186,7 +1155,6 @@ pub struct Joints<'a> {
     pub progress: Option<&'a Progress>,
 }
 impl<'a> Joints<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_joints_desc> {
         let mut desc = raw::hf_joints_desc { ..Default::default() };
         desc.heads = c.array(self.heads, "heads", &[&format!("{prefix}joint_count"), "3"])?;
@@ -1201,7 +1169,7 @@ impl<'a> Joints<'a> {
     }
 }
 
-/// Places with given weights. Set vertices, places or points. Give every vertex of a painted region to keep its weights.
+/// Places with given weights. Set one of vertices, places and points. To keep a painted region, pin all its vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pins<'a> {
     /// `[pin_count]`, or `None`
@@ -1219,7 +1187,6 @@ pub struct Pins<'a> {
     pub progress: Option<&'a Progress>,
 }
 impl<'a> Pins<'a> {
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str, vertices: Option<&[u32]>) -> Result<raw::hf_pins_desc> {
         let mut desc = raw::hf_pins_desc { ..Default::default() };
         desc.vertices = c.array(vertices, "vertices", &[&format!("{prefix}pin_count")])?;
@@ -1265,7 +1232,6 @@ impl<'a> WeightsTransferOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_weights_transfer_desc> {
         let mut desc = raw::hf_weights_transfer_desc { distance: self.distance, angle: self.angle,
             influence_count: self.influence_count, ..Default::default() };
@@ -1319,7 +1285,6 @@ impl<'a> WeightsMirrorOptions<'a> {
         Ok(())
     }
 
-    #[allow(unused_variables, unused_mut, clippy::all)]
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_weights_mirror_desc> {
         let mut desc = raw::hf_weights_mirror_desc { to: self.to, distance: self.distance, angle: self.angle,
             influence_count: self.influence_count, ..Default::default() };
@@ -1468,7 +1433,6 @@ object!(
 );
 impl Progress {
     /// Creates a progress object.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new() -> Result<Self> {
         let mut c = Call::new(&[]);
         let mut handle_ = std::ptr::null_mut();
@@ -1478,7 +1442,6 @@ impl Progress {
     }
 
     /// Writes how much of the running call is done.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn fraction(&self) -> Result<f64> {
         let mut c = Call::new(&self.counts);
         let mut fraction = f64::default();
@@ -1488,7 +1451,6 @@ impl Progress {
     }
 
     /// Stops the call that uses this object, or the next one that does. That call returns [`raw::HF_ERROR_CANCELLED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn cancel(&self) -> Result<()> {
         let mut c = Call::new(&self.counts);
         // SAFETY: every slice is as long as its check says.
@@ -1518,28 +1480,10 @@ impl Surface {
     ///
     /// positions: `[vertex_count x 3]` of float or double, any unit, any offset
     /// triangles: `[triangle_count x 3]` of uint32_t or uint16_t, counter-clockwise seen from outside
-    /// weld: `HF_WELD_*`
-    /// faces: faces instead of triangles
-    /// weld_tolerance: for [`raw::HF_WELD_TOLERANCE`], in the unit of the positions, > 0
-    /// operator_kind: `HF_OPERATOR_*`
-    /// field_kind: `HF_FIELD_*`: the factor made now. Others are made when a solver or region asks
-    /// ordering: `HF_ORDERING_*`
-    /// thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
-    /// vertex_limit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles or
-    /// edges are always refused
-    /// triangle_limit: refuse more triangles, or faces that would be cut into more; 0 = eight per vertex of the vertex
-    /// limit
-    /// memory_limit_mb: refuse to hold more memory than this, in MiB, surface and all on it; 0 = no limit
-    /// work_limit_gflop: refuse a factorisation of more than this many 10^9 operations. They are counted before it
-    /// begins; 0 = 100,000, about an hour of one core
-    /// progress: an object to poll and cancel through
-    /// saved_factor: the saved factor of this mesh; ordering is then 0 or the factor's
-    /// links: `None`: [`raw::HF_LINK_NONE`]. A saved factor needs the links it was made with
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new<'i>(positions: impl Into<Reals<'i>>, triangles: impl Into<Indices<'i>>,
             options: &SurfaceOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
@@ -1556,32 +1500,17 @@ impl Surface {
     /// directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
     /// links, screening, and sites at places, at points or on discs.
     ///
-    /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights further than 1e30 from the
-    /// median of their component are limited; [`raw::hf_mesh_statistics`] counts their vertices as changed. Bi-harmonic
-    /// fields limit weights to 1e3 times the median.
+    /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from the
+    /// median of their component by a factor above 1e30 are limited; [`raw::hf_mesh_statistics`] counts their vertices as
+    /// changed. Bi-harmonic fields limit weights to 1e3 times the median.
     ///
     /// edges: `[edge_count x 2]` of uint32_t or uint16_t: vertices, in any order. The weights of parallel edges are added
     /// up. Self loops are ignored
     /// weights: `[edge_count]` of float or double, any unit, up to 1e100 in size. An edge of weight 0 is left out
-    /// masses: `[vertex_count]` of float or double: M of [`raw::HF_FIELD_BIHARMONIC`], any unit, above 0 and up to 1e100;
-    /// `None`: all 1. A mass below 1e-4 of the mean of its component counts as that
-    /// vertex_count: >= 1, also without masses
-    /// allow_negative: 1: weights may be below 0, if L stays positive semi-definite. The cotangent weights of tetrahedra
-    /// do. A field can then leave the range of its sites. 0: they are refused
-    /// field_kind: `HF_FIELD_*`: the factor made now. Others are made when a solver asks
-    /// ordering: `HF_ORDERING_*`
-    /// thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
-    /// vertex_limit: refuse larger graphs before allocating; 0 = 20,000,000
-    /// edge_limit: refuse more edges; 0 = sixteen per vertex of the vertex limit
-    /// memory_limit_mb: refuse to hold more memory than this, in MiB; 0 = no limit
-    /// work_limit_gflop: refuse a factorisation of more than this many 10^9 operations; 0 = 100,000
-    /// progress: an object to poll and cancel through
-    /// saved_factor: the saved factor of this graph; ordering is then 0 or the factor's
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn from_graph<'i>(edges: impl Into<Indices<'i>>, weights: impl Into<Reals<'i>>,
             options: &GraphOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
@@ -1593,7 +1522,6 @@ impl Surface {
     }
 
     /// Writes the options of a surface.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn info(&self) -> Result<raw::hf_surface_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_surface_info::default();
@@ -1603,7 +1531,6 @@ impl Surface {
     }
 
     /// Writes the report of the mesh.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn report(&self) -> Result<raw::hf_surface_report> {
         let mut c = Call::new(&self.counts);
         let mut report = raw::hf_surface_report::default();
@@ -1613,7 +1540,6 @@ impl Surface {
     }
 
     /// Writes the statistics of the mesh.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn mesh_statistics(&self) -> Result<raw::hf_mesh_statistics> {
         let mut c = Call::new(&self.counts);
         let mut statistics = raw::hf_mesh_statistics::default();
@@ -1624,7 +1550,6 @@ impl Surface {
 
     /// Writes the component of every vertex of your mesh, and [`raw::HF_NO_INDEX`] for isolated vertices. Components are
     /// numbered in the order of their lowest vertex numbers.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn components(&self) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -1645,7 +1570,6 @@ impl Surface {
     }
 
     /// Writes how the pieces of a surface are linked.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn links_info(&self) -> Result<raw::hf_links_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_links_info::default();
@@ -1657,7 +1581,6 @@ impl Surface {
     /// Writes the links of a surface. You can edit them and give them back with [`raw::HF_LINK_LIST`]. A list does not
     /// say which pieces are light: name them in light_vertices, as `Surface::pieces` marks them. Then the list alone
     /// gives the same surface, bit for bit, without a search.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn links(&self) -> Result<Vec<raw::hf_link>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -1679,7 +1602,6 @@ impl Surface {
 
     /// Writes the piece of every vertex of your mesh, and [`raw::HF_NO_INDEX`] for isolated vertices. Pieces are numbered
     /// in the order of their lowest vertices.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn pieces(&self) -> Result<(Vec<u32>, Vec<i32>)> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -1705,12 +1627,11 @@ impl Surface {
     /// Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends
     /// are apart than at rest, and 0 if they are nearer.
     ///
-    /// positions: `[vertex_count x 3]` of float or double: those of a pose, a frame of a transfer, or any other
-    /// deformation.
+    /// positions: `[vertex_count x 3]` of float or double: the deformed mesh, from a pose, a transfer or any other
+    /// source.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn measure_gaps<'i>(&self, positions: impl Into<Reals<'i>>) -> Result<(Vec<f64>, raw::hf_gaps_info)> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_gaps_info::default();
@@ -1734,22 +1655,9 @@ impl Surface {
     /// Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old one
     /// where its matrix has the same pattern: other stiffness, weights or light pieces.
     ///
-    /// joints: `[vertex_count x influence_count]` of a skin: pieces of the same joint link sooner
-    /// weights: `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
-    /// tags: `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a
-    /// piece counts
-    /// links: `[link_count]`
-    /// light_vertices: `[light_count]`: their pieces are light
-    /// heavy_vertices: `[heavy_count]`: their pieces are not, as one that gets a site or handle
-    /// mode: `HF_LINK_*`
-    /// distance: longest automatic link, in the unit of the positions; 0 = 5 % of the bounding box diagonal
-    /// stiffness: of all links, times each one's weight; 0 = 1
-    /// overlay_distance: automatic: a piece is light if half of it is nearer than this to a larger one; 0 = 1.5 % of the
-    /// diagonal, below 0: no piece is light unless light_vertices say so
     /// progress: an object to poll and cancel through.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn relink(&self, links: &Links, progress: Option<&Progress>) -> Result<Self> {
         let mut c = Call::new(&self.counts);
         let desc = links.fill(&mut c, "")?;
@@ -1761,7 +1669,6 @@ impl Surface {
     }
 
     /// Writes the statistics of a surface and of the factor it was made with.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn statistics(&self) -> Result<raw::hf_surface_statistics> {
         let mut c = Call::new(&self.counts);
         let mut statistics = raw::hf_surface_statistics::default();
@@ -1779,7 +1686,6 @@ impl Surface {
     /// progress: an object to poll and cancel through.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_TOO_SMALL`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn save(&self, field_kind: i32, progress: Option<&Progress>) -> Result<Vec<u8>> {
         let mut c = Call::new(&self.counts);
         let mut size = 0;
@@ -1796,12 +1702,8 @@ impl Surface {
     ///
     /// origin: `[3]` in the frame of the positions; the direction can have any length above 0.
     /// direction: `[3]` in the frame of the positions; the direction can have any length above 0.
-    /// positions: `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). `None`: the rest
-    /// positions
-    /// front_only: 1: a ray passes triangles seen from behind
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn cast_ray(&self, origin: &[f64], direction: &[f64], options: &PickOptions) -> Result<Option<raw::hf_hit>> {
         let mut c = Call::new(&self.counts);
         let origin_ = c.array(Some(origin), "origin", &["3"])?;
@@ -1816,12 +1718,8 @@ impl Surface {
     /// Finds the vertex nearest to a point.
     ///
     /// point: `[3]` in the frame of the positions.
-    /// positions: `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). `None`: the rest
-    /// positions
-    /// front_only: 1: a ray passes triangles seen from behind
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn find_vertex(&self, point: &[f64], options: &PickOptions) -> Result<(u32, f64)> {
         let mut c = Call::new(&self.counts);
         let point_ = c.array(Some(point), "point", &["3"])?;
@@ -1848,7 +1746,6 @@ impl Surface {
     /// level_count: 1 to 1,000,000.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn space_levels<'i>(&self, field: impl Into<Reals<'i>>, level_count: u32, spacing: i32) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let field_ = c.reals(Some(field.into()), "field", &["vertex_count"])?;
@@ -1871,7 +1768,6 @@ impl Surface {
     /// levels: `[level_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn trace_isolines<'i>(&self, field: impl Into<Reals<'i>>, levels: &[f64]) -> Result<Isolines> {
         let mut c = Call::new(&self.counts);
         let field_ = c.reals(Some(field.into()), "field", &["vertex_count"])?;
@@ -1930,7 +1826,6 @@ impl Surface {
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn find_critical_points<'i>(&self, field: impl Into<Reals<'i>>) -> Result<(Vec<raw::hf_critical_point>,
             raw::hf_critical_info)> {
         let mut c = Call::new(&self.counts);
@@ -1955,17 +1850,10 @@ impl Surface {
     /// Proposes the tips of the surface as places for sites and handles, the longest tip first. The list does not depend
     /// on the order of the vertices. Pose and meshing change it only within the resolution of the mesh.
     ///
-    /// kind: `HF_EXTREMITIES_*`
-    /// least_length_share: tips that protrude less are left out: share of the box diagonal; 0 = 0.05; up to 10
-    /// source_count: sources of the mean distance per component, 1 to 1,000; 0 = 40
-    /// geodesics: for [`raw::HF_EXTREMITIES_GEODESIC`]: an object of this surface. If its method is
-    /// [`raw::HF_GEODESICS_HEAT`] its factor serves; else, and for `None`, the call makes a factor
-    /// progress: an object to poll and cancel through
     /// field: `[vertex_count]`, packed: the field whose peaks are proposed, 0 at isolated vertices. Unit: length^2
     /// (Poisson), length (geodesic), each up to a constant per component
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn find_extremities(&self, field: Option<&mut [f64]>,
             options: &ExtremitiesOptions) -> Result<Vec<raw::hf_extremity>> {
         let mut c = Call::new(&self.counts);
@@ -1993,16 +1881,8 @@ impl Surface {
     /// first, then the others, each group by length, the longest first. The places do not depend on the order of the
     /// vertices. They follow translation and scale.
     ///
-    /// joints: `[joint_count x 3]` their places at rest, in the unit and frame of the mesh
-    /// parents: `[joint_count]` position of each joint's parent in the list; [`raw::HF_NO_INDEX`] for a root
-    /// up: direction away from the ground, of any length; 0 0 0 = 0 1 0
-    /// least_length_share: as in [`ExtremitiesOptions`]; 0 = 0.05
-    /// limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
-    /// progress: an object to poll and cancel through
-    ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn propose_handles(&self, options: &HandleProposalsOptions) -> Result<Vec<raw::hf_handle_proposal>> {
         let mut c = Call::new(&self.counts);
         let desc = options.fill(&mut c, "")?;
@@ -2036,14 +1916,8 @@ object!(
 impl Solver {
     /// Creates a solver without sites.
     ///
-    /// field_kind: `HF_FIELD_*`; if the surface has no factor of that kind yet, it is made now
-    /// channel_count: fields solved at once, 1 to 64; 0 = 1
-    /// site_limit: at most this many sites; 0 = 100,000
-    /// progress: an object to poll and cancel through
-    ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(surface: &Surface, options: &SolverOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
@@ -2057,7 +1931,6 @@ impl Solver {
     /// Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share the factor
     /// and what the sites have cost, so a copy costs its list of sites only. Use one copy per thread or per set of sites.
     /// For undo, keep copies: one before each edit.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn try_clone(&self) -> Result<Self> {
         let mut c = Call::new(&self.counts);
         let mut handle_ = std::ptr::null_mut();
@@ -2067,7 +1940,6 @@ impl Solver {
     }
 
     /// Writes the options of a solver.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn info(&self) -> Result<raw::hf_solver_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solver_info::default();
@@ -2078,19 +1950,9 @@ impl Solver {
 
     /// Adds sites.
     ///
-    /// vertices: `[site_count]` vertices as given, or `None`
-    /// values: `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
-    /// places: `[site_count]`, or `None`
-    /// points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for
-    /// the nearest point of the surface, up to two boxes away
-    /// stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped
-    /// to 1e-12 to 1e12
-    /// radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
-    ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_sites(&mut self, sites: &Sites) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
         let desc = sites.fill(&mut c, "")?;
@@ -2107,7 +1969,6 @@ impl Solver {
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_site(&mut self, vertex: u32, values: Option<&[f64]>) -> Result<u32> {
         let mut c = Call::new(&self.counts);
         let values_ = c.array(values, "values", &["channel_count"])?;
@@ -2123,7 +1984,6 @@ impl Solver {
     /// sites: `[site_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn remove_sites(&mut self, sites: &[u32]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
@@ -2135,19 +1995,10 @@ impl Solver {
     /// Moves sites to new places. Each site keeps its number, value, stiffness and radius.
     ///
     /// sites: `[site_count]`.
-    /// vertices: `[site_count]` vertices as given, or `None`
-    /// values: `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
-    /// places: `[site_count]`, or `None`
-    /// points: `[site_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for
-    /// the nearest point of the surface, up to two boxes away
-    /// stiffness: `[site_count]` >= 0, relative to the mean diagonal of K; 0 = hard (exact); `None` = all hard; clamped
-    /// to 1e-12 to 1e12
-    /// radii: `[site_count]` >= 0, geodesic, in the unit of the mesh; 0 = a point; `None` = all points
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn move_sites(&mut self, sites: &[u32], to: &Sites) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
@@ -2163,7 +2014,6 @@ impl Solver {
     /// values: `[site_count x channel_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_values(&mut self, sites: &[u32], values: &[f64]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
@@ -2174,14 +2024,6 @@ impl Solver {
     }
 
     /// Applies a batch of edits at once.
-    ///
-    /// remove_sites: `[remove_count]`
-    /// move_sites: `[move_count]`
-    /// set_sites: `[set_count]`
-    /// set_values: `[set_count x channel_count]`
-    /// move_to: places of `[move_count]` sites
-    /// add: the sites to add
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn edit_sites(&mut self, edit: &Edit) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
         let desc = edit.fill(&mut c, "")?;
@@ -2192,14 +2034,12 @@ impl Solver {
     }
 
     /// Returns the number of sites, or 0 for an invalid object.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn site_count(&self) -> u32 {
         // SAFETY: the handle is valid.
         unsafe { raw::hf_solver_get_site_count(self.handle) }
     }
 
     /// Writes all sites.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn sites(&self) -> Result<SitesInfo> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_sites_info { ..Default::default() };
@@ -2257,7 +2097,6 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_screening(&mut self, screening: Option<&[f64]>, targets: Option<&[f64]>) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let screening_ = c.array(screening, "screening", &["vertex_count"])?;
@@ -2274,7 +2113,6 @@ impl Solver {
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve(&self) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
@@ -2286,7 +2124,6 @@ impl Solver {
     }
 
     /// As `solve`, into a slice of yours. Returns the figures of the call.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve_into<P: Real>(&self, out: &mut [P]) -> Result<raw::hf_solve_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
@@ -2306,7 +2143,6 @@ impl Solver {
     /// vertices: `[vertex_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve_at(&self, vertices: &[u32]) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         c.forget("vertex_count"); // of the list given here
@@ -2327,7 +2163,6 @@ impl Solver {
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve_vectors(&self) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
@@ -2340,7 +2175,6 @@ impl Solver {
     }
 
     /// As `solve_vectors`, into a slice of yours. Returns the figures of the call.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve_vectors_into<P: Real>(&self, out: &mut [P],
             normals: Option<&mut [f64]>) -> Result<raw::hf_solve_info> {
         let mut c = Call::new(&self.counts);
@@ -2370,7 +2204,6 @@ impl Solver {
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve_preview(&self, correction_count: u32) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_preview_info::default();
@@ -2382,7 +2215,6 @@ impl Solver {
     }
 
     /// As `solve_preview`, into a slice of yours. Returns the figures of the call.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve_preview_into<P: Real>(&self, out: &mut [P], correction_count: u32) -> Result<raw::hf_preview_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_preview_info::default();
@@ -2395,7 +2227,6 @@ impl Solver {
 
     /// Frees the single-precision copy for all solvers that share it, as soon as no running call uses it. The next
     /// preview makes the copy again.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn release_preview(&self) -> Result<()> {
         let mut c = Call::new(&self.counts);
         // SAFETY: every slice is as long as its check says.
@@ -2411,7 +2242,6 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn move_vectors(&mut self, sites: &[u32], vertices: &[u32]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
@@ -2427,7 +2257,6 @@ impl Solver {
     /// angles: `[site_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn rotate_vectors(&mut self, sites: &[u32], angles: &[f64]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
@@ -2445,7 +2274,6 @@ impl Solver {
     /// tolerance: largest error to accept, > 0; 0 = 1e-8
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INACCURATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn certify(&self, tolerance: f64) -> Result<raw::hf_certificate> {
         let mut c = Call::new(&self.counts);
         let mut certificate = raw::hf_certificate { tolerance: tolerance, ..Default::default() };
@@ -2461,7 +2289,6 @@ impl Solver {
     /// quicker. Memory: one more factor, for as long as it eliminates sites.
     ///
     /// Fails with [`raw::HF_ERROR_BUSY`], [`raw::HF_ERROR_EMPTY`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn prepare_rebase(&self) -> Result<()> {
         let mut c = Call::new(&self.counts);
         // SAFETY: every slice is as long as its check says.
@@ -2470,7 +2297,6 @@ impl Solver {
     }
 
     /// Writes the statistics.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn statistics(&self) -> Result<raw::hf_solver_statistics> {
         let mut c = Call::new(&self.counts);
         let mut statistics = raw::hf_solver_statistics::default();
@@ -2503,13 +2329,8 @@ impl Geodesics {
     /// Creates the object and the tables of its method. FRONT and EXACT take a pass over the triangles. HEAT takes one
     /// numeric factorisation and holds a factor of its own beside the surface's.
     ///
-    /// method: `HF_GEODESICS_*`
-    /// smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to 10,000
-    /// progress: an object to poll and cancel through: creation and every later call report to it
-    ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(surface: &Surface, options: &GeodesicsOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
@@ -2531,7 +2352,6 @@ impl Geodesics {
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve(&self, sources: &[u32]) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let sources_ = c.array(Some(sources), "sources", &["source_count"])?;
@@ -2543,7 +2363,6 @@ impl Geodesics {
     }
 
     /// As `solve`, into a slice of yours.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve_into<P: Real>(&self, sources: &[u32], out: &mut [P]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sources_ = c.array(Some(sources), "sources", &["source_count"])?;
@@ -2560,7 +2379,6 @@ impl Geodesics {
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn find_path(&self, from: &raw::hf_place, to: &raw::hf_place) -> Result<Path> {
         let mut c = Call::new(&self.counts);
         let mut path = raw::hf_path { ..Default::default() };
@@ -2597,7 +2415,6 @@ impl Geodesics {
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn map(&self, centre: &raw::hf_place, radius: f64) -> Result<(Vec<f64>, Vec<f64>)> {
         let mut c = Call::new(&self.counts);
         let mut map = vec![f64::default(); c.product(&["vertex_count", "2"])];
@@ -2621,13 +2438,8 @@ impl Direction {
     /// Makes a direction field without constraints. It computes the connection between tangent planes and the operator,
     /// and factorises once, with two unknowns per vertex.
     ///
-    /// degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
-    /// site_limit: most constraints; 0 = 100,000
-    /// progress: an object to poll and cancel through
-    ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(surface: &Surface, options: &DirectionOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
@@ -2640,7 +2452,6 @@ impl Direction {
 
     /// Makes a direction field with the same constraints under the same numbers; it has the same bits. Both share
     /// connection and factor, so the copy costs the constraints only. For undo, keep copies: one before each edit.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn try_clone(&self) -> Result<Self> {
         let mut c = Call::new(&self.counts);
         let mut handle_ = std::ptr::null_mut();
@@ -2659,7 +2470,6 @@ impl Direction {
     ///
     /// Fails with [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_sites(&mut self, vertices: &[u32], vectors: &[f64]) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
         let vertices_ = c.array(Some(vertices), "vertices", &["site_count"])?;
@@ -2676,7 +2486,6 @@ impl Direction {
     /// sites: `[site_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn remove_sites(&mut self, sites: &[u32]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
@@ -2693,7 +2502,6 @@ impl Direction {
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn move_sites(&mut self, sites: &[u32], vertices: &[u32]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
@@ -2709,7 +2517,6 @@ impl Direction {
     /// vectors: `[site_count x 3]`.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_vectors(&mut self, sites: &[u32], vectors: &[f64]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
@@ -2725,7 +2532,6 @@ impl Direction {
     /// angles: `[site_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn rotate_sites(&mut self, sites: &[u32], angles: &[f64]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
@@ -2736,14 +2542,12 @@ impl Direction {
     }
 
     /// Returns the number of constraints, or 0 for an invalid object.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn site_count(&self) -> u32 {
         // SAFETY: the handle is valid.
         unsafe { raw::hf_direction_get_site_count(self.handle) }
     }
 
     /// Writes the constraints by ascending number.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn sites(&self) -> Result<(Vec<u32>, Vec<u32>, Vec<f64>)> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -2777,7 +2581,6 @@ impl Direction {
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve(&self) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
@@ -2789,7 +2592,6 @@ impl Direction {
     }
 
     /// As `solve`, into a slice of yours. Returns the figures of the call.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve_into<P: Real>(&self, out: &mut [P]) -> Result<raw::hf_solve_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_solve_info::default();
@@ -2804,7 +2606,6 @@ impl Direction {
     /// closed manifold component of one orientation the indices sum to degree times the Euler characteristic.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn singularities(&self) -> Result<Vec<raw::hf_singularity>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -2825,7 +2626,6 @@ impl Direction {
     }
 
     /// Writes the statistics.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn statistics(&self) -> Result<raw::hf_direction_statistics> {
         let mut c = Call::new(&self.counts);
         let mut statistics = raw::hf_direction_statistics::default();
@@ -2852,12 +2652,7 @@ object!(
 impl Pose {
     /// Creates a pose without handles.
     ///
-    /// band_count: bands per field, 2 to 64; 0 = 10
-    /// iteration_count: iterations of a pose solve, 1 to 1000; 0 = 10
-    /// group_count: groups of vertices that share a rotation, 1 to 2000; 0 = 250
-    ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(surface: &Surface, options: &PoseOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
@@ -2869,7 +2664,6 @@ impl Pose {
     }
 
     /// Copies a pose with its handles and transforms, so that several threads can pose one rig.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn try_clone(&self) -> Result<Self> {
         let mut c = Call::new(&self.counts);
         let mut handle_ = std::ptr::null_mut();
@@ -2879,7 +2673,6 @@ impl Pose {
     }
 
     /// Writes the options of a pose.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn info(&self) -> Result<raw::hf_pose_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_pose_info::default();
@@ -2897,20 +2690,9 @@ impl Pose {
     /// for the higher layers.
     ///
     /// region_vertices: lists of whole numbers: all regions one after the other; `None`: places are given
-    /// vertices: `[handle_count]` vertices as given, or `None`
-    /// places: `[handle_count]`, or `None`
-    /// points: `[handle_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. A point can
-    /// lie inside the body, as a joint does: its nearest vertex counts
-    /// radii: `[handle_count]` of the regions of places, in the unit of the mesh; `None`: regions are given. A radius
-    /// below 1 % of the box makes regions of 2 vertices or more
-    /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
-    /// in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
-    /// free_rotation: 1: you give the places of the handles only; see `Pose::set_free_rotations`
-    /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_handles(&mut self, region_vertices: Option<&[&[u32]]>, handles: &HandlesOptions) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
         let desc = handles.fill(&mut c, "", region_vertices)?;
@@ -2927,7 +2709,6 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_handle_at(&mut self, point: &[f64], radius: f64) -> Result<u32> {
         let mut c = Call::new(&self.counts);
         let point_ = c.array(Some(point), "point", &["3"])?;
@@ -2944,7 +2725,6 @@ impl Pose {
     /// handles: `[handle_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn remove_handles(&mut self, handles: &[u32]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
@@ -2963,7 +2743,6 @@ impl Pose {
     /// translations: up to 1e15 box diagonals
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_transforms(&mut self, handles: &[u32], rotations: Option<&[f64]>,
             translations: Option<&[f64]>) -> Result<()> {
         let mut c = Call::new(&self.counts);
@@ -2993,7 +2772,6 @@ impl Pose {
     /// translation: up to 1e15 box diagonals
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_transform(&mut self, handle: u32, rotation: Option<[f64; 4]>,
             translation: Option<[f64; 3]>) -> Result<()> {
         let mut c = Call::new(&self.counts);
@@ -3005,22 +2783,23 @@ impl Pose {
         Ok(())
     }
 
-    /// Frees the rotations of handles, or gives them. A handle of free rotation is a place. Its centroid lands exactly
-    /// where its transform puts it; the rotation of the transform is ignored. Each Pose.deform finds the rotation
-    /// together with the pose (positional constraints, Sorkine and Alexa 2007): the one of least as-rigid-as-possible
-    /// energy towards the shapes that groups of vertices aim at. A group that is pulled aims at a longer and thinner
-    /// shape than at rest, so the rotation is not exactly the one of least energy towards the rest shape. `Pose::handle`
-    /// writes it. Drag with a free rotation: the wrist follows the hand. Give the rotation when the user turns a ring. A
-    /// given rotation starts as the handle stands, so the pose does not change. Where you free a rotation on layer 0 the
-    /// surface stays as it is and lets the old rotation go as handles move, as with in_place; place the handles after
-    /// that call. On a higher layer a changed handle moves the surface at the next frame. A handle alone in its component
-    /// keeps the rotation it has. restart also starts free rotations anew. refine keeps the rotation of the smooth pose.
+    /// Chooses who gives the rotations of handles: the solve or you. A handle of free rotation is a positional constraint
+    /// (Sorkine and Alexa 2007). Its centroid lands exactly where its transform puts it; the rotation of the transform is
+    /// ignored. Each Pose.deform finds the rotation together with the pose, and `Pose::handle` writes it. The rotation
+    /// has the least as-rigid-as-possible energy. A group of vertices that is pulled compares itself with a longer and
+    /// thinner shape than its rest shape. So the energy is not exactly the energy towards the rest shape.
+    ///
+    /// Free the rotation while the user drags a handle: the wrist then follows the hand. Give the rotation while the user
+    /// turns a ring. A given rotation starts at the present rotation of the handle, so the pose does not change. When you
+    /// free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move, as with
+    /// in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at the next
+    /// frame. A handle alone in its component keeps its rotation. restart also restarts free rotations. refine keeps the
+    /// rotation of the smooth pose.
     ///
     /// handles: `[handle_count]`.
     /// free_rotation: 1: the solve finds the rotations; 0: you give them.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_free_rotations(&mut self, handles: &[u32], free_rotation: bool) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
@@ -3030,19 +2809,18 @@ impl Pose {
         Ok(())
     }
 
-    /// Says how much of the surface follows handles of layer 0. Below 1 soft pins hold the rest of the surface where it
-    /// would be without these handles, so that a body does not lean after a hand. Handles of following 1 carry the body:
-    /// give less to a handle that is dragged. The handles themselves land exactly, and a limb that is too short gets
-    /// longer. The fields tell the limb: on it the field of the handle is near 1. The next Pose.deform shows a change at
-    /// once. Full-mesh steps (refine) do not know the pins; with refine_from_last they let the body lean again.
+    /// Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the rest of the surface where it
+    /// would be without these handles. So a body does not lean after a dragged hand. Keep 1 for the handles that hold the
+    /// body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is too short
+    /// gets longer. The limb of a handle is the part where its field is near 1. The next Pose.deform shows a change at
+    /// once. Full-mesh steps (refine) ignore the pins; with refine_from_last they let the body lean again.
     ///
     /// handles: `[handle_count]`.
-    /// following: 0 to 1: at 1 all of the surface follows a handle, as without this call; at 0 its limb alone follows, an
-    /// arm for example.
+    /// following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the
+    /// handle follows, such as an arm.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`],
     /// [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_following(&mut self, handles: &[u32], following: f64) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
@@ -3051,18 +2829,17 @@ impl Pose {
         Ok(())
     }
 
-    /// Says which pieces of the mesh are rigid, a sword for example. A piece is an edge-connected part. A frame gives
-    /// each rigid piece the one motion that fits it best, also after refine. Where links join the piece to others it is
-    /// held most. A handle whose region touches a rigid piece takes all of it, so that the piece moves with it; a second
-    /// handle on the same piece is refused ([`raw::HF_ERROR_CONFLICT`]). Call this before such handles are added.
-    /// `Pose::skin` writes the motions without this step.
+    /// Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
+    /// moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the vertices
+    /// near links most. If the region of a handle touches a rigid piece, the whole piece joins the region and moves with
+    /// the handle. A second handle on the same piece is refused ([`raw::HF_ERROR_CONFLICT`]). Call this function before
+    /// you add such handles. `Pose::skin` writes the motions before this fit.
     ///
-    /// vertices: `[vertex_count]`, one or more of each piece; vertex_count 0: no piece is rigid. The list replaces the
-    /// one before.
+    /// vertices: `[vertex_count]`, one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
+    /// replaces the previous list.
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_rigid_pieces(&mut self, vertices: &[u32]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         c.forget("vertex_count"); // of the list given here
@@ -3075,12 +2852,11 @@ impl Pose {
     /// Places handles by 4 x 4 matrices M.
     ///
     /// handles: `[handle_count]`.
-    /// matrices: `[handle_count x 16]`, column by column, elements 12 to 14 the translation. M takes a rest position p to
+    /// matrices: `[handle_count x 16]`, column by column, elements 12 to 14 the translation. M moves a rest position p to
     /// the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
     /// rotation. Its last row must be 0 0 0 1.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_matrices(&mut self, handles: &[u32], matrices: &[f64]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
@@ -3093,7 +2869,6 @@ impl Pose {
     /// Writes the info of a handle.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn handle(&self, handle: u32) -> Result<raw::hf_handle_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_handle_info::default();
@@ -3103,7 +2878,6 @@ impl Pose {
     }
 
     /// Returns the number of handles, or 0 for an invalid object.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn handle_count(&self) -> u32 {
         // SAFETY: the handle is valid.
         unsafe { raw::hf_pose_get_handle_count(self.handle) }
@@ -3115,7 +2889,6 @@ impl Pose {
     /// out: `[vertex_count]` of float or double.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn field(&self, handle: u32) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut out = vec![f64::default(); c.product(&["vertex_count"])];
@@ -3126,7 +2899,6 @@ impl Pose {
     }
 
     /// As `field`, into a slice of yours.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn field_into<P: Real>(&self, handle: u32, out: &mut [P]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         of_length(out, "out", c.product(&["vertex_count"]))?;
@@ -3138,25 +2910,12 @@ impl Pose {
 
     /// Does the same as Pose.deform, with the options of a desc.
     ///
-    /// iteration_count: 1 to 1000; 0 = the pose's
-    /// restart: 1: forget the last pose and start from the fields. The frame then has the bits of a fresh pose with the
-    /// same handles, added in the same order, and the same transforms. Without restart a frame continues from the
-    /// last one, so it also depends on that
-    /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about 0.2
-    /// us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
-    /// refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the smooth pose.
-    /// Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still, more calls
-    /// go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1 or more.
-    /// Higher layers start at the smooth pose. Memory: 72 bytes a vertex
-    /// first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-    /// vertex_count: positions of a range cost only the range, without higher layers, refine and normals
     /// out: `[vertex_count x 3]` of float or double: posed positions
     /// normals: `[vertex_count x 3]` of float or double: unit normals of the posed surface, shared across seams
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn deform(&mut self, options: &DeformOptions) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_deform_info::default();
@@ -3171,7 +2930,6 @@ impl Pose {
     }
 
     /// As `deform`, into a slice of yours. Returns the figures of the call.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn deform_into<P: Real>(&mut self, out: &mut [P], normals: Option<&mut [f32]>,
             options: &DeformOptions) -> Result<raw::hf_deform_info> {
         let mut c = Call::new(&self.counts);
@@ -3187,7 +2945,6 @@ impl Pose {
     }
 
     /// Writes the statistics of a pose.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn statistics(&self) -> Result<raw::hf_pose_statistics> {
         let mut c = Call::new(&self.counts);
         let mut statistics = raw::hf_pose_statistics::default();
@@ -3209,7 +2966,6 @@ impl Pose {
     /// scales: `[joint_capacity x 3]` along the axes in the last frame; `None` = joints are rigid
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn skin(&self, influence_count: u32, want_scales: bool) -> Result<SkinInfo> {
         let mut c = Call::new(&self.counts);
         let mut skin = raw::hf_skin_info { influence_count: influence_count, ..Default::default() };
@@ -3303,32 +3059,9 @@ impl Quads {
     /// stays there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to four times
     /// the Euler characteristic. On a torus or a knot a single one of 5 is often lost.
     ///
-    /// crease_edges: `[crease_count x 2]` the two vertices of each edge, as given
-    /// guide_vertices: `[guide_count]` as given; guides of one vertex are averaged
-    /// guide_vectors: `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across
-    /// it
-    /// guide_weights: `None` = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of
-    /// the curvature, which has the rest of the weight
-    /// irregular_points: `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
-    /// irregular_valences: `[irregular_count]` how many quads meet there: 3 or 5
-    /// irregular_directions: `None` = any, or `[irregular_count x 3]`: one side of the irregular vertex runs along it; 0
-    /// 0 0 = any
-    /// face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
-    /// edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
-    /// crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
-    /// none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases nearer to
-    /// each other than an edge may be released
-    /// relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; [`raw::HF_NO_INDEX`] = none, and the mesh is
-    /// not fitted to the surface either
-    /// symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads are
-    /// made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the other
-    /// side are not used
-    /// progress: an object to poll and cancel through
-    ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INTERNAL`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(surface: &Surface, options: &QuadsOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
@@ -3347,32 +3080,9 @@ impl Quads {
     /// them is made again. After an error `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until `quads` is
     /// destroyed.
     ///
-    /// crease_edges: `[crease_count x 2]` the two vertices of each edge, as given
-    /// guide_vertices: `[guide_count]` as given; guides of one vertex are averaged
-    /// guide_vectors: `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across
-    /// it
-    /// guide_weights: `None` = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of
-    /// the curvature, which has the rest of the weight
-    /// irregular_points: `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
-    /// irregular_valences: `[irregular_count]` how many quads meet there: 3 or 5
-    /// irregular_directions: `None` = any, or `[irregular_count x 3]`: one side of the irregular vertex runs along it; 0
-    /// 0 0 = any
-    /// face_count: wanted number of quads, up to 10 million; it replaces edge_length. 0 = edge_length counts
-    /// edge_length: wanted length, in the unit of the mesh; 1e-4 to 1 box diagonals; 0 = 0.022 of it
-    /// crease_angle: edges of the surface that bend by more than this, radians, up to pi, become edges of quads; 0 =
-    /// none.  If there are more than 1,024 lines of creases and borders, only the longest are kept. Creases nearer to
-    /// each other than an edge may be released
-    /// relax_count: rounds of tangential relaxation, up to 1,000; 0 = 60; [`raw::HF_NO_INDEX`] = none, and the mesh is
-    /// not fitted to the surface either
-    /// symmetry_plane: a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none. Quads are
-    /// made of the side that (a, b, c) points to, and mirrored. Creases, guides and irregular vertices on the other
-    /// side are not used
-    /// progress: an object to poll and cancel through
-    ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INTERNAL`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn update(&mut self, options: &QuadsOptions) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let desc = options.fill(&mut c, "")?;
@@ -3382,7 +3092,6 @@ impl Quads {
     }
 
     /// Writes the counts.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn info(&self) -> Result<raw::hf_quads_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_quads_info::default();
@@ -3394,7 +3103,6 @@ impl Quads {
     /// Writes every array that is not `None`.
     ///
     /// Fails with [`raw::HF_ERROR_TOO_SMALL`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn mesh(&self) -> Result<QuadsMesh> {
         let mut c = Call::new(&self.counts);
         let mut mesh = raw::hf_quads_mesh { ..Default::default() };
@@ -3444,7 +3152,6 @@ impl Flow {
     /// Prepares a surface for tracing: computes half-edges and weights.
     ///
     /// Fails with [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(surface: &Surface) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
@@ -3463,7 +3170,6 @@ impl Flow {
     /// wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn trace<'i>(&self, field: impl Into<Reals<'i>>, seeds: Option<&[u32]>,
             wanted_count: u32) -> Result<Streamlines> {
         let mut c = Call::new(&self.counts);
@@ -3517,14 +3223,8 @@ object!(
 impl Region {
     /// Creates a region without vertices.
     ///
-    /// positions: `[vertex_count x 3]` of float or double: the surface of weight 0, bit for bit, as the positions of the
-    /// mesh or any pose of them. `None`: the mesh's own to 1e-15 of the box. Copied
-    /// base: `HF_BASE_*`. If the surface has no factor for it yet, it is made now
-    /// progress: an object to poll and cancel through
-    ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(surface: &Surface, options: &RegionOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
@@ -3537,7 +3237,6 @@ impl Region {
 
     /// Copies a region. The copy shares the factor and all memory, until one of the two is edited. For undo, keep copies:
     /// one before each edit.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn try_clone(&self) -> Result<Self> {
         let mut c = Call::new(&self.counts);
         let mut handle_ = std::ptr::null_mut();
@@ -3552,15 +3251,8 @@ impl Region {
     /// factor that its vertices need. A region may have several pieces, in several components. Progress covers curve,
     /// sites and base; the call can be cancelled between them.
     ///
-    /// remove_vertices: `[remove_count]` vertices that leave the region; others are passed over
-    /// add_vertices: `[add_count]` vertices that join it; those in it already are passed over
-    /// ring_count: rings of vertices by which the region grows; below 0 it shrinks
-    /// curve: the region becomes what this curve encloses
-    /// progress: an object to poll and cancel through
-    ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn edit(&mut self, edit: &RegionEditOptions) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let desc = edit.fill(&mut c, "")?;
@@ -3570,7 +3262,6 @@ impl Region {
     }
 
     /// Writes the info of a region.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn info(&self) -> Result<raw::hf_region_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_region_info::default();
@@ -3580,7 +3271,6 @@ impl Region {
     }
 
     /// Writes the statistics of a region.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn statistics(&self) -> Result<raw::hf_region_statistics> {
         let mut c = Call::new(&self.counts);
         let mut statistics = raw::hf_region_statistics::default();
@@ -3594,7 +3284,6 @@ impl Region {
     /// list: `HF_REGION_*`.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn vertices(&self, list: i32) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -3616,7 +3305,6 @@ impl Region {
 
     /// Writes the corners of the region's last curve, to draw it, in order, in the unit and frame of the positions in
     /// [`RegionOptions`]. The last corner is joined to the first. Rings, added and removed vertices leave it as it is.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn curve(&self) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -3642,11 +3330,10 @@ impl Region {
     /// solves nothing.
     ///
     /// weight: any finite number
-    /// out: `[vertex_count x 3]` of float or double, in the unit and frame of the mesh as given
+    /// out: `[vertex_count x 3]` of float or double, in the unit of the mesh
     /// normals: `[vertex_count x 3]` of float or double: unit normals of the morphed surface, shared across seams
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn morph(&self, weight: f64) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
@@ -3660,7 +3347,6 @@ impl Region {
     }
 
     /// As `morph`, into a slice of yours.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn morph_into<P: Real>(&self, weight: f64, out: &mut [P], normals: Option<&mut [f32]>) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
@@ -3699,15 +3385,10 @@ impl Detail {
     /// offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades to
     /// nothing at the rim. If source and target are the same region, the result is the surface itself. Later edits of
     /// the regions do not change the object.
-    /// source_vertices: `[pair_count]` rim vertices of the source, as given
-    /// target_vertices: `[pair_count]` rim vertices of the target, as given
-    /// scale: of the detail, > 0; 0 = square root of target base area over source base area
-    /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(source: &Region, target: &Region, options: &DetailOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("source", &source.counts);
@@ -3724,11 +3405,10 @@ impl Detail {
     /// it was on the source. A weight above 1 exaggerates the detail, and a weight below 0 turns it inside out.
     ///
     /// weight: any finite number
-    /// out: `[vertex_count x 3]` of float or double, in the unit and frame of the mesh as given
+    /// out: `[vertex_count x 3]` of float or double, in the unit of the mesh
     /// normals: `[vertex_count x 3]` of float or double: unit normals of the morphed surface, shared across seams
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn morph(&self, weight: f64) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
@@ -3742,7 +3422,6 @@ impl Detail {
     }
 
     /// As `morph`, into a slice of yours.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn morph_into<P: Real>(&self, weight: f64, out: &mut [P], normals: Option<&mut [f32]>) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
@@ -3768,18 +3447,7 @@ object!(
 impl Retarget {
     /// Pairs the joints of two skeletons.
     ///
-    /// source_rest: `[source.joint_count x 10]` a pose that counts as rest, or `None`: the rest of the skeleton. Give
-    /// poses in which both characters stand alike
-    /// target_rest: `[target.joint_count x 10]` the same for the target, or `None`
-    /// root_motion: `HF_ROOT_MOTION_*`
-    /// leave_out: bits of `HF_RETARGET_*`
-    /// scale: travel of the target over travel of the source; 0: the ratio of leg lengths
-    /// ground_velocity: of the ground under a clip on the spot, in the space of the source, per second; 0: the ground
-    /// rests. `Skeleton::ground_velocity` finds it
-    /// progress: an object to poll and cancel through
-    ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(source: &Skeleton, target: &Skeleton, options: &RetargetOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("source", &source.counts);
@@ -3792,7 +3460,6 @@ impl Retarget {
     }
 
     /// Copies a retarget with the state of its feet: for another character with the same skeletons, and for undo.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn try_clone(&self) -> Result<Self> {
         let mut c = Call::new(&self.counts);
         let mut handle_ = std::ptr::null_mut();
@@ -3809,7 +3476,6 @@ impl Retarget {
     /// seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn solve(&mut self, source_pose: &[f32], seconds: f64) -> Result<Vec<f32>> {
         let mut c = Call::new(&self.counts);
         let source_pose_ = c.array(Some(source_pose), "source_pose", &["source.joint_count", "10"])?;
@@ -3820,7 +3486,6 @@ impl Retarget {
     }
 
     /// Forgets the state of the feet and the figures of the info. Call it where the clip jumps.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn reset(&mut self) -> Result<()> {
         let mut c = Call::new(&self.counts);
         // SAFETY: every slice is as long as its check says.
@@ -3829,7 +3494,6 @@ impl Retarget {
     }
 
     /// Writes the figures.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn info(&self) -> Result<raw::hf_retarget_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_retarget_info::default();
@@ -3839,7 +3503,6 @@ impl Retarget {
     }
 
     /// Writes how chains follow.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn chains(&self) -> Result<Vec<raw::hf_chain_match>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -3861,7 +3524,6 @@ impl Retarget {
 
     /// Writes which joint of the source each joint of the target follows. A joint between two gets the nearer, a joint
     /// without a partner [`raw::HF_NO_INDEX`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn partners(&self) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -3904,7 +3566,6 @@ impl Skeleton {
     /// seconds: between two frames, above 0.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn ground_velocity(&self, poses: &[f32], seconds: f64) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let poses_ = c.array(Some(poses), "poses", &["frame_count", "joint_count", "10"])?;
@@ -3921,20 +3582,9 @@ impl Skeleton {
     /// names: one line for each joint in UTF-8, or `None`: names then say nothing
     /// parents: `[joint_count]` number of the parent, [`raw::HF_NO_INDEX`] for a root
     /// rest: `[joint_count x 10]` joint transforms
-    /// inverse_binds: `[joint_count x 16]` inverse bind matrices, columns first. All zero: no skin names the joint; it
-    /// moves its children and rigid meshes only. `None`: the skin is given in the pose `rest`, and every joint can
-    /// bend it
-    /// up: `[3]` declared axis, any length, or `None`: find it
-    /// forward: `[3]` declared axis, any length, or `None`: find it
-    /// roles: `[joint_count]` declared `HF_ROLE_*`, -1 for a joint without; or `None`
-    /// sides: `[joint_count]` `HF_SIDE_*` of joints with a declared role; or `None`: find the sides
-    /// travels: `[travel_count x 3]` where each clip leads from its first to its last frame; it tells forward; or `None`
-    /// skin: `None`: there is none, and joints are judged by names and places alone
-    /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(names: Option<&[&str]>, parents: &[u32], rest: &[f32], options: &SkeletonOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
         let desc = options.fill(&mut c, "", names, Some(parents), Some(rest))?;
@@ -3945,7 +3595,6 @@ impl Skeleton {
     }
 
     /// Writes the findings.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn info(&self) -> Result<raw::hf_skeleton_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_skeleton_info::default();
@@ -3955,7 +3604,6 @@ impl Skeleton {
     }
 
     /// Writes one entry for each joint.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn joints(&self) -> Result<Vec<raw::hf_joint_info>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -3976,7 +3624,6 @@ impl Skeleton {
     }
 
     /// Writes the chains.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn chains(&self) -> Result<Vec<raw::hf_chain>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -3997,7 +3644,6 @@ impl Skeleton {
     }
 
     /// Writes the joints of chain after chain.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn chain_joints(&self) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -4019,7 +3665,6 @@ impl Skeleton {
 
     /// Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful
     /// finding.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn reasons(&self) -> Result<String> {
         let mut c = Call::new(&self.counts);
         let mut size = 0;
@@ -4050,25 +3695,8 @@ object!(
 impl Transfer {
     /// Creates a transfer between two surfaces; both may be the same.
     ///
-    /// source_rest: `[source.vertex_count x 3]` of float or double Poses in which the two bodies correspond, in each
-    /// surface's unit, read by the call, or `None` for the positions of the surface. A character bound in a crouch
-    /// gets a standing pose here. Motion counts from these poses; the fields stay those of the surfaces.
-    /// target_rest: `[target.vertex_count x 3]` of float or double
-    /// mode: `HF_TRANSFER_*`
-    /// cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
-    /// ground: `HF_GROUND_*`
-    /// kernel_width: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is more,
-    /// up to 0.12
-    /// scale: lengths of the target over those of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no
-    /// pair is a foot
-    /// alignment_angle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times
-    /// the angle it is not aligned, from 1.4 times on it is aligned fully. 0 = 40 degrees; negative = never.
-    /// source_axes: Rows right, up, forward of the source and of the target. All zero = x, y, z (glTF: up +y, forward
-    /// +z). Lengths, and right x up = forward, must hold within 1e-3. The library takes the nearest rotation.
-    ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_INVALID_OBJECT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(source: &Surface, target: &Surface, options: &TransferOptions) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("source", &source.counts);
@@ -4086,11 +3714,9 @@ impl Transfer {
     /// vertex
     /// target_vertices: lists of whole numbers:
     /// flags: `[pair_count]` `HF_PAIR_*`, or `None` for none
-    /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn add_pairs(&mut self, source_vertices: &[&[u32]], target_vertices: &[&[u32]], flags: Option<&[u32]>,
             pairs: &Pairs) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
@@ -4106,7 +3732,6 @@ impl Transfer {
     /// pairs: `[pair_count]`.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn remove_pairs(&mut self, pairs: &[u32]) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let pairs_ = c.array(Some(pairs), "pairs", &["pair_count"])?;
@@ -4119,7 +3744,6 @@ impl Transfer {
     /// `Transfer::apply` has done so. This changes no result.
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn pair(&self, pair: u32) -> Result<raw::hf_pair_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_pair_info::default();
@@ -4132,7 +3756,6 @@ impl Transfer {
     /// does.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn info(&self) -> Result<raw::hf_transfer_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_transfer_info::default();
@@ -4142,7 +3765,6 @@ impl Transfer {
     }
 
     /// Writes the statistics of a transfer.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn statistics(&self) -> Result<raw::hf_transfer_statistics> {
         let mut c = Call::new(&self.counts);
         let mut statistics = raw::hf_transfer_statistics::default();
@@ -4153,23 +3775,7 @@ impl Transfer {
 
     /// Sets the dials of a transfer for the next frames.
     ///
-    /// stride: the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
-    /// foot does not slide. The body travels as much farther
-    /// hip_height_share: raises the pairs flagged [`raw::HF_PAIR_TRUNK`] and [`raw::HF_PAIR_ANCHOR`] by this share of
-    /// their mean height at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not
-    /// raised
-    /// neck_follow: pairs flagged [`raw::HF_PAIR_NECK`], together one limb How far a limb follows the source, -1 to 1. 0
-    /// = neutral: it plays the source's motion from its own rest direction. 1: it also takes the rest direction of
-    /// the source's limb. -1: it does not move against its root.
-    /// tail_follow: pairs flagged [`raw::HF_PAIR_TAIL`], together one limb
-    /// arm_space: turns arms ([`raw::HF_PAIR_ARM`]) away from the body, about the forward axis at rest, -pi/2 to pi/2
-    /// radians; 0 = neutral
-    /// long_follow: how far parts that reach farther than the source's follow, 0 to 1. 0 = neutral: they turn less, so
-    /// that they move as far. 1: they make the whole turn. Between, a part may jump that turns by half a turn against
-    /// the part before it
-    ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_dials(&mut self, dials: &TransferDials) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let desc = dials.fill(&mut c, "")?;
@@ -4179,7 +3785,6 @@ impl Transfer {
     }
 
     /// Writes the dials; stride is never 0.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn dials(&self) -> Result<raw::hf_transfer_dials> {
         let mut c = Call::new(&self.counts);
         let mut dials = raw::hf_transfer_dials::default();
@@ -4203,16 +3808,11 @@ impl Transfer {
     /// All rules of the ground come in continuously. [`raw::HF_GROUND_OFF`] switches them off.
     ///
     /// source_positions: `[source.vertex_count x 3]` of float or double: the posed source, its own vertex order
-    /// hold_pairs: `[hold_count]` each pair at most once A hold puts the target region of a pair exactly at a position of
-    /// yours, such as a foot on a step or a hand on a rail. The mean of the region's vertices lands there; welded
-    /// copies count once. The rest of the surface follows.
-    /// hold_positions: `[hold_count x 3]` in the target's unit and frame
     /// out: `[target.vertex_count x 3]` of float or double
     /// target_normals: `[target.vertex_count x 3]` of float or double
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn apply<'i>(&mut self, source_positions: impl Into<Reals<'i>>, frame: &TransferFrame) -> Result<Vec<f64>> {
         let mut c = Call::new(&self.counts);
         let mut desc = frame.fill(&mut c, "", Some(source_positions.into()))?;
@@ -4226,7 +3826,6 @@ impl Transfer {
     }
 
     /// As `apply`, into a slice of yours.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn apply_into<'i, P: Real>(&mut self, source_positions: impl Into<Reals<'i>>, out: &mut [P],
             target_normals: Option<&mut [f32]>, frame: &TransferFrame) -> Result<()> {
         let mut c = Call::new(&self.counts);
@@ -4243,7 +3842,6 @@ impl Transfer {
     /// Writes which target vertices may sink into the ground.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn sinking(&self) -> Result<Vec<u8>> {
         let mut c = Call::new(&self.counts);
         let mut sinking = vec![u8::default(); c.product(&["target.vertex_count"])];
@@ -4259,7 +3857,6 @@ impl Transfer {
     /// scales: `[joint_capacity x 3]` along the axes in the last frame; `None` = joints are rigid
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn skin(&self, influence_count: u32, want_scales: bool) -> Result<SkinInfo> {
         let mut c = Call::new(&self.counts);
         let mut skin = raw::hf_skin_info { influence_count: influence_count, ..Default::default() };
@@ -4325,22 +3922,11 @@ object!(
 impl Weights {
     /// Computes weights.
     ///
-    /// heads: `[joint_count x 3]`
-    /// tails: `[joint_count x 3]`, or `None`: heads are joints, and the library finds the tails
-    /// axes: `[joint_count x 3]` with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A
-    /// joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says where
-    /// a last joint ends
-    /// parents: `[joint_count]` number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
-    /// deforms: `[joint_count]` 1: the joint gets weights; `None`: all do
-    /// sources: `[joint_count]` for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`] for
-    /// a new one; `None`: the same number. `Weights::new`: `None`
-    /// progress: an object to poll and cancel through
     /// influence_count: joints per vertex, 4 or 8, or 0 for 4. Uses the harmonic factor of the surface; if it has none,
     /// it is made now. Sets *weights to `None` first.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn new(surface: &Surface, joints: &Joints, influence_count: u32) -> Result<Self> {
         let mut c = Call::new(&[]);
         c.parent("surface", &surface.counts);
@@ -4354,7 +3940,6 @@ impl Weights {
 
     /// Copies the weights with joints, pins and locks. The copy shares the factors and all memory, until one of the two
     /// is changed. For undo, keep copies: one before each change.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn try_clone(&self) -> Result<Self> {
         let mut c = Call::new(&self.counts);
         let mut handle_ = std::ptr::null_mut();
@@ -4365,21 +3950,9 @@ impl Weights {
 
     /// Replaces all
     ///
-    /// heads: `[joint_count x 3]`
-    /// tails: `[joint_count x 3]`, or `None`: heads are joints, and the library finds the tails
-    /// axes: `[joint_count x 3]` with tails `None`: where each joint points, any length, 0 for unknown; or `None`. A
-    /// joint reaches to the child that lies there, or to the end of the skin. A child that does not deform says where
-    /// a last joint ends
-    /// parents: `[joint_count]` number of the parent, [`raw::HF_NO_INDEX`] for a root; `None`: all are roots
-    /// deforms: `[joint_count]` 1: the joint gets weights; `None`: all do
-    /// sources: `[joint_count]` for `Weights::set_joints`: the number that the joint had before, [`raw::HF_NO_INDEX`] for
-    /// a new one; `None`: the same number. `Weights::new`: `None`
-    /// progress: an object to poll and cancel through
-    ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`],
     /// [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_joints(&mut self, joints: &Joints) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let desc = joints.fill(&mut c, "")?;
@@ -4392,18 +3965,10 @@ impl Weights {
     /// disc. Pins at the same places with other weights cost no path.
     ///
     /// vertices: `[pin_count]` vertices as given, or `None`
-    /// places: `[pin_count]`, or `None`
-    /// points: `[pin_count x 3]` points in space, at rest, in the unit and frame of the mesh, or `None`. Each stands for
-    /// the nearest point of the surface, up to two boxes away
-    /// radii: `[pin_count]` of the geodesic disc around the place, in the unit of the mesh; `None` or 0: the place alone
-    /// joints: `[pin_count x influence_count]` joints
-    /// weights: `[pin_count x influence_count]` >= 0, scaled to the sum 1
-    /// progress: an object to poll and cancel through
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`],
     /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_pins(&mut self, vertices: Option<&[u32]>, pins: &Pins) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let desc = pins.fill(&mut c, "", vertices)?;
@@ -4420,7 +3985,6 @@ impl Weights {
     ///
     /// Fails with [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn set_locks(&mut self, joints: &[u32], values: Option<&[f32]>) -> Result<()> {
         let mut c = Call::new(&self.counts);
         let joints_ = c.array(Some(joints), "joints", &["lock_count"])?;
@@ -4434,7 +3998,6 @@ impl Weights {
     /// vertex.
     ///
     /// Fails with [`raw::HF_ERROR_TOO_LARGE`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn get(&self) -> Result<WeightsOut> {
         let mut c = Call::new(&self.counts);
         let mut weights = raw::hf_weights_out { ..Default::default() };
@@ -4468,7 +4031,6 @@ impl Weights {
 
     /// Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not deform have no
     /// flags.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn joints(&self) -> Result<(Vec<u32>, Vec<u32>)> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -4492,7 +4054,6 @@ impl Weights {
     }
 
     /// Writes the info.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn info(&self) -> Result<raw::hf_weights_info> {
         let mut c = Call::new(&self.counts);
         let mut info = raw::hf_weights_info::default();
@@ -4502,7 +4063,6 @@ impl Weights {
     }
 
     /// Writes the statistics.
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn statistics(&self) -> Result<raw::hf_weights_statistics> {
         let mut c = Call::new(&self.counts);
         let mut statistics = raw::hf_weights_statistics::default();
@@ -4517,7 +4077,6 @@ impl Weights {
     /// names: one line for each joint in UTF-8, or `None`.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn helpers(&self, names: Option<&[&str]>) -> Result<Vec<u32>> {
         let mut c = Call::new(&self.counts);
         let mut count = 0;
@@ -4541,18 +4100,11 @@ impl Weights {
     /// same frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-harmonic
     /// field fills in the vertices without such a point. A piece without any takes the weights of the nearest points.
     ///
-    /// joints: `[source.vertex_count x source_influence_count]`
-    /// weights: `[source.vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
-    /// distance: a vertex matches points within it, unit of the mesh; 0: 0.05 of the source's diagonal
-    /// angle: between the normals of vertex and point, radians, up to 3.15; 0: 0.52 (30 degrees)
-    /// influence_count: joints of each vertex in the result: 4 or 8; 0: 4
-    /// progress: an object to poll and cancel through
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_TOO_SMALL`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn transfer(source: &Surface, target: &Surface, options: &WeightsTransferOptions) -> Result<(WeightsOut,
             raw::hf_weights_transfer_info)> {
         let mut c = Call::new(&[]);
@@ -4590,29 +4142,17 @@ impl Weights {
             origins: all_origins }, info))
     }
 
-    /// Mirrors the weights of one side to the other. Vertices need not mirror: a vertex takes the weights of the nearest
-    /// point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field fills in the
-    /// rest. The plane comes from joints with partners, else from the surface. A found normal has a positive largest
-    /// component, so along x, [`raw::HF_MIRROR_TO_NEGATIVE`] copies from +x to -x.
+    /// Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights of the
+    /// nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
+    /// fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a positive
+    /// largest component, so along x, [`raw::HF_MIRROR_TO_NEGATIVE`] copies from +x to -x.
     ///
-    /// heads: `[joint_count x 3]` the joints at rest, in the frame of the mesh
-    /// names: one line for each joint in UTF-8, or `None`: joints are paired by their places
-    /// partners: `[joint_count]` the joint of the other side, [`raw::HF_NO_INDEX`]: find it; or `None`
-    /// plane: `[6]` a point and a normal, or `None`: find the plane
-    /// joints: `[vertex_count x source_influence_count]`
-    /// weights: `[vertex_count x source_influence_count]` >= 0; a vertex whose weights are all 0 gives none
-    /// to: `HF_MIRROR_*`
-    /// distance: as in [`WeightsTransferOptions`]
-    /// angle: as in [`WeightsTransferOptions`]
-    /// influence_count: joints of each vertex in the result: 4 or 8; 0: 4
-    /// progress: an object to poll and cancel through
     /// info: filled in when given
     /// statistics: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_TOO_SMALL`], [`raw::HF_ERROR_UNSUPPORTED`].
-    #[allow(unused_mut, unused_variables, clippy::all)]
     pub fn mirror(surface: &Surface, options: &WeightsMirrorOptions) -> Result<(WeightsOut, Vec<u32>, Vec<u32>,
             raw::hf_weights_mirror_info, raw::hf_weights_mirror_statistics)> {
         let mut c = Call::new(&[]);

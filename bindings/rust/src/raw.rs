@@ -252,14 +252,8 @@ pub struct hf_array {
     pub r#type: i32,
     pub reserved: u32,
 }
-impl Default for hf_array {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
-}
 
-/// An array of yours that the library writes; otherwise as hf_array.
+/// An array of yours that the library writes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_array_out {
@@ -268,12 +262,6 @@ pub struct hf_array_out {
     pub stride: u32,
     pub r#type: i32,
     pub reserved: u32,
-}
-impl Default for hf_array_out {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 /// Details of the last failed call on this thread.
@@ -285,12 +273,6 @@ pub struct hf_error_detail {
     pub function: [c_char; 48],
     pub message: [c_char; 256],
 }
-impl Default for hf_error_detail {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
-}
 
 /// Your allocator, which serves a surface and everything made from it.
 #[repr(C)]
@@ -300,12 +282,6 @@ pub struct hf_allocator {
     pub release: *const c_void,
     pub user: *mut c_void,
 }
-impl Default for hf_allocator {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
-}
 
 /// Your job system.
 #[repr(C)]
@@ -313,12 +289,6 @@ impl Default for hf_allocator {
 pub struct hf_job_runner {
     pub run: *const c_void,
     pub user: *mut c_void,
-}
-impl Default for hf_job_runner {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 /// A factor that hf_surface_save wrote.
@@ -329,14 +299,6 @@ pub struct hf_factor_desc {
     pub borrow: i32,
     pub bytes: *const c_void,
     pub byte_count: usize,
-}
-impl Default for hf_factor_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// A spring from a vertex to a point of a triangle.
@@ -350,12 +312,6 @@ pub struct hf_link {
     pub weight: f64,
     pub in_tree: i32,
     pub reserved: u32,
-}
-impl Default for hf_link {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 /// Says which pieces to link.
@@ -378,14 +334,6 @@ pub struct hf_links_desc {
     pub light_vertices: *const u32,
     pub heavy_vertices: *const u32,
 }
-impl Default for hf_links_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// Faces of any number of corners.
 #[repr(C)]
@@ -396,14 +344,6 @@ pub struct hf_faces_desc {
     pub corners: hf_array,
     pub sizes: hf_array,
     pub starts: hf_array,
-}
-impl Default for hf_faces_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// The mesh and the options of a surface.
@@ -430,14 +370,6 @@ pub struct hf_surface_desc {
     pub saved_factor: *const hf_factor_desc,
     pub links: *const hf_links_desc,
 }
-impl Default for hf_surface_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// A graph of your own and the options of its surface
 #[repr(C)]
@@ -460,14 +392,6 @@ pub struct hf_graph_desc {
     pub job_runner: hf_job_runner,
     pub progress: hf_progress,
     pub saved_factor: *const hf_factor_desc,
-}
-impl Default for hf_graph_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// The options a surface was made with, defaults filled in.
@@ -492,39 +416,6 @@ pub struct hf_surface_info {
     pub face_count: u32,
     pub corner_count: u32,
 }
-impl Default for hf_surface_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_surface_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "vertex_count" => f64::from(self.vertex_count),
-            "triangle_count" => f64::from(self.triangle_count),
-            "weld" => f64::from(self.weld),
-            "weld_tolerance" => self.weld_tolerance,
-            "operator_kind" => f64::from(self.operator_kind),
-            "field_kind" => f64::from(self.field_kind),
-            "ordering" => f64::from(self.ordering),
-            "thread_count" => f64::from(self.thread_count),
-            "vertex_limit" => f64::from(self.vertex_limit),
-            "triangle_limit" => f64::from(self.triangle_limit),
-            "memory_limit_mb" => f64::from(self.memory_limit_mb),
-            "work_limit_gflop" => f64::from(self.work_limit_gflop),
-            "edge_count" => f64::from(self.edge_count),
-            "edge_limit" => f64::from(self.edge_limit),
-            "face_count" => f64::from(self.face_count),
-            "corner_count" => f64::from(self.corner_count),
-            _ => return None,
-        })
-    }
-}
 
 /// Counts of what the surface found in the mesh.
 #[repr(C)]
@@ -546,39 +437,8 @@ pub struct hf_surface_report {
     pub first_inside_out_vertex: u32,
     pub bounding_box_diagonal: f64,
 }
-impl Default for hf_surface_report {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_surface_report {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "vertex_count" => f64::from(self.vertex_count),
-            "triangle_count" => f64::from(self.triangle_count),
-            "welded_vertex_count" => f64::from(self.welded_vertex_count),
-            "component_count" => f64::from(self.component_count),
-            "isolated_vertex_count" => f64::from(self.isolated_vertex_count),
-            "degenerate_triangle_count" => f64::from(self.degenerate_triangle_count),
-            "collapsed_triangle_count" => f64::from(self.collapsed_triangle_count),
-            "duplicate_triangle_count" => f64::from(self.duplicate_triangle_count),
-            "non_manifold_edge_count" => f64::from(self.non_manifold_edge_count),
-            "flipped_edge_count" => f64::from(self.flipped_edge_count),
-            "boundary_edge_count" => f64::from(self.boundary_edge_count),
-            "inside_out_count" => f64::from(self.inside_out_count),
-            "first_inside_out_vertex" => f64::from(self.first_inside_out_vertex),
-            "bounding_box_diagonal" => self.bounding_box_diagonal,
-            _ => return None,
-        })
-    }
-}
 
-/// What a developer reads about a mesh
+/// Figures of a mesh for developers
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_mesh_statistics {
@@ -591,31 +451,6 @@ pub struct hf_mesh_statistics {
     pub first_changed_vertex: u32,
     pub reserved: u32,
     pub smallest_angle: f64,
-}
-impl Default for hf_mesh_statistics {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_mesh_statistics {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "polygon_count" => f64::from(self.polygon_count),
-            "non_planar_count" => f64::from(self.non_planar_count),
-            "largest_face" => f64::from(self.largest_face),
-            "negative_edge_count" => f64::from(self.negative_edge_count),
-            "changed_vertex_count" => f64::from(self.changed_vertex_count),
-            "first_changed_vertex" => f64::from(self.first_changed_vertex),
-            "reserved" => f64::from(self.reserved),
-            "smallest_angle" => self.smallest_angle,
-            _ => return None,
-        })
-    }
 }
 
 /// How the pieces of a mesh are linked.
@@ -630,29 +465,6 @@ pub struct hf_links_info {
     pub reserved: u32,
     pub longest_tree_link: f64,
 }
-impl Default for hf_links_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_links_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "piece_count" => f64::from(self.piece_count),
-            "link_count" => f64::from(self.link_count),
-            "light_piece_count" => f64::from(self.light_piece_count),
-            "lone_piece_count" => f64::from(self.lone_piece_count),
-            "reserved" => f64::from(self.reserved),
-            "longest_tree_link" => self.longest_tree_link,
-            _ => return None,
-        })
-    }
-}
 
 /// How far linked pieces have opened, in the unit of the positions.
 #[repr(C)]
@@ -664,28 +476,6 @@ pub struct hf_gaps_info {
     pub worst: f64,
     pub worst_link: u32,
     pub reserved: u32,
-}
-impl Default for hf_gaps_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_gaps_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "link_count" => f64::from(self.link_count),
-            "percentile_95" => self.percentile_95,
-            "worst" => self.worst,
-            "worst_link" => f64::from(self.worst_link),
-            "reserved" => f64::from(self.reserved),
-            _ => return None,
-        })
-    }
 }
 
 /// hf_surface_get_statistics writes sizes and times of a surface here.
@@ -709,52 +499,14 @@ pub struct hf_surface_statistics {
     pub factor_borrowed: i32,
     pub links_ms: f64,
 }
-impl Default for hf_surface_statistics {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_surface_statistics {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "unknown_count" => f64::from(self.unknown_count),
-            "weld_ms" => self.weld_ms,
-            "operator_ms" => self.operator_ms,
-            "ordering_ms" => self.ordering_ms,
-            "symbolic_ms" => self.symbolic_ms,
-            "numeric_ms" => self.numeric_ms,
-            "factor_entries" => self.factor_entries,
-            "factor_bytes" => self.factor_bytes,
-            "factor_flops" => self.factor_flops,
-            "memory_bytes" => self.memory_bytes,
-            "peak_memory_bytes" => self.peak_memory_bytes,
-            "load_ms" => self.load_ms,
-            "factor_loaded" => f64::from(self.factor_loaded),
-            "factor_borrowed" => f64::from(self.factor_borrowed),
-            "links_ms" => self.links_ms,
-            _ => return None,
-        })
-    }
-}
 
-/// One place on a surface
+/// A place on a surface
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_place {
     pub corners: [u32; 3],
     pub reserved: u32,
     pub barycentrics: [f64; 3],
-}
-impl Default for hf_place {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 /// Options of picking
@@ -764,14 +516,6 @@ pub struct hf_pick_desc {
     pub struct_size: u32,
     pub front_only: i32,
     pub positions: hf_array,
-}
-impl Default for hf_pick_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// hf_surface_cast_ray writes the first triangle that a ray hits here.
@@ -786,14 +530,6 @@ pub struct hf_hit {
     pub position: [f64; 3],
     pub distance: f64,
 }
-impl Default for hf_hit {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -803,14 +539,6 @@ pub struct hf_solver_desc {
     pub channel_count: u32,
     pub site_limit: u32,
     pub progress: hf_progress,
-}
-impl Default for hf_solver_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// hf_solver_get_info writes the options of a solver here, with defaults filled in, and the number of its sites.
@@ -823,28 +551,6 @@ pub struct hf_solver_info {
     pub site_limit: u32,
     pub site_count: u32,
     pub vertex_count: u32,
-}
-impl Default for hf_solver_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_solver_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "field_kind" => f64::from(self.field_kind),
-            "channel_count" => f64::from(self.channel_count),
-            "site_limit" => f64::from(self.site_limit),
-            "site_count" => f64::from(self.site_count),
-            "vertex_count" => f64::from(self.vertex_count),
-            _ => return None,
-        })
-    }
 }
 
 /// Places and values of sites.
@@ -859,14 +565,6 @@ pub struct hf_sites_desc {
     pub values: *const f64,
     pub stiffness: *const f64,
     pub radii: *const f64,
-}
-impl Default for hf_sites_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// One batch of edits, applied in the order remove, move, set, add.
@@ -883,14 +581,6 @@ pub struct hf_edit_desc {
     pub set_sites: *const u32,
     pub set_values: *const f64,
     pub add: *const hf_sites_desc,
-}
-impl Default for hf_edit_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// Places, values and fluxes of the sites.
@@ -909,14 +599,6 @@ pub struct hf_sites_info {
     pub flux: *mut f64,
     pub radii: *mut f64,
 }
-impl Default for hf_sites_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// The components that the sites of a solve did not reach.
 #[repr(C)]
@@ -926,26 +608,6 @@ pub struct hf_solve_info {
     pub unreached_component_count: u32,
     pub first_unreached_component: u32,
     pub unreached_vertex_count: u32,
-}
-impl Default for hf_solve_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_solve_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "unreached_component_count" => f64::from(self.unreached_component_count),
-            "first_unreached_component" => f64::from(self.first_unreached_component),
-            "unreached_vertex_count" => f64::from(self.unreached_vertex_count),
-            _ => return None,
-        })
-    }
 }
 
 /// Counts and errors of a preview.
@@ -960,30 +622,6 @@ pub struct hf_preview_info {
     pub largest_correction: f64,
     pub error_estimate: f64,
     pub preview_bytes: f64,
-}
-impl Default for hf_preview_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_preview_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "exact" => f64::from(self.exact),
-            "correction_count" => f64::from(self.correction_count),
-            "unreached_component_count" => f64::from(self.unreached_component_count),
-            "value_range" => self.value_range,
-            "largest_correction" => self.largest_correction,
-            "error_estimate" => self.error_estimate,
-            "preview_bytes" => self.preview_bytes,
-            _ => return None,
-        })
-    }
 }
 
 /// The certificate says how accurate a field is.
@@ -1000,32 +638,6 @@ pub struct hf_certificate {
     pub worst_vertex: u32,
     pub changed_vertex_count: u32,
     pub error_estimate: f64,
-}
-impl Default for hf_certificate {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_certificate {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "overshoot_checked" => f64::from(self.overshoot_checked),
-            "tolerance" => self.tolerance,
-            "value_range" => self.value_range,
-            "residual" => self.residual,
-            "site_error" => self.site_error,
-            "overshoot" => self.overshoot,
-            "worst_vertex" => f64::from(self.worst_vertex),
-            "changed_vertex_count" => f64::from(self.changed_vertex_count),
-            "error_estimate" => self.error_estimate,
-            _ => return None,
-        })
-    }
 }
 
 /// Counts, memory and cost estimates of a solver.
@@ -1048,37 +660,6 @@ pub struct hf_solver_statistics {
     pub predicted_dense_ms: f64,
     pub predicted_rebase_ms: f64,
 }
-impl Default for hf_solver_statistics {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_solver_statistics {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "site_count" => f64::from(self.site_count),
-            "factorisation_count" => f64::from(self.factorisation_count),
-            "path_solve_count" => f64::from(self.path_solve_count),
-            "sweep_count" => f64::from(self.sweep_count),
-            "last_route" => f64::from(self.last_route),
-            "rebase_count" => f64::from(self.rebase_count),
-            "dense_edit_count" => f64::from(self.dense_edit_count),
-            "dense_row_count" => f64::from(self.dense_row_count),
-            "eliminated_count" => f64::from(self.eliminated_count),
-            "rebase_advised" => f64::from(self.rebase_advised),
-            "reserved" => f64::from(self.reserved),
-            "site_memory_bytes" => self.site_memory_bytes,
-            "predicted_dense_ms" => self.predicted_dense_ms,
-            "predicted_rebase_ms" => self.predicted_rebase_ms,
-            _ => return None,
-        })
-    }
-}
 
 /// Iso-lines as polylines.
 #[repr(C)]
@@ -1097,14 +678,6 @@ pub struct hf_isolines {
     pub line_levels: *mut u32,
     pub line_closed: *mut i32,
 }
-impl Default for hf_isolines {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1114,12 +687,6 @@ pub struct hf_critical_point {
     pub index: i32,
     pub component: u32,
     pub value: f64,
-}
-impl Default for hf_critical_point {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 #[repr(C)]
@@ -1134,30 +701,6 @@ pub struct hf_critical_info {
     pub euler_characteristic: i32,
     pub reserved: u32,
 }
-impl Default for hf_critical_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_critical_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "point_count" => f64::from(self.point_count),
-            "minimum_count" => f64::from(self.minimum_count),
-            "maximum_count" => f64::from(self.maximum_count),
-            "saddle_count" => f64::from(self.saddle_count),
-            "index_sum" => f64::from(self.index_sum),
-            "euler_characteristic" => f64::from(self.euler_characteristic),
-            "reserved" => f64::from(self.reserved),
-            _ => return None,
-        })
-    }
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1166,14 +709,6 @@ pub struct hf_geodesics_desc {
     pub method: i32,
     pub smoothing: f64,
     pub progress: hf_progress,
-}
-impl Default for hf_geodesics_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// A path along the surface, from its first point to its last.
@@ -1189,14 +724,6 @@ pub struct hf_path {
     pub parameters: *mut f64,
     pub positions: *mut f64,
 }
-impl Default for hf_path {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1210,14 +737,6 @@ pub struct hf_extremities_desc {
     pub progress: hf_progress,
     pub out_field: *mut f64,
 }
-impl Default for hf_extremities_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1226,12 +745,6 @@ pub struct hf_extremity {
     pub component: u32,
     pub length: f64,
     pub position: [f64; 3],
-}
-impl Default for hf_extremity {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 #[repr(C)]
@@ -1243,14 +756,6 @@ pub struct hf_direction_desc {
     pub reserved: u32,
     pub progress: hf_progress,
 }
-impl Default for hf_direction_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// A singularity is a triangle, or a face, around which the field makes extra turns.
 #[repr(C)]
@@ -1259,12 +764,6 @@ pub struct hf_singularity {
     pub triangle: u32,
     pub vertex: u32,
     pub index: i32,
-}
-impl Default for hf_singularity {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 /// The options a direction field was made with, and counts of its constraints and of the work done so far.
@@ -1287,37 +786,6 @@ pub struct hf_direction_statistics {
     pub factor_bytes: f64,
     pub site_memory_bytes: f64,
 }
-impl Default for hf_direction_statistics {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_direction_statistics {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "degree" => f64::from(self.degree),
-            "site_limit" => f64::from(self.site_limit),
-            "unknown_count" => f64::from(self.unknown_count),
-            "site_count" => f64::from(self.site_count),
-            "factorisation_count" => f64::from(self.factorisation_count),
-            "path_solve_count" => f64::from(self.path_solve_count),
-            "sweep_count" => f64::from(self.sweep_count),
-            "irregular_vertex_count" => f64::from(self.irregular_vertex_count),
-            "eliminated_count" => f64::from(self.eliminated_count),
-            "operator_ms" => self.operator_ms,
-            "numeric_ms" => self.numeric_ms,
-            "factor_entries" => self.factor_entries,
-            "factor_bytes" => self.factor_bytes,
-            "site_memory_bytes" => self.site_memory_bytes,
-            _ => return None,
-        })
-    }
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1326,14 +794,6 @@ pub struct hf_pose_desc {
     pub band_count: u32,
     pub iteration_count: u32,
     pub group_count: u32,
-}
-impl Default for hf_pose_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// hf_pose_get_info writes the options of a pose here, with defaults filled in, and the number of its handles.
@@ -1346,28 +806,6 @@ pub struct hf_pose_info {
     pub group_count: u32,
     pub handle_count: u32,
     pub vertex_count: u32,
-}
-impl Default for hf_pose_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_pose_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "band_count" => f64::from(self.band_count),
-            "iteration_count" => f64::from(self.iteration_count),
-            "group_count" => f64::from(self.group_count),
-            "handle_count" => f64::from(self.handle_count),
-            "vertex_count" => f64::from(self.vertex_count),
-            _ => return None,
-        })
-    }
 }
 
 /// The handles to add.
@@ -1388,14 +826,6 @@ pub struct hf_handles_desc {
     pub reserved: u32,
     pub progress: hf_progress,
 }
-impl Default for hf_handles_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// A rigid motion of a handle from its rest place.
 #[repr(C)]
@@ -1403,12 +833,6 @@ impl Default for hf_handles_desc {
 pub struct hf_transform {
     pub rotation: [f64; 4],
     pub translation: [f64; 3],
-}
-impl Default for hf_transform {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 /// hf_pose_get_handle writes the region of a handle here, its layer, and its motion in the last hf_deform.
@@ -1427,32 +851,8 @@ pub struct hf_handle_info {
     pub free_rotation: i32,
     pub following: f64,
 }
-impl Default for hf_handle_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_handle_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "vertex_count" => f64::from(self.vertex_count),
-            "site_count" => f64::from(self.site_count),
-            "component" => f64::from(self.component),
-            "leak" => self.leak,
-            "layer" => f64::from(self.layer),
-            "free_rotation" => f64::from(self.free_rotation),
-            "following" => self.following,
-            _ => return None,
-        })
-    }
-}
 
-/// What a deform did.
+/// The work of a deform.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_deform_info {
@@ -1461,27 +861,6 @@ pub struct hf_deform_info {
     pub unreached_vertex_count: u32,
     pub reserved: u32,
     pub last_change: f64,
-}
-impl Default for hf_deform_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_deform_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "iteration_count" => f64::from(self.iteration_count),
-            "unreached_vertex_count" => f64::from(self.unreached_vertex_count),
-            "reserved" => f64::from(self.reserved),
-            "last_change" => self.last_change,
-            _ => return None,
-        })
-    }
 }
 
 /// The options of hf_pose_deform are outputs and a range of vertices.
@@ -1499,14 +878,6 @@ pub struct hf_deform_desc {
     pub vertex_count: u32,
     pub reserved: u32,
 }
-impl Default for hf_deform_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// Size of a pose and times of its last deform, in milliseconds; 0 before the first.
 #[repr(C)]
@@ -1518,28 +889,6 @@ pub struct hf_pose_statistics {
     pub blend_ms: f64,
     pub normal_ms: f64,
     pub refine_ms: f64,
-}
-impl Default for hf_pose_statistics {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_pose_statistics {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "cluster_count" => f64::from(self.cluster_count),
-            "solve_ms" => self.solve_ms,
-            "blend_ms" => self.blend_ms,
-            "normal_ms" => self.normal_ms,
-            "refine_ms" => self.refine_ms,
-            _ => return None,
-        })
-    }
 }
 
 /// This struct receives a pose or a transfer as a skin for linear blend skinning.
@@ -1560,14 +909,6 @@ pub struct hf_skin_info {
     pub vertex_joints: *mut u32,
     pub vertex_weights: *mut f32,
 }
-impl Default for hf_skin_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1581,14 +922,6 @@ pub struct hf_handle_proposals_desc {
     pub limit: u32,
     pub reserved: u32,
     pub progress: hf_progress,
-}
-impl Default for hf_handle_proposals_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// One proposed handle.
@@ -1604,12 +937,6 @@ pub struct hf_handle_proposal {
     pub position: [f64; 3],
     pub radius: f64,
     pub length: f64,
-}
-impl Default for hf_handle_proposal {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 /// Options of a quad mesh.
@@ -1634,14 +961,6 @@ pub struct hf_quads_desc {
     pub irregular_directions: *const f64,
     pub progress: hf_progress,
 }
-impl Default for hf_quads_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// Counts of a quad mesh.
 #[repr(C)]
@@ -1652,27 +971,6 @@ pub struct hf_quads_info {
     pub face_count: u32,
     pub euler_characteristic: i32,
     pub edge_length: f64,
-}
-impl Default for hf_quads_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_quads_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "vertex_count" => f64::from(self.vertex_count),
-            "face_count" => f64::from(self.face_count),
-            "euler_characteristic" => f64::from(self.euler_characteristic),
-            "edge_length" => self.edge_length,
-            _ => return None,
-        })
-    }
 }
 
 /// hf_quads_get_mesh writes the quad mesh to these arrays.
@@ -1690,14 +988,6 @@ pub struct hf_quads_mesh {
     pub triangles: *mut u32,
     pub barycentrics: *mut f64,
     pub corners: *mut u32,
-}
-impl Default for hf_quads_mesh {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 #[repr(C)]
@@ -1717,14 +1007,6 @@ pub struct hf_streamlines {
     pub line_starts: *mut u32,
     pub line_ends: *mut u32,
 }
-impl Default for hf_streamlines {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1733,14 +1015,6 @@ pub struct hf_region_desc {
     pub base: i32,
     pub positions: hf_array,
     pub progress: hf_progress,
-}
-impl Default for hf_region_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// Describes a closed curve through at least 3 points, on the mesh at rest.
@@ -1757,14 +1031,6 @@ pub struct hf_curve_desc {
     pub kind: i32,
     pub reserved: u32,
 }
-impl Default for hf_curve_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// A change of a region.
 #[repr(C)]
@@ -1778,14 +1044,6 @@ pub struct hf_region_edit_desc {
     pub remove_vertices: *const u32,
     pub add_vertices: *const u32,
     pub progress: hf_progress,
-}
-impl Default for hf_region_edit_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// Counts and areas of a region.
@@ -1801,30 +1059,6 @@ pub struct hf_region_info {
     pub area: f64,
     pub base_area: f64,
 }
-impl Default for hf_region_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_region_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "field_kind" => f64::from(self.field_kind),
-            "vertex_count" => f64::from(self.vertex_count),
-            "rim_count" => f64::from(self.rim_count),
-            "site_count" => f64::from(self.site_count),
-            "reserved" => f64::from(self.reserved),
-            "area" => self.area,
-            "base_area" => self.base_area,
-            _ => return None,
-        })
-    }
-}
 
 /// Work of the last edit of a region, and of all its edits.
 #[repr(C)]
@@ -1839,30 +1073,6 @@ pub struct hf_region_statistics {
     pub last_route: u32,
     pub whole_sweep: i32,
 }
-impl Default for hf_region_statistics {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_region_statistics {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "inserted_count" => f64::from(self.inserted_count),
-            "removed_count" => f64::from(self.removed_count),
-            "kept_count" => f64::from(self.kept_count),
-            "factorisation_count" => f64::from(self.factorisation_count),
-            "path_solve_count" => f64::from(self.path_solve_count),
-            "last_route" => f64::from(self.last_route),
-            "whole_sweep" => f64::from(self.whole_sweep),
-            _ => return None,
-        })
-    }
-}
 
 /// Gives hf_region_morph and hf_detail_morph their weight and outputs.
 #[repr(C)]
@@ -1874,14 +1084,6 @@ pub struct hf_morph_desc {
     pub positions: hf_array_out,
     pub normals: hf_array_out,
 }
-impl Default for hf_morph_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1892,14 +1094,6 @@ pub struct hf_detail_desc {
     pub target_vertices: *const u32,
     pub scale: f64,
     pub progress: hf_progress,
-}
-impl Default for hf_detail_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// Options of a retarget.
@@ -1915,14 +1109,6 @@ pub struct hf_retarget_desc {
     pub source_rest: *const f32,
     pub target_rest: *const f32,
     pub progress: hf_progress,
-}
-impl Default for hf_retarget_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// Figures of a retarget.
@@ -1942,34 +1128,6 @@ pub struct hf_retarget_info {
     pub stride_share: f64,
     pub deepest_drop: f64,
 }
-impl Default for hf_retarget_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_retarget_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "source_joint_count" => f64::from(self.source_joint_count),
-            "target_joint_count" => f64::from(self.target_joint_count),
-            "matched_joint_count" => f64::from(self.matched_joint_count),
-            "chain_count" => f64::from(self.chain_count),
-            "same_skeleton" => f64::from(self.same_skeleton),
-            "scale_from" => f64::from(self.scale_from),
-            "frame_count" => f64::from(self.frame_count),
-            "scale" => self.scale,
-            "limb_angle" => self.limb_angle,
-            "stride_share" => self.stride_share,
-            "deepest_drop" => self.deepest_drop,
-            _ => return None,
-        })
-    }
-}
 
 /// How a chain of the target follows the source.
 #[repr(C)]
@@ -1981,12 +1139,6 @@ pub struct hf_chain_match {
     pub target_joint_count: u32,
     pub mean_angle: f64,
     pub worst_angle: f64,
-}
-impl Default for hf_chain_match {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 /// The skin of a character
@@ -2001,14 +1153,6 @@ pub struct hf_skin_desc {
     pub triangles: *const u32,
     pub joints: *const u32,
     pub weights: *const f32,
-}
-impl Default for hf_skin_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// The joints of a character at rest.
@@ -2032,14 +1176,6 @@ pub struct hf_skeleton_desc {
     pub allocator: hf_allocator,
     pub progress: hf_progress,
 }
-impl Default for hf_skeleton_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// The findings about a character.
 #[repr(C)]
@@ -2062,34 +1198,6 @@ pub struct hf_skeleton_info {
     pub hip_height: f64,
     pub arm_length: f64,
 }
-impl Default for hf_skeleton_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_skeleton_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "joint_count" => f64::from(self.joint_count),
-            "chain_count" => f64::from(self.chain_count),
-            "reserved" => f64::from(self.reserved),
-            "up_confidence" => self.up_confidence,
-            "forward_confidence" => self.forward_confidence,
-            "left_confidence" => self.left_confidence,
-            "role_confidence" => self.role_confidence,
-            "height" => self.height,
-            "leg_length" => self.leg_length,
-            "hip_height" => self.hip_height,
-            "arm_length" => self.arm_length,
-            _ => return None,
-        })
-    }
-}
 
 /// The findings about a joint.
 #[repr(C)]
@@ -2100,25 +1208,6 @@ pub struct hf_joint_info {
     pub side: i32,
     pub chain: u32,
     pub mate: u32,
-}
-impl Default for hf_joint_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
-}
-impl hf_joint_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "kind" => f64::from(self.kind),
-            "role" => f64::from(self.role),
-            "side" => f64::from(self.side),
-            "chain" => f64::from(self.chain),
-            "mate" => f64::from(self.mate),
-            _ => return None,
-        })
-    }
 }
 
 /// Joints of one role and side, from root to tip.
@@ -2132,12 +1221,6 @@ pub struct hf_chain {
     pub first: u32,
     pub joint_count: u32,
     pub length: f64,
-}
-impl Default for hf_chain {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        unsafe { std::mem::zeroed() }
-    }
 }
 
 /// most pairs of a transfer
@@ -2156,14 +1239,6 @@ pub struct hf_transfer_desc {
     pub source_rest: hf_array,
     pub target_rest: hf_array,
 }
-impl Default for hf_transfer_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// The pairs to add.
 #[repr(C)]
@@ -2177,14 +1252,6 @@ pub struct hf_pairs_desc {
     pub target_vertices: *const u32,
     pub flags: *const u32,
     pub progress: hf_progress,
-}
-impl Default for hf_pairs_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 #[repr(C)]
@@ -2200,31 +1267,6 @@ pub struct hf_pair_info {
     pub aligned: i32,
     pub crossed: i32,
 }
-impl Default for hf_pair_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_pair_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "flags" => f64::from(self.flags),
-            "source_leak" => self.source_leak,
-            "target_leak" => self.target_leak,
-            "alignment_angle" => self.alignment_angle,
-            "confidence" => self.confidence,
-            "alignment_share" => self.alignment_share,
-            "aligned" => f64::from(self.aligned),
-            "crossed" => f64::from(self.crossed),
-            _ => return None,
-        })
-    }
-}
 
 /// hf_transfer_get_info writes counts and the scale of a transfer here.
 #[repr(C)]
@@ -2238,29 +1280,6 @@ pub struct hf_transfer_info {
     pub scale_found: i32,
     pub scale: f64,
 }
-impl Default for hf_transfer_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_transfer_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "pair_count" => f64::from(self.pair_count),
-            "cluster_count" => f64::from(self.cluster_count),
-            "aligned_count" => f64::from(self.aligned_count),
-            "crossed_count" => f64::from(self.crossed_count),
-            "scale_found" => f64::from(self.scale_found),
-            "scale" => self.scale,
-            _ => return None,
-        })
-    }
-}
 
 /// Work of a transfer.
 #[repr(C)]
@@ -2269,25 +1288,6 @@ pub struct hf_transfer_statistics {
     pub struct_size: u32,
     pub source_factorisation_count: u32,
     pub target_factorisation_count: u32,
-}
-impl Default for hf_transfer_statistics {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_transfer_statistics {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "source_factorisation_count" => f64::from(self.source_factorisation_count),
-            "target_factorisation_count" => f64::from(self.target_factorisation_count),
-            _ => return None,
-        })
-    }
 }
 
 /// What an animator turns while a transfer plays.
@@ -2303,30 +1303,6 @@ pub struct hf_transfer_dials {
     pub arm_space: f64,
     pub long_follow: f64,
 }
-impl Default for hf_transfer_dials {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_transfer_dials {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "reserved" => f64::from(self.reserved),
-            "stride" => self.stride,
-            "hip_height_share" => self.hip_height_share,
-            "neck_follow" => self.neck_follow,
-            "tail_follow" => self.tail_follow,
-            "arm_space" => self.arm_space,
-            "long_follow" => self.long_follow,
-            _ => return None,
-        })
-    }
-}
 
 /// Describes one frame
 #[repr(C)]
@@ -2339,14 +1315,6 @@ pub struct hf_transfer_frame {
     pub target_normals: hf_array_out,
     pub hold_pairs: *const u32,
     pub hold_positions: *const f64,
-}
-impl Default for hf_transfer_frame {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// The joints of a skeleton, in the unit and frame of the mesh.
@@ -2362,14 +1330,6 @@ pub struct hf_joints_desc {
     pub deforms: *const i32,
     pub sources: *const u32,
     pub progress: hf_progress,
-}
-impl Default for hf_joints_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// Places with given weights.
@@ -2388,14 +1348,6 @@ pub struct hf_pins_desc {
     pub weights: *const f32,
     pub progress: hf_progress,
 }
-impl Default for hf_pins_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// Receives the weights.
 #[repr(C)]
@@ -2409,14 +1361,6 @@ pub struct hf_weights_out {
     pub joints_u16: *mut u16,
     pub weights: *mut f32,
     pub origins: *mut u8,
-}
-impl Default for hf_weights_out {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// Counts of the weights.
@@ -2435,35 +1379,8 @@ pub struct hf_weights_info {
     pub rigid_count: u32,
     pub isolated_count: u32,
 }
-impl Default for hf_weights_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_weights_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "vertex_count" => f64::from(self.vertex_count),
-            "joint_count" => f64::from(self.joint_count),
-            "pin_count" => f64::from(self.pin_count),
-            "lock_count" => f64::from(self.lock_count),
-            "informed_count" => f64::from(self.informed_count),
-            "solved_count" => f64::from(self.solved_count),
-            "pinned_count" => f64::from(self.pinned_count),
-            "nearest_count" => f64::from(self.nearest_count),
-            "rigid_count" => f64::from(self.rigid_count),
-            "isolated_count" => f64::from(self.isolated_count),
-            _ => return None,
-        })
-    }
-}
 
-/// What a developer reads about weights
+/// Figures of weights for developers
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_statistics {
@@ -2478,33 +1395,6 @@ pub struct hf_weights_statistics {
     pub helper_count: u32,
     pub factorisation_count: u32,
     pub path_solve_count: u32,
-}
-impl Default for hf_weights_statistics {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_weights_statistics {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "nearest_piece_count" => f64::from(self.nearest_piece_count),
-            "rigid_piece_count" => f64::from(self.rigid_piece_count),
-            "blind" => f64::from(self.blind),
-            "no_length_count" => f64::from(self.no_length_count),
-            "coincident_count" => f64::from(self.coincident_count),
-            "informs_none_count" => f64::from(self.informs_none_count),
-            "outside_count" => f64::from(self.outside_count),
-            "helper_count" => f64::from(self.helper_count),
-            "factorisation_count" => f64::from(self.factorisation_count),
-            "path_solve_count" => f64::from(self.path_solve_count),
-            _ => return None,
-        })
-    }
 }
 
 /// Weights to transfer from one surface to another.
@@ -2521,14 +1411,6 @@ pub struct hf_weights_transfer_desc {
     pub reserved: u32,
     pub progress: hf_progress,
 }
-impl Default for hf_weights_transfer_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
 
 /// Counts of transferred weights.
 #[repr(C)]
@@ -2542,30 +1424,6 @@ pub struct hf_weights_transfer_info {
     pub rigid_count: u32,
     pub isolated_count: u32,
     pub guessed_piece_count: u32,
-}
-impl Default for hf_weights_transfer_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_weights_transfer_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "vertex_count" => f64::from(self.vertex_count),
-            "matched_count" => f64::from(self.matched_count),
-            "solved_count" => f64::from(self.solved_count),
-            "nearest_count" => f64::from(self.nearest_count),
-            "rigid_count" => f64::from(self.rigid_count),
-            "isolated_count" => f64::from(self.isolated_count),
-            "guessed_piece_count" => f64::from(self.guessed_piece_count),
-            _ => return None,
-        })
-    }
 }
 
 /// Weights to mirror.
@@ -2587,14 +1445,6 @@ pub struct hf_weights_mirror_desc {
     pub influence_count: u32,
     pub reserved: u32,
     pub progress: hf_progress,
-}
-impl Default for hf_weights_mirror_desc {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
 }
 
 /// The findings of a mirror.
@@ -2618,38 +1468,8 @@ pub struct hf_weights_mirror_info {
     pub point: [f64; 3],
     pub normal: [f64; 3],
 }
-impl Default for hf_weights_mirror_info {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
-}
-impl hf_weights_mirror_info {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "vertex_count" => f64::from(self.vertex_count),
-            "plane_from" => f64::from(self.plane_from),
-            "named_count" => f64::from(self.named_count),
-            "placed_count" => f64::from(self.placed_count),
-            "centre_count" => f64::from(self.centre_count),
-            "given_count" => f64::from(self.given_count),
-            "alone_count" => f64::from(self.alone_count),
-            "kept_count" => f64::from(self.kept_count),
-            "matched_count" => f64::from(self.matched_count),
-            "solved_count" => f64::from(self.solved_count),
-            "nearest_count" => f64::from(self.nearest_count),
-            "rigid_count" => f64::from(self.rigid_count),
-            "isolated_count" => f64::from(self.isolated_count),
-            _ => return None,
-        })
-    }
-}
 
-/// How far a surface and its joints are from their reflections.
+/// Distances of a surface and its joints from their reflections, in the unit of the mesh.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_mirror_statistics {
@@ -2662,29 +1482,125 @@ pub struct hf_weights_mirror_statistics {
     pub vertex_off: f64,
     pub worst_vertex_off: f64,
 }
-impl Default for hf_weights_mirror_statistics {
-    fn default() -> Self {
-        // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
-        let mut made: Self = unsafe { std::mem::zeroed() };
-        made.struct_size = std::mem::size_of::<Self>() as u32;
-        made
-    }
+
+/// Structs of zeros with their size.
+macro_rules! sized {
+    ($($name:ident)*) => {$(
+        impl Default for $name {
+            fn default() -> Self {
+                // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+                let mut made: Self = unsafe { std::mem::zeroed() };
+                made.struct_size = std::mem::size_of::<Self>() as u32;
+                made
+            }
+        }
+    )*};
 }
-impl hf_weights_mirror_statistics {
-    /// The figure of this name, for generic tools.
-    pub fn figure(&self, name: &str) -> Option<f64> {
-        Some(match name {
-            "struct_size" => f64::from(self.struct_size),
-            "worst_joint" => f64::from(self.worst_joint),
-            "worst_vertex" => f64::from(self.worst_vertex),
-            "reserved" => f64::from(self.reserved),
-            "joint_off" => self.joint_off,
-            "worst_joint_off" => self.worst_joint_off,
-            "vertex_off" => self.vertex_off,
-            "worst_vertex_off" => self.worst_vertex_off,
-            _ => return None,
-        })
-    }
+
+/// Structs of zeros.
+macro_rules! zeroed {
+    ($($name:ident)*) => {$(
+        impl Default for $name {
+            fn default() -> Self {
+                // SAFETY: every field may be zero: numbers, arrays of numbers and null pointers.
+                unsafe { std::mem::zeroed() }
+            }
+        }
+    )*};
+}
+
+/// Structs whose figures can be asked by name.
+macro_rules! figures {
+    ($($name:ident: $($field:ident)*;)*) => {$(
+        impl $name {
+            /// The figure of this name, for generic tools.
+            pub fn figure(&self, name: &str) -> Option<f64> {
+                Some(match name {
+                    $(stringify!($field) => f64::from(self.$field),)*
+                    _ => return None,
+                })
+            }
+        }
+    )*};
+}
+
+sized! {
+    hf_factor_desc hf_links_desc hf_faces_desc hf_surface_desc hf_graph_desc hf_surface_info hf_surface_report
+        hf_mesh_statistics hf_links_info hf_gaps_info hf_surface_statistics hf_pick_desc hf_hit hf_solver_desc
+        hf_solver_info hf_sites_desc hf_edit_desc hf_sites_info hf_solve_info hf_preview_info hf_certificate
+        hf_solver_statistics hf_isolines hf_critical_info hf_geodesics_desc hf_path hf_extremities_desc
+        hf_direction_desc hf_direction_statistics hf_pose_desc hf_pose_info hf_handles_desc hf_handle_info
+        hf_deform_info hf_deform_desc hf_pose_statistics hf_skin_info hf_handle_proposals_desc hf_quads_desc
+        hf_quads_info hf_quads_mesh hf_streamlines hf_region_desc hf_curve_desc hf_region_edit_desc hf_region_info
+        hf_region_statistics hf_morph_desc hf_detail_desc hf_retarget_desc hf_retarget_info hf_skin_desc
+        hf_skeleton_desc hf_skeleton_info hf_transfer_desc hf_pairs_desc hf_pair_info hf_transfer_info
+        hf_transfer_statistics hf_transfer_dials hf_transfer_frame hf_joints_desc hf_pins_desc hf_weights_out
+        hf_weights_info hf_weights_statistics hf_weights_transfer_desc hf_weights_transfer_info
+        hf_weights_mirror_desc hf_weights_mirror_info hf_weights_mirror_statistics
+}
+
+zeroed! {
+    hf_array hf_array_out hf_error_detail hf_allocator hf_job_runner hf_link hf_place hf_critical_point hf_extremity
+        hf_singularity hf_transform hf_handle_proposal hf_chain_match hf_joint_info hf_chain
+}
+
+figures! {
+    hf_surface_info: struct_size vertex_count triangle_count weld weld_tolerance operator_kind field_kind ordering
+        thread_count vertex_limit triangle_limit memory_limit_mb work_limit_gflop edge_count edge_limit face_count
+        corner_count;
+    hf_surface_report: struct_size vertex_count triangle_count welded_vertex_count component_count
+        isolated_vertex_count degenerate_triangle_count collapsed_triangle_count duplicate_triangle_count
+        non_manifold_edge_count flipped_edge_count boundary_edge_count inside_out_count first_inside_out_vertex
+        bounding_box_diagonal;
+    hf_mesh_statistics: struct_size polygon_count non_planar_count largest_face negative_edge_count
+        changed_vertex_count first_changed_vertex reserved smallest_angle;
+    hf_links_info: struct_size piece_count link_count light_piece_count lone_piece_count reserved longest_tree_link;
+    hf_gaps_info: struct_size link_count percentile_95 worst worst_link reserved;
+    hf_surface_statistics: struct_size unknown_count weld_ms operator_ms ordering_ms symbolic_ms numeric_ms
+        factor_entries factor_bytes factor_flops memory_bytes peak_memory_bytes load_ms factor_loaded
+        factor_borrowed links_ms;
+    hf_solver_info: struct_size field_kind channel_count site_limit site_count vertex_count;
+    hf_solve_info: struct_size unreached_component_count first_unreached_component unreached_vertex_count;
+    hf_preview_info: struct_size exact correction_count unreached_component_count value_range largest_correction
+        error_estimate preview_bytes;
+    hf_certificate: struct_size overshoot_checked tolerance value_range residual site_error overshoot worst_vertex
+        changed_vertex_count error_estimate;
+    hf_solver_statistics: struct_size site_count factorisation_count path_solve_count sweep_count last_route
+        rebase_count dense_edit_count dense_row_count eliminated_count rebase_advised reserved site_memory_bytes
+        predicted_dense_ms predicted_rebase_ms;
+    hf_critical_info: struct_size point_count minimum_count maximum_count saddle_count index_sum
+        euler_characteristic reserved;
+    hf_direction_statistics: struct_size degree site_limit unknown_count site_count factorisation_count
+        path_solve_count sweep_count irregular_vertex_count eliminated_count operator_ms numeric_ms factor_entries
+        factor_bytes site_memory_bytes;
+    hf_pose_info: struct_size band_count iteration_count group_count handle_count vertex_count;
+    hf_handle_info: struct_size vertex_count site_count component leak layer free_rotation following;
+    hf_deform_info: struct_size iteration_count unreached_vertex_count reserved last_change;
+    hf_pose_statistics: struct_size cluster_count solve_ms blend_ms normal_ms refine_ms;
+    hf_quads_info: struct_size vertex_count face_count euler_characteristic edge_length;
+    hf_region_info: struct_size field_kind vertex_count rim_count site_count reserved area base_area;
+    hf_region_statistics: struct_size inserted_count removed_count kept_count factorisation_count path_solve_count
+        last_route whole_sweep;
+    hf_retarget_info: struct_size source_joint_count target_joint_count matched_joint_count chain_count
+        same_skeleton scale_from frame_count scale limb_angle stride_share deepest_drop;
+    hf_skeleton_info: struct_size joint_count chain_count reserved up_confidence forward_confidence left_confidence
+        role_confidence height leg_length hip_height arm_length;
+    hf_joint_info: kind role side chain mate;
+    hf_pair_info: struct_size flags source_leak target_leak alignment_angle confidence alignment_share aligned
+        crossed;
+    hf_transfer_info: struct_size pair_count cluster_count aligned_count crossed_count scale_found scale;
+    hf_transfer_statistics: struct_size source_factorisation_count target_factorisation_count;
+    hf_transfer_dials: struct_size reserved stride hip_height_share neck_follow tail_follow arm_space long_follow;
+    hf_weights_info: struct_size vertex_count joint_count pin_count lock_count informed_count solved_count
+        pinned_count nearest_count rigid_count isolated_count;
+    hf_weights_statistics: struct_size nearest_piece_count rigid_piece_count blind no_length_count coincident_count
+        informs_none_count outside_count helper_count factorisation_count path_solve_count;
+    hf_weights_transfer_info: struct_size vertex_count matched_count solved_count nearest_count rigid_count
+        isolated_count guessed_piece_count;
+    hf_weights_mirror_info: struct_size vertex_count plane_from named_count placed_count centre_count given_count
+        alone_count kept_count matched_count solved_count nearest_count rigid_count isolated_count;
+    hf_weights_mirror_statistics: struct_size worst_joint worst_vertex reserved joint_off worst_joint_off vertex_off
+        worst_vertex_off;
 }
 
 extern "C" {
