@@ -171,7 +171,7 @@ void Pose::remove_handles(Span<const std::uint32_t> numbers) {
 }
 
 // Restores the sites, fields, cluster weights and solver state before the last handles were added, if exactly those
-// handles remain. The handles keep their present transforms.
+// handles remain. The handles keep their present transforms, but free rotations go back with the solver.
 bool Pose::restore_previous(const Handles& remaining) {
   if (!previous_layout_ || previous_layout_->handles.size() != remaining.size()) return false;
   for (std::size_t i = 0; i < remaining.size(); ++i) {
@@ -180,23 +180,26 @@ bool Pose::restore_previous(const Handles& remaining) {
       return false;
   }
   auto state = make_shared_in<State>(memory(), *previous_state_, memory());
-  bool other_following = false;
+  bool other_holds = false;
   for (std::size_t i = 0; i < remaining.size(); ++i) {
     const HandleState& now = state_->handles[find(remaining[i].number)];
     HandleState& then = state->handles[i];
-    const bool same = std::memcmp(&now.rotation, &then.rotation, sizeof now.rotation) == 0 &&
+    const bool found = now.free_turn && then.free_turn;  // by a solve; `then` has the one of the solve to go back to
+    const bool same = (found || std::memcmp(&now.rotation, &then.rotation, sizeof now.rotation) == 0) &&
                       std::memcmp(&now.translation, &then.translation, sizeof now.translation) == 0;
     state->changed = state->changed || !same;
-    then.rotation = now.rotation;
     then.translation = now.translation;
-    then.turn = now.turn;
+    if (!found) {
+      then.rotation = now.rotation;
+      then.turn = now.turn;
+    }
     state->changed = state->changed || then.free_turn != now.free_turn;
+    other_holds = other_holds || then.following != now.following || (state->without && then.free_turn != now.free_turn);
     then.free_turn = now.free_turn;
-    other_following = other_following || then.following != now.following;
     then.following = now.following;
   }
-  if (other_following) prepare_holds(*previous_layout_, *state);
-  state->changed = state->changed || other_following;
+  if (other_holds) prepare_holds(*previous_layout_, *state);
+  state->changed = state->changed || other_holds;
   prepare_turns(*previous_layout_, *state);
   std::shared_ptr<const Layout> layout = std::move(previous_layout_);
   previous_layout_.reset();

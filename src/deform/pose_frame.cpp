@@ -204,7 +204,6 @@ void Pose::ensure_surface() const {
         core_->mesh.scale, positions_.data(), nullptr, *core_->jobs);
   if (const double share = crossfade_share(); share > 0)
     add_crossfade(*state_->crossfade, share, positions_.data(), *core_->jobs);
-  make_rigid();
   stale_ = false;
 }
 

@@ -42,25 +42,21 @@ void PoseStack::check_rigid(const RigidPieces& rigid, Span<const std::int32_t> v
              k, entry.number);
     }
     for (const std::int32_t v : region) {
-      if (const std::int32_t p = rigid.piece_of(v); p >= 0) inside[p] = 0;
+      if (const std::int32_t p = rigid.piece_of(v); p >= 0) inside[p] = 0;  // a layer's region may cover the base's
     }
   }
 }
 
-// Regions that touch a rigid piece take all of it. Two handles on one piece are refused.
+// Regions that touch a rigid piece take all of it. Two handles on one piece are refused: a handle that is there has all
+// of its vertices, so check_regions finds it.
 void PoseStack::take_whole_pieces(Span<const std::uint32_t> start, Span<const std::int32_t> vertices,
                                   Vector<std::uint32_t>& whole_start, Vector<std::int32_t>& whole) const {
   base_->check_regions(start, vertices);
   for (const auto& layer : layers_) {
     if (layer) layer->plain->check_regions(start, vertices);
   }
-  constexpr std::int32_t nobody = -1, earlier = -2;
+  constexpr std::int32_t nobody = -1;
   Vector<std::int32_t> owner(rigid_->count(), nobody, &memory());
-  for (const Entry& entry : entries_) {
-    for (const std::int32_t v : region_of(entry)) {
-      if (const std::int32_t p = rigid_->piece_of(v); p >= 0) owner[p] = earlier;
-    }
-  }
   whole_start.assign(1, 0u);
   for (std::size_t r = 0; r + 1 < start.size(); ++r) {
     for (std::uint32_t k = start[r]; k < start[r + 1]; ++k) {
@@ -72,8 +68,8 @@ void PoseStack::take_whole_pieces(Span<const std::uint32_t> start, Span<const st
         const Span<const std::int32_t> piece = rigid_->vertices_of(static_cast<std::size_t>(p));
         whole.insert(whole.end(), piece.begin(), piece.end());
       } else if (owner[p] != own) {
-        fail(HF_ERROR_CONFLICT, k, "entry %u is on a rigid piece that %s has already; leave the entry out", k,
-             owner[p] == earlier ? "a handle" : "an earlier region");
+        fail(HF_ERROR_CONFLICT, k,
+             "entry %u is on a rigid piece that an earlier region has already; leave the entry out", k);
       }
     }
     whole_start.push_back(static_cast<std::uint32_t>(whole.size()));

@@ -175,6 +175,7 @@ void PoseStack::remove_handles(Span<const std::uint32_t> numbers) {
   if (collect(0)) base_->remove_handles(inner);  // changes all or nothing; the lines below cannot fail
   entries_ = std::move(entries);
   layers_ = std::move(layers);
+  take_base_turns();
   mark_stale(lowest);
 }
 

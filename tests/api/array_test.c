@@ -57,17 +57,21 @@ static void hf_array_takes_the_type_of_its_pointer(void** state) {
 
 static void meshes_in_every_form_give_the_same_bits(void** state) {
   (void)state;
-  enum { RECORD = 37, WIDE = 29, NARROW = 11 }; /* odd: rows are not aligned */
+  enum { RECORD = 37, SINGLE = 13, WIDE = 29, NARROW = 11 }; /* odd: rows are not aligned */
   static double doubles[3 * COUNT], plain[COUNT], field[COUNT];
   static uint16_t halves[3 * TRIANGLES];
-  static unsigned char records[RECORD * COUNT + 1], wide[WIDE * TRIANGLES + 1], narrow[NARROW * TRIANGLES + 1];
+  static unsigned char records[RECORD * COUNT + 1], singles[SINGLE * COUNT + 1], wide[WIDE * TRIANGLES + 1],
+      narrow[NARROW * TRIANGLES + 1];
   for (size_t i = 0; i < 3 * COUNT; ++i) doubles[i] = (double)tube.positions[i];
   for (size_t i = 0; i < 3 * TRIANGLES; ++i) halves[i] = (uint16_t)tube.triangles[i];
   for (size_t v = 0; v < COUNT; ++v) memcpy(records + 1 + RECORD * v, doubles + 3 * v, 24);
+  for (size_t v = 0; v < COUNT; ++v) memcpy(singles + 1 + SINGLE * v, tube.positions + 3 * v, 12);
   for (size_t t = 0; t < TRIANGLES; ++t) memcpy(wide + 1 + WIDE * t, tube.triangles + 3 * t, 12);
   for (size_t t = 0; t < TRIANGLES; ++t) memcpy(narrow + 1 + NARROW * t, halves + 3 * t, 6);
-  const hf_array positions[] = {
-      HF_ARRAY(tube.positions, COUNT), HF_ARRAY(doubles, COUNT), {records + 1, COUNT, RECORD, HF_TYPE_DOUBLE, 0}};
+  const hf_array positions[] = {HF_ARRAY(tube.positions, COUNT),
+                                HF_ARRAY(doubles, COUNT),
+                                {records + 1, COUNT, RECORD, HF_TYPE_DOUBLE, 0},
+                                {singles + 1, COUNT, SINGLE, HF_TYPE_PLAIN, 0}};
   const hf_array triangles[] = {HF_ARRAY(tube.triangles, TRIANGLES),
                                 HF_ARRAY(halves, TRIANGLES),
                                 {wide + 1, TRIANGLES, WIDE, HF_TYPE_PLAIN, 0},
@@ -138,6 +142,12 @@ static void outputs_agree(Write write, const void* object, uint32_t width) {
 static hf_result write_field(const hf_array_out* out, const void* object) {
   (void)object;
   return hf_solver_solve(solver, out, NULL);
+}
+static void an_output_of_a_call_is_needed(void** state) {
+  (void)state;
+  const hf_array_out none = HF_ARRAY_OUT((double*)NULL, 0);
+  assert_code(HF_ERROR_NULL_POINTER, write_field(NULL, NULL));
+  assert_code(HF_ERROR_NULL_POINTER, write_field(&none, NULL));
 }
 static hf_result write_preview(const hf_array_out* out, const void* object) {
   (void)object;
@@ -267,7 +277,9 @@ static void every_input_says_what_is_wrong_with_it(void** state) {
     const hf_array good = HF_ARRAY(numbers, COUNT);
     hf_array bad = good;
     assert_ok(read(&good));
+    const hf_array none = HF_ARRAY((const float*)NULL, 0);
     assert_code(calls[c].optional ? HF_OK : HF_ERROR_NULL_POINTER, read(NULL));
+    assert_code(calls[c].optional ? HF_OK : HF_ERROR_NULL_POINTER, read(&none));
     for (int more = -1; more <= 1; more += 2) {
       bad.count = (uint32_t)(COUNT + more);
       assert_code(HF_ERROR_INVALID_ARGUMENT, read(&bad));
@@ -331,6 +343,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(hf_array_takes_the_type_of_its_pointer),
       cmocka_unit_test(meshes_in_every_form_give_the_same_bits),
+      cmocka_unit_test(an_output_of_a_call_is_needed),
       cmocka_unit_test(every_output_takes_floats_doubles_and_strides),
       cmocka_unit_test(every_input_says_what_is_wrong_with_it),
       cmocka_unit_test(graphs_take_indices_of_16_bits_and_single_weights),

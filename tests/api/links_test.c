@@ -319,6 +319,37 @@ static void a_pose_takes_linked_pieces_along_and_gaps_are_measured(void** state)
   }
 }
 
+static void a_range_of_a_frame_has_the_rigid_piece_of_the_whole(void** state) {
+  (void)state;
+  hf_pose pose = NULL;
+  assert_ok(hf_pose_create(linked, NULL, &pose));
+  const uint32_t counts[2] = {1, 1}, vertices[2] = {CUT_LEFT, CUT_RIGHT}, piece = CUT_ISLAND;
+  hf_handles_desc handles = HF_INIT(hf_handles_desc);
+  handles.handle_count = 2;
+  handles.region_counts = counts;
+  handles.region_vertices = vertices;
+  uint32_t numbers[2];
+  assert_ok(hf_pose_add_handles(pose, &handles, numbers));
+  const hf_transform turned = {{0.5, 0, 0, 0.8660254}, {0, 0, 1}};
+  assert_ok(hf_pose_set_transform(pose, numbers[1], &turned));
+  double bent[3 * CUT_VERTICES], whole[3 * CUT_VERTICES], part[3 * 5], most = 0;
+  hf_deform_desc desc = HF_INIT(hf_deform_desc);
+  desc.positions = HF_ARRAY_OUT(bent, CUT_VERTICES);
+  desc.restart = 1;
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
+  assert_ok(hf_pose_set_rigid_pieces(pose, 1, &piece));
+  desc.positions = HF_ARRAY_OUT(whole, CUT_VERTICES);
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
+  for (int i = 0; i < 3 * CUT_VERTICES; ++i) most = fmax(most, fabs(bent[i] - whole[i]));
+  assert_true(most > 1e-3);
+  desc.positions = HF_ARRAY_OUT(part, 5);
+  desc.first_vertex = CUT_ISLAND + 2;
+  desc.vertex_count = 5;
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
+  assert_memory_equal(part, whole + 3 * (CUT_ISLAND + 2), sizeof part);
+  hf_pose_destroy(pose);
+}
+
 /* ---- refused ---- */
 
 static hf_links_desc bad;
@@ -448,6 +479,7 @@ int main(void) {
       cmocka_unit_test(a_saved_factor_needs_its_links),
       cmocka_unit_test(other_links_keep_the_ordering_where_the_pattern_allows),
       cmocka_unit_test(a_pose_takes_linked_pieces_along_and_gaps_are_measured),
+      cmocka_unit_test(a_range_of_a_frame_has_the_rigid_piece_of_the_whole),
       cmocka_unit_test(bad_links_are_refused_by_index_and_change_nothing),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   if (!only.empty()) return tally.problems > 0;
   report_at_least("refuse_stories", tally.stories, 16);
   // blocks that earlier calls freed are taken without asking, so not every allocation can be refused
-  report_at_least("refuse_faults", tally.faults, 15000.0 / static_cast<double>(step));
+  report_at_least("refuse_faults", tally.faults, 18000.0 / static_cast<double>(step));
   report_at_most("refuse_problems", tally.problems, 0);
   report_at_most("refuse_leaks", tally.leaks, 0);
   report_at_most("refuse_difference", tally.difference, 1e-9);

@@ -63,9 +63,9 @@ Stretch edit_on(EditedSolver& solver, Clones& clones, int count) {
   hf_surface_statistics statistics = desc<hf_surface_statistics>();
   must(hf_surface_get_statistics(solver.surface(), &statistics), "hf_surface_get_statistics");
   stretch.library_bytes = statistics.memory_bytes;
-  stretch.with_gaps_bytes = resident_bytes();
   hf_solver_destroy(clones.front());  // kept blocks go back with it
   clones.pop_front();
+  stretch.with_gaps_bytes = resident_bytes();
   malloc_trim(0);
   stretch.process_bytes = resident_bytes();
   return stretch;
@@ -88,8 +88,9 @@ int main(int argc, char** argv) {
   report_at_least("SESSION_EDITS", edits, 40000);
   report_at_most("SESSION_LIBRARY_GROWTH_BYTES", last.library_bytes - first.library_bytes, 1 << 20);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they keep what was given back
+  // Blocks that the library keeps from edit to edit lie between those of clones: their places are gaps later.
   report_at_most("SESSION_PROCESS_GROWTH_BYTES", last.process_bytes - first.process_bytes, 2 << 20);
-  report_at_most("SESSION_PROCESS_GROWTH_WITH_GAPS_BYTES", last.with_gaps_bytes - first.with_gaps_bytes, 8 << 20);
+  report_at_most("SESSION_PROCESS_GROWTH_WITH_GAPS_BYTES", last.with_gaps_bytes - first.with_gaps_bytes, 5 << 20);
 #endif
   if (full)  // the quick form's stretches are too short for a machine that others use
     report_at_most("SESSION_LAST_EDITS_TO_FIRST", last.fastest_ms / first.fastest_ms, 3);

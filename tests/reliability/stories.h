@@ -13,7 +13,7 @@ namespace refusal {
 // An allocator that counts. It refuses allocation number refuse_at (from 1; 0: none), with refuse_on all later ones
 // too.
 struct Allocator {
-  std::size_t live_blocks = 0, live_bytes = 0, calls = 0, refuse_at = 0, refused = 0, mismatches = 0;
+  std::size_t live_blocks = 0, live_bytes = 0, calls = 0, refuse_at = 0, refused = 0, refused_size = 0, mismatches = 0;
   bool refuse_on = false;
   hf_allocator hooks();
 };

@@ -132,6 +132,74 @@ void poses(Story& s, const Tube& tube, Allocator& memory, int mode) {
 void smooth_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, POSE_SMOOTH); }
 void paper_pose(Story& s, const Tube& tube, Allocator& memory) { poses(s, tube, memory, POSE_PAPER); }
 
+// The tube and a second one beside it, which is a rigid piece: a handle takes all of it. On the first tube a handle is
+// held back.
+struct TwoTubes {
+  std::vector<double> positions;
+  std::vector<std::uint32_t> triangles;
+  explicit TwoTubes(const Tube& tube) : positions(tube.positions), triangles(tube.triangles) {
+    for (std::size_t i = 0; i < tube.positions.size(); ++i) positions.push_back(tube.positions[i] + 3.0 * (i % 3 == 0));
+    for (const std::uint32_t v : tube.triangles) triangles.push_back(v + Tube::vertices);
+  }
+};
+
+void held_poses(Story& s, const Tube& tube, Allocator& memory) {
+  const TwoTubes two(tube);
+  hf_surface_desc desc = tube.desc(memory);
+  desc.positions = HF_ARRAY(two.positions.data(), 2 * Tube::vertices);
+  desc.triangles = HF_ARRAY(two.triangles.data(), two.triangles.size() / 3);
+  hf_surface surface = nullptr;
+  hf_pose pose = nullptr, copy = nullptr;
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&desc, &surface); });
+  s.make_factor("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
+  hf_surface_destroy(surface);
+  const std::uint32_t piece = Tube::vertices + 5;
+  s.call("hf_pose_set_rigid_pieces", [&] { return hf_pose_set_rigid_pieces(pose, 1, &piece); });
+  std::vector<std::uint32_t> regions(tube.ends);
+  regions.push_back(piece);
+  regions.push_back(4 * Tube::around);
+  const std::uint32_t counts[4] = {2 * Tube::around, 2 * Tube::around, 1, 1};
+  hf_handles_desc handles = HF_INIT(hf_handles_desc);
+  handles.handle_count = 4;
+  handles.region_counts = counts;
+  handles.region_vertices = regions.data();
+  std::uint32_t numbers[4] = {0, 0, 0, 0};
+  s.call("hf_pose_add_handles", [&] { return hf_pose_add_handles(pose, &handles, numbers); });
+  hf_handle_info info = HF_INIT(hf_handle_info);
+  s.call("hf_pose_get_handle", [&] { return hf_pose_get_handle(pose, numbers[2], &info); });
+  s.take(info.vertex_count);
+  const std::uint32_t held[2] = {numbers[1], numbers[3]};
+  const auto follows = [&](double wanted) {
+    return hf_pose_get_handle(pose, held[0], &info) == HF_OK && info.following == wanted;
+  };
+  s.call(
+      "hf_pose_set_following", [&] { return hf_pose_set_following(pose, 2, held, 0.3); }, [&] { return follows(1); });
+  const hf_transform turned = {{0, 0.5, 0, 0.8660254037844386}, {1, 2, 0.5}};
+  for (const std::uint32_t number : {numbers[1], numbers[2]})
+    s.call("hf_pose_set_transforms", [&] { return hf_pose_set_transforms(pose, 1, &number, &turned); });
+  std::vector<double> posed(6 * Tube::vertices);
+  hf_deform_desc deform = HF_INIT(hf_deform_desc);
+  deform.positions = HF_ARRAY_OUT(posed.data(), 2 * Tube::vertices);
+  deform.restart = deform.refine = 1;
+  const auto frame = [&](hf_pose of) {
+    s.call("hf_pose_deform", [&] { return hf_pose_deform(of, &deform, nullptr); });
+    s.take(posed.data(), posed.size());
+  };
+  frame(pose);
+  s.make("hf_pose_clone", copy, [&] { return hf_pose_clone(pose, &copy); });
+  deform.restart = 0;
+  s.call("hf_pose_set_free_rotations", [&] { return hf_pose_set_free_rotations(copy, 1, &numbers[3], 1); });
+  frame(copy);
+  s.call("hf_pose_remove_handles", [&] { return hf_pose_remove_handles(copy, 1, &numbers[3]); });
+  s.call("hf_pose_set_rigid_pieces", [&] { return hf_pose_set_rigid_pieces(copy, 0, nullptr); });
+  frame(copy);
+  s.call(
+      "hf_pose_set_following", [&] { return hf_pose_set_following(pose, 2, held, 1); }, [&] { return follows(0.3); });
+  frame(pose);
+  hf_pose_destroy(pose);
+  hf_pose_destroy(copy);
+}
+
 void transfer(Story& s, const Tube& tube, Allocator& memory) {
   // the target lacks the harmonic factor that transfers use
   hf_surface_desc bent = tube.desc(memory);
@@ -378,17 +446,12 @@ void skin_weights(Story& s, const Tube& tube, Allocator& memory) {
 }  // namespace
 
 std::vector<Chapter> shape_chapters() {
-  return {{"lines", lines},
-          {"distances", distances},
-          {"directions", directions},
-          {"smooth_pose", smooth_pose},
-          {"paper_pose", paper_pose},
-          {"transfer", transfer},
-          {"quads", quads},
-          {"updates", updates},
-          {"flow", flow},
-          {"regions", regions},
-          {"weights", skin_weights}};
+  return {{"lines", lines},           {"distances", distances},
+          {"directions", directions}, {"smooth_pose", smooth_pose},
+          {"paper_pose", paper_pose}, {"held_poses", held_poses},
+          {"transfer", transfer},     {"quads", quads},
+          {"updates", updates},       {"flow", flow},
+          {"regions", regions},       {"weights", skin_weights}};
 }
 
 }  // namespace refusal

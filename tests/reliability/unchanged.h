@@ -68,7 +68,8 @@ class State {
 
 // Counts, refuses, and cancels a progress object at an allocation.
 struct Allocator {
-  std::size_t live_blocks = 0, live_bytes = 0, calls = 0, refuse_at = 0, refused = 0, mismatches = 0, cancel_at = 0;
+  std::size_t live_blocks = 0, live_bytes = 0, calls = 0, refuse_at = 0, refused = 0, refused_size = 0, mismatches = 0,
+              cancel_at = 0;
   std::size_t numeric_bytes =
       0;  // of these, in blocks of 64-byte alignment: arrays of numbers, work buffers among them
   bool refuse_on = false;

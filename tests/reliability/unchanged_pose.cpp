@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/arrays.h"
 #include "support/peers.h"
 #include "unchanged.h"
-#include "support/arrays.h"
 
 namespace unchanged {
 namespace {
@@ -16,12 +16,14 @@ struct Handle {
   hf_transform transform = {{0, 0, 0, 1}, {0, 0, 0}};
   bool free_rotation = false;
   double following = 1;
-  std::vector<double> matrix;  // 16 numbers instead of the transform, or none
+  std::vector<std::uint32_t> rigid;  // of the pose when it was added: it took all of such a piece
+  std::vector<double> matrix;        // 16 numbers instead of the transform, or none
 };
 
 struct PoseBranch {
   hf_pose handle = nullptr;
-  std::vector<Handle> handles;  // in the order they were added
+  std::vector<Handle> handles;       // in the order they were added
+  std::vector<std::uint32_t> rigid;  // a vertex or more of each rigid piece
 };
 
 class Poses final : public Subject {
@@ -184,6 +186,10 @@ hf_result add_to(hf_pose pose, const std::vector<Handle>& handles, std::uint32_t
   return hf_pose_add_handles(pose, &desc, out);
 }
 
+hf_result make_rigid(hf_pose pose, const std::vector<std::uint32_t>& pieces) {
+  return hf_pose_set_rigid_pieces(pose, static_cast<std::uint32_t>(pieces.size()), pieces.data());
+}
+
 // Gives a fresh pose the handles of a branch, one by one or in batches, and their transforms.
 hf_result fill(hf_pose fresh, const PoseBranch& b, bool batches) {
   hf_result result = HF_OK;
@@ -192,9 +198,10 @@ hf_result fill(hf_pose fresh, const PoseBranch& b, bool batches) {
     const Handle& h = b.handles[first];
     std::vector<Handle> batch;
     while (last < b.handles.size() && (batch.empty() || batches) && b.handles[last].layer == h.layer &&
-           b.handles[last].region.empty() == h.region.empty())
+           b.handles[last].region.empty() == h.region.empty() && b.handles[last].rigid == h.rigid)
       batch.push_back(b.handles[last++]);
-    result = add_to(fresh, batch, &numbers[first]);
+    result = make_rigid(fresh, h.rigid);
+    if (result == HF_OK) result = add_to(fresh, batch, &numbers[first]);
   }
   for (std::size_t i = 0; i < numbers.size() && result == HF_OK; ++i) {
     const Handle& h = b.handles[i];
@@ -204,12 +211,25 @@ hf_result fill(hf_pose fresh, const PoseBranch& b, bool batches) {
     result = h.matrix.empty() ? hf_pose_set_transform(fresh, numbers[i], &h.transform)
                               : hf_pose_set_matrices(fresh, 1, &numbers[i], h.matrix.data());
   }
-  return result;
+  return result == HF_OK ? make_rigid(fresh, b.rigid) : result;
+}
+
+// A free handle alone in its component keeps the rotation that it had, which is not in the model.
+bool has_lone_free_handle(const PoseBranch& b) {
+  const auto component = [&](const Handle& h) {
+    hf_handle_info info = HF_INIT(hf_handle_info);
+    return hf_pose_get_handle(b.handle, h.number, &info) == HF_OK ? info.component : HF_NO_INDEX;
+  };
+  return std::any_of(b.handles.begin(), b.handles.end(), [&](const Handle& h) {
+    return h.free_rotation && std::none_of(b.handles.begin(), b.handles.end(), [&](const Handle& other) {
+             return &other != &h && other.layer <= h.layer && component(other) == component(h);
+           });
+  });
 }
 
 // A frame with restart has the bits of a fresh pose with the same handles and transforms (hf/pose.h).
 std::string Poses::compare_fresh(const PoseBranch& b) const {
-  if (b.handles.empty()) return {};
+  if (b.handles.empty() || has_lone_free_handle(b)) return {};
   for (const auto& [refine, from_last] : {std::pair{0, 0}, std::pair{3, 0}, std::pair{2, 1}}) {
     hf_pose fresh = nullptr, copy = nullptr;
     std::vector<double> here, there;
@@ -268,6 +288,7 @@ struct PoseCalls {
     if (result != HF_OK) return result;
     for (std::uint32_t i = 0; i < count; ++i) {
       fresh[i].number = out[i];
+      fresh[i].rigid = b.rigid;
       b.handles.push_back(fresh[i]);
     }
     return result;
@@ -283,6 +304,7 @@ struct PoseCalls {
     h.radius = random.pick({0.0, 0.9, 1.2, random.number()});
     const hf_result result =
         hf_pose_add_handle_at(b.handle, random.one_in(50) ? nullptr : h.point, h.radius, &h.number);
+    h.rigid = b.rigid;
     if (result == HF_OK) b.handles.push_back(h);
     return result;
   }
@@ -377,6 +399,15 @@ struct PoseCalls {
     }
     return result;
   }
+  static hf_result rigid(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    PoseBranch& b = s.any(random);
+    std::vector<std::uint32_t> list(random.below(3));
+    for (std::uint32_t& v : list) v = random.index(s.world.shape->vertices());
+    const hf_result result = make_rigid(b.handle, list);
+    if (result == HF_OK) b.rigid = list;
+    return result;
+  }
   static hf_result deform(Subject& subject, Random& random) {
     Poses& s = of(subject);
     PoseBranch& b = s.any(random);
@@ -429,7 +460,8 @@ struct PoseCalls {
     hf_skin_info skin = HF_INIT(hf_skin_info);
     std::vector<float> field(s.world.shape->vertices());
     if (random.one_in(3)) return hf_pose_get_handle(b.handle, s.number(b, random), random.spoiled(info));
-    if (random.one_in(2)) return hf_pose_get_field(b.handle, s.number(b, random), OUT_ROWS(field.data(), random.pick({0u, 2u})));
+    if (random.one_in(2))
+      return hf_pose_get_field(b.handle, s.number(b, random), OUT_ROWS(field.data(), random.pick({0u, 2u})));
     skin.influence_count = random.pick({0u, 4u, 5u, 8u});
     return hf_pose_get_skin(b.handle, random.spoiled(skin));
   }
@@ -443,6 +475,7 @@ const std::vector<Command>& Poses::commands() const {
       {"hf_pose_set_matrices", 1, PoseCalls::matrices},
       {"hf_pose_set_free_rotations", 4, PoseCalls::free},
       {"hf_pose_set_following", 3, PoseCalls::follow},
+      {"hf_pose_set_rigid_pieces", 2, PoseCalls::rigid},
       {"hf_pose_deform", 8, PoseCalls::deform},
       {"hf_pose_clone", 2, PoseCalls::clone},
       {"hf_pose_create", 1, PoseCalls::make},

@@ -1,12 +1,13 @@
 // The subject of unchanged_solver.cpp and its calls (unchanged_solver_calls.cpp).
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "support/arrays.h"
 #include "support/peers.h"
 #include "unchanged.h"
-#include "support/arrays.h"
 
 namespace unchanged {
 
@@ -37,7 +38,7 @@ struct Lists {
   std::vector<Place> places;
   std::vector<std::uint32_t> vertices;
   std::vector<hf_place> inside;
-  std::vector<double> values, stiffness, radii;
+  std::vector<double> values, stiffness, radii, points;
   hf_sites_desc desc = HF_INIT(hf_sites_desc);
   void finish() {
     for (const Place& p : places) {
@@ -45,7 +46,9 @@ struct Lists {
       inside.push_back(p.place);
     }
     desc.site_count = static_cast<std::uint32_t>(places.size());
-    if (places.empty() || !places[0].inside)
+    if (!points.empty())
+      desc.points = points.data();
+    else if (places.empty() || !places[0].inside)
       desc.vertices = vertices.data();
     else
       desc.places = inside.data();
@@ -180,6 +183,14 @@ class Solvers final : public Subject {
     p.place = place_in(world.shape->triangles.data(), world.shape->count(), triangle, weights);
     return p;
   }
+  // A vertex of a triangle, as a place: the nearest place to its position.
+  Place corner(Random& random) const {
+    Place p;
+    p.inside = true;
+    const std::uint32_t any = random.below(static_cast<std::uint32_t>(world.shape->triangles.size()));
+    p.place = {{world.shape->triangles[any], HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}};
+    return p;
+  }
   std::uint32_t number(const SolverBranch& b, Random& random) const {
     if (b.places.empty() || random.one_in(15)) return random.below(40);
     return std::next(b.places.begin(), random.below(static_cast<std::uint32_t>(b.places.size())))->first;
@@ -195,8 +206,13 @@ class Solvers final : public Subject {
     return list;
   }
   void take_places(Lists& lists, std::size_t count, Random& random, bool adding) const {
-    const bool inside = random.one_in(3);
-    for (std::size_t i = 0; i < count; ++i) lists.places.push_back(place(random, inside));
+    const bool points = !graph_ && random.one_in(5), inside = random.one_in(3);
+    for (std::size_t i = 0; i < count; ++i) {
+      lists.places.push_back(points ? corner(random) : place(random, inside));
+      for (std::uint32_t k = 0; points && k < 3; ++k)
+        lists.points.push_back(static_cast<double>(world.shape->positions[3 * lists.places[i].place.corners[0] + k]));
+    }
+    if (points && count > 0 && random.one_in(12)) lists.points.back() = random.pick({HUGE_VAL, 1e300});  // refused
     if (adding && !random.one_in(6)) lists.values = values(count * channels_, random);
     for (std::size_t i = 0; adding && i < count && (i > 0 ? !lists.stiffness.empty() : random.one_in(4)); ++i)
       lists.stiffness.push_back(random.pick({0.0, 1.0, 1e-3, 1e5, random.number()}));

@@ -14,7 +14,12 @@ void* allocate(void* user, std::size_t size, std::size_t alignment) {
   Allocator& a = *static_cast<Allocator*>(user);
   ++a.calls;
   if (a.cancel_at && a.calls == a.cancel_at) hf_progress_cancel(a.progress);
-  if (a.refuse_at && (a.calls == a.refuse_at || (a.refuse_on && a.calls > a.refuse_at))) return ++a.refused, nullptr;
+  // the library asks again for what it did not get, when it has given back the blocks it kept: that is the same refusal
+  const bool again = a.refused > 0 && a.calls == a.refuse_at + 1 && size == a.refused_size;
+  if (a.refuse_at && (a.calls == a.refuse_at || again || (a.refuse_on && a.calls > a.refuse_at))) {
+    a.refused_size = size;
+    return ++a.refused, nullptr;
+  }
   ++a.live_blocks;
   a.live_bytes += size;
   a.numeric_bytes += alignment == 64 ? size : 0;

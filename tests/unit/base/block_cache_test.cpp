@@ -20,7 +20,7 @@ using hf_inner::Memory;
 
 // A host that knows its blocks. Its allocate refuses beyond `most` bytes, or throws.
 struct Host {
-  std::map<void*, std::size_t> blocks;
+  std::map<void*, std::pair<std::size_t, std::size_t>> blocks;  // bytes, alignment
   std::size_t bytes = 0, most = SIZE_MAX, calls = 0, wrong = 0;
   bool throws = false;
 
@@ -31,14 +31,14 @@ struct Host {
     if (host.throws) throw std::runtime_error("a fault of the host");
     if (host.bytes + bytes > host.most) return nullptr;
     void* const block = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-    host.blocks[block] = bytes;
+    host.blocks[block] = {bytes, alignment};
     host.bytes += bytes;
     return block;
   }
-  static void release(void* user, void* block, std::size_t bytes, std::size_t) {
+  static void release(void* user, void* block, std::size_t bytes, std::size_t alignment) {
     Host& host = *static_cast<Host*>(user);
     const auto found = host.blocks.find(block);
-    if (found == host.blocks.end() || found->second != bytes) {
+    if (found == host.blocks.end() || found->second != std::pair(bytes, alignment)) {
       ++host.wrong;
       return;
     }
@@ -93,6 +93,14 @@ TEST_F(KeptBlocks, serve_the_next_allocation_of_their_size_and_alignment) {
       memory.deallocate(two, bytes, alignment);
     }
   }
+  const std::size_t large[] = {70000, 80000, 90000};
+  void* blocks[3];
+  for (int round = 0; round < 2; ++round) {
+    host.calls = 0;
+    for (int k = 0; k < 3; ++k) blocks[k] = memory.allocate(large[k], 64);
+    for (int k = 0; k < 3; ++k) memory.deallocate(blocks[k], large[k], 64);
+  }
+  EXPECT_EQ(host.calls, 0u);
   use(memory, 1000, 4096);  // an alignment of its own is not kept
   host.calls = 0;
   use(memory, 1000, 4096);

@@ -3,11 +3,13 @@
 
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <random>
 
 #include "assets/creature.h"
 #include "base/error.h"
 #include "cases.h"
+#include "deform/constants.h"
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
 #include "support/dense.h"
@@ -153,6 +155,13 @@ TEST(Following, AtOneTheBitsAreThoseOfTodaysWay) {
   EXPECT_TRUE(same_bits(plain.frame(), back.frame()));
 }
 
+TEST(Following, AShareThatChangesShowsInTheNextFrame) {
+  Drag drag(0.1);
+  drag.body.follow(drag.hand, 1);
+  EXPECT_GT(largest_distance(drag.posed, drag.body.frame()), 1e-3 * drag.body.box);
+  EXPECT_LT(largest_distance(Drag(1).posed, drag.body.settle()), 1e-3 * drag.body.box);
+}
+
 TEST(Following, APullOfTheOthersTakesTheHandAlongAsIfItHadNoPins) {
   Body body;
   for (const char* joint : {"foot_L", "foot_R", "hips", "hand_L", "hand_R"})
@@ -234,6 +243,39 @@ TEST(Following, RemovingTheLastHandleRestoresTheBits) {
   EXPECT_TRUE(same_bits(before, body.settle()));
 }
 
+TEST(Following, RemovingTheLastHandleAfterFramesRestoresTheBitsOfAFreeHand) {
+  Body body;
+  for (const char* joint : {"foot_L", "foot_R", "hand_L"}) body.add(joint, {false, joint[0] == 'h'});
+  body.follow(2, 0.2);
+  body.put(2, {{}, {0, 0.2, 0}});
+  const Surface before = body.settle();
+  const std::uint32_t other = body.add("hand_R");
+  body.put(other, {{}, {0, 0.2, 0}});
+  body.settle();
+  body.pose->remove_handles({&other, 1});
+  EXPECT_TRUE(same_bits(before, body.settle()));
+}
+
+TEST(Following, AHandleThatIsFreedIsFreeWhereThePinsPullTo) {
+  Body body, fresh;
+  for (Body* b : {&body, &fresh}) {
+    for (const char* joint : {"foot_L", "hips", "hand_L"}) b->add(joint, {false, b == &fresh && joint[1] == 'i'});
+    b->follow(2, 0.2);
+    b->put(1, {{}, {0.1, -0.1, 0.05}});
+    b->put(2, {{}, {0, 0.2, 0.1}});
+  }
+  const Surface wanted = fresh.frame();
+  const std::uint32_t hips = 1;
+  body.settle();
+  body.pose->set_free_turns({&hips, 1}, true);
+  EXPECT_TRUE(same_bits(body.frame(true), wanted));
+  body.pose->set_free_turns({&hips, 1}, false);
+  const std::uint32_t other = body.add("hand_R");
+  body.pose->set_free_turns({&hips, 1}, true);
+  body.pose->remove_handles({&other, 1});
+  EXPECT_TRUE(same_bits(body.frame(true), wanted));
+}
+
 TEST(Following, AddedInPlaceAHandleMovesNothing) {
   Body body;
   for (const char* joint : {"foot_L", "foot_R", "hand_L"}) body.add(joint, {false, joint[0] == 'h'});
@@ -280,7 +322,7 @@ struct System {
   std::shared_ptr<const Groups> groups;
   std::unique_ptr<SmoothSystem> smooth;
   std::size_t size = 0;
-  hf_eigen::MatrixXd matrix;  // of the free clusters
+  hf_eigen::MatrixXd matrix, inverse;  // of the free clusters
   System() {
     for (const char* joint : {"foot_L", "foot_R", "hand_L", "hand_R"})
       handles.push_back(
@@ -293,7 +335,7 @@ struct System {
     groups = Groups::with(nullptr, core, rest, Vector<std::int32_t>(1, 0, &memory), default_groups, memory);
     smooth = std::make_unique<SmoothSystem>(core, rest, *weights, *groups, *fields, memory);
     size = static_cast<std::size_t>(smooth->subspace.factor.size());
-    hf_eigen::MatrixXd inverse(size, size);
+    inverse.resize(static_cast<hf_eigen::Index>(size), static_cast<hf_eigen::Index>(size));
     for (std::size_t k = 0; k < size; ++k) {
       std::vector<double> x(4 * size, 0.0);
       x[4 * k] = 1;
@@ -307,7 +349,38 @@ struct System {
   Holds holds(const std::vector<double>& follow) {
     return make_holds({core.mesh, smooth->subspace, *weights, *groups, *fields, *reach, follow}, memory);
   }
+  // Z_f: a column of free unknowns for each pin.
+  hf_eigen::MatrixXd free_parts(const Holds& holds) const {
+    hf_eigen::MatrixXd z = hf_eigen::MatrixXd::Zero(inverse.rows(), static_cast<hf_eigen::Index>(holds.count()));
+    for (hf_eigen::Index j = 0; j < z.cols(); ++j) {
+      for (std::int32_t e = holds.row_start[j]; e < holds.row_start[j + 1]; ++e) {
+        const std::int32_t f = holds.row[e].cluster - smooth->handle_count;
+        for (int a = 0; f >= 0 && a < 4; ++a) z(4 * f + a, j) = holds.row[e].z[a];
+      }
+    }
+    return z;
+  }
 };
+
+TEST(Following, APinIsAsStrongAsTheFieldsAndTheSurfaceSay) {
+  System s;
+  for (const double share : {0.2, 0.0}) {
+    const Holds holds = s.holds({1, 1, share, 0.5});
+    ASSERT_GT(holds.count(), 20u);
+    const hf_eigen::MatrixXd z = s.free_parts(holds);
+    const hf_eigen::VectorXd given = (z.transpose() * s.inverse * z).diagonal();  // by a pin to a unit force
+    std::map<std::int32_t, double> softness;
+    for (std::size_t j = 0; j < holds.count(); ++j)
+      softness[s.core.mesh.component[holds.vertex[j]]] += given(static_cast<hf_eigen::Index>(j));
+    for (std::size_t j = 0; j < holds.count(); ++j) {
+      const std::int32_t v = holds.vertex[j];
+      const double a = s.fields->at(v)[2], b = s.fields->at(v)[3];
+      const double g = hold_strength * (1 - share) / std::max(share, least_following), of_half = hold_strength;
+      const double wanted = std::pow(1 - std::max(a, b), hold_power) * (a * g + b * of_half) / (a + b);
+      EXPECT_NEAR(holds.strength[j] * softness[s.core.mesh.component[v]], wanted, 1e-6 * wanted) << j;
+    }
+  }
+}
 
 TEST(Following, ThePinsSolveTheSystemThatHasThemInItsMatrix) {
   System s;
@@ -323,7 +396,8 @@ TEST(Following, ThePinsSolveTheSystemThatHasThemInItsMatrix) {
   for (double& x : state.target) x = any(random);
   // dense: (L + Z D Z') X = r + Z D (y - Z_h' X_h)
   const hf_eigen::Index size = static_cast<hf_eigen::Index>(s.size), m = static_cast<hf_eigen::Index>(holds.count());
-  hf_eigen::MatrixXd z = hf_eigen::MatrixXd::Zero(size, m), r(size, 3), gap(m, 3);
+  const hf_eigen::MatrixXd z = s.free_parts(holds);
+  hf_eigen::MatrixXd r(size, 3), gap(m, 3);
   for (hf_eigen::Index i = 0; i < size; ++i) {
     for (hf_eigen::Index k = 0; k < 3; ++k) r(i, k) = rows[handles + static_cast<std::size_t>(4 * i + k)];
   }
@@ -333,7 +407,6 @@ TEST(Following, ThePinsSolveTheSystemThatHasThemInItsMatrix) {
       const Holds::Part& part = holds.row[e];
       for (int a = 0; a < 4; ++a) {
         const hf_eigen::Index row = 4 * (part.cluster - s.smooth->handle_count) + a;
-        if (row >= 0) z(row, j) = part.z[a];
         for (int k = 0; row < 0 && k < 3; ++k)
           gap(j, k) -= part.z[a] * rows[static_cast<std::size_t>(16 * part.cluster + 4 * a + k)];
       }
@@ -344,6 +417,13 @@ TEST(Following, ThePinsSolveTheSystemThatHasThemInItsMatrix) {
                            pulled = r + z * strength.asDiagonal() * gap,
                            wanted = hf_test::DenseSolver(with_pins).solve(pulled);
   double* const solved = rows.data() + handles;
+  begin_holds(holds, static_cast<std::size_t>(s.smooth->handle_count), rows.data(), state);
+  gap_before(holds, solved, s.size, state);
+  const hf_eigen::MatrixXd gap_wanted = gap - z.transpose() * s.inverse * r;
+  for (hf_eigen::Index j = 0; j < m; ++j) {
+    for (hf_eigen::Index k = 0; k < 3; ++k)
+      EXPECT_NEAR(state.pull[static_cast<std::size_t>(4 * j + k)], gap_wanted(j, k), 1e-9 * gap.cwiseAbs().maxCoeff());
+  }
   s.smooth->subspace.factor.solve(solved);
   const hf_eigen::MatrixXd plain = hf_test::DenseSolver(s.matrix).solve(r);
   add_holds(holds, rows.data(), solved, s.size, state);

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <map>
 
 #include "base/error.h"
 #include "cases.h"
+#include "deform/constants.h"
 #include "deform/pose_stack.h"
 #include "mesh/link_constants.h"
 #include "support/parts.h"
@@ -97,6 +99,7 @@ TEST(RigidPieces, EdgesKeepTheirLengthsAlsoAfterRefineAndOnLayers) {
   scene.put(middle, {{}, {0, 0.3, 0.3}});
   EXPECT_LT(scene.stretch(scene.frame()), 1e-6);
   EXPECT_LT(scene.stretch(scene.frame(2)), 1e-6);
+  EXPECT_LT(scene.stretch(scene.frame()), 1e-6);
   scene.rigid({});
   EXPECT_GT(scene.stretch(scene.frame()), 1e-3);
 }
@@ -161,6 +164,9 @@ TEST(RigidPieces, ASecondHandleOnAPieceIsRefusedAndNothingChanges) {
   const Surface before = scene.frame(0, false, true);
   expect_conflict([&] { scene.add({scene.end[0], scene.tip[0]}, 1); }, 1);
   expect_conflict([&] { scene.add({scene.blade[5]}); }, 0);
+  const std::uint32_t layered = scene.add({scene.end[0]}, 1);
+  expect_conflict([&] { scene.add({scene.middle[0], scene.end[0]}); }, 1);
+  scene.pose->remove_handles({&layered, 1});
   const std::uint32_t start[3] = {0, 1, 2};
   std::uint32_t numbers[2];
   EXPECT_EQ(scene.pose->handle_count(), 2u);
@@ -174,6 +180,86 @@ TEST(RigidPieces, ASecondHandleOnAPieceIsRefusedAndNothingChanges) {
         fresh.pose->add_handles({start, 3}, two, 0, {numbers, 2});
       },
       1);
+}
+
+// The beam is a piece, too: the region has grown by all of it before the second vertex is read.
+TEST(RigidPieces, TheIndexOfARefusedRegionIsThatOfTheList) {
+  Scene scene;
+  scene.rigid({scene.foot[0], scene.blade[0]});
+  scene.add({scene.blade[0]});
+  expect_conflict([&] { scene.add({scene.foot[0], scene.tip[0]}); }, 1);
+  Scene layered;
+  layered.rigid({layered.blade[0]});
+  layered.add({layered.end[0]}, 1);
+  expect_conflict([&] { layered.add({layered.tip[0], layered.end[0]}); }, 1);
+}
+
+TEST(RigidPieces, EveryPieceIsMadeRigid) {
+  Scene scene;
+  const RigidPieces pieces(*scene.core, Region{scene.foot[0], scene.blade[0], scene.foot[1]}, *scene.core->memory);
+  ASSERT_EQ(pieces.count(), 2u);
+  const Mesh& mesh = scene.core->mesh;
+  Surface x, scratch(pieces.scratch_size());
+  for (const Vec3& inner : mesh.positions) {
+    const Vec3 p = mesh.to_given(inner);
+    x.push_back({p.x, p.y + 0.1 * p.x * p.x, p.z});
+  }
+  pieces.make_rigid(x.data(), scratch.data());
+  const Topology& edges = scene.core->geometry->unlinked().topology;
+  for (std::int32_t e = 0; e < edges.edge_count(); ++e) {
+    const std::int32_t i = edges.first(e), j = edges.second(e);
+    EXPECT_NEAR(norm(x[i] - x[j]), norm(mesh.to_given(mesh.positions[i]) - mesh.to_given(mesh.positions[j])), 1e-9);
+  }
+}
+
+// A rigid fit takes the weighted centroid to the weighted centroid, so the centroid tells the weights.
+TEST(RigidPieces, VerticesOfLinksCountMost) {
+  Scene scene;
+  const Core& core = *scene.core;
+  const RigidPieces pieces(core, Region{scene.blade[0]}, *core.memory);
+  Surface x, scratch(pieces.scratch_size());
+  for (const Vec3& inner : core.mesh.positions) {
+    const Vec3 p = core.mesh.to_given(inner);
+    x.push_back({p.x, p.y + 0.1 * p.x * p.x, p.z});
+  }
+  Surface fitted = x;
+  pieces.make_rigid(fitted.data(), scratch.data());
+  std::map<std::int32_t, double> held;
+  double held_sum = 0, area_sum = 0;
+  const auto hold = [&](std::int32_t v, double weight) {
+    if (v == Mesh::none || pieces.piece_of(v) < 0) return;
+    held[v] += weight;
+    held_sum += weight;
+  };
+  for (const Link& link : core.geometry->links->links) {
+    hold(link.vertex, link.weight);
+    for (int c = 0; c < 3; ++c) hold(link.corner[c], link.weight * link.share[c]);
+  }
+  ASSERT_GT(held_sum, 0);
+  for (const std::int32_t v : scene.blade) area_sum += core.geometry->areas[v];
+  Vec3 off, plain_off;
+  for (const std::int32_t v : scene.blade) {
+    const double area = core.geometry->areas[v] / area_sum;
+    const Vec3 moved = fitted[v] - x[v];
+    off = off + ((1 - rigid_hold_share) * area + rigid_hold_share * held[v] / held_sum) * moved;
+    plain_off = plain_off + area * moved;
+  }
+  EXPECT_LT(norm(off), 1e-7 * scene.box);
+  EXPECT_GT(norm(plain_off), 1e-4 * scene.box);
+}
+
+TEST(RigidPieces, FloatsOfAFrameHaveThem) {
+  Scene scene;
+  scene.add(scene.foot);
+  scene.add(scene.end);
+  scene.put(1, bent);
+  scene.rigid({scene.blade[0]});
+  std::vector<float> floats(3 * static_cast<std::size_t>(scene.core->size()));
+  DeformRequest request;
+  request.packed_positions = floats.data();
+  const DeformReport report = scene.pose->deform(request);
+  for (std::size_t v = 0; report.packed_positions && v < report.positions.size(); ++v)
+    EXPECT_NEAR(static_cast<double>(floats[3 * v + 1]), report.positions[v].y, 1e-5);
 }
 
 TEST(RigidPieces, AHandleWithAPartOfAPieceIsNamed) {
@@ -197,7 +283,7 @@ TEST(RigidPieces, ClonesHaveThem) {
   copy.pose = scene.pose->clone();
   const Surface x = scene.frame(), y = copy.frame();
   EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(Vec3)), 0);
-  copy.add(copy.middle, 1);
+  copy.put(copy.add(copy.middle, 1), {{}, {0, 0.3, 0.3}});
   EXPECT_LT(copy.stretch(copy.frame()), 1e-6);
 }
 

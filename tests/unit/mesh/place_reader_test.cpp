@@ -64,6 +64,13 @@ TEST(PlaceReader, the_position_of_a_vertex_is_the_vertex) {
   }
 }
 
+TEST(PlaceReader, weights_of_single_precision_sum_to_one_afterwards) {
+  const auto core = hf_test::make_core(hf_test::grid(3, 3));
+  const hf_place rounded{{0, 1, 4}, 0, {0.25, 0.25, 0.5 + 4e-7}};
+  const SurfacePlace place = read_place(core->mesh, rounded, 0, "places");
+  EXPECT_NEAR(place.weight[0] + place.weight[1] + place.weight[2], 1, 1e-15);
+}
+
 TEST(PlaceReader, corners_that_are_one_vertex_add_their_weights) {
   const auto core = hf_test::make_core(hf_test::grid(3, 3));
   const hf_place twice{{4, 5, 4}, 0, {0.25, 0.5, 0.25}};
