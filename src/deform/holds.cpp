@@ -8,14 +8,6 @@
 namespace hf_inner {
 namespace {
 
-// Strength of the pins at a share of one half, where all pins together count as one point of the surface. More lets a
-// hand take less of the body along at the same share. A hand pulled up by 0.25 of the box moves the head of eight
-// bipeds by 0.04 to 0.08, with a share of 0.25 by at most 0.03, and 0.039 with a fifth of this.
-constexpr double hold_strength = 6;
-// How fast pins get weaker towards the handle: (1 - field)^power. With 4 the head moves by 0.039.
-constexpr double hold_power = 2;
-// A share below it holds as if it were this: an infinite strength would hold the limb too.
-constexpr double least_following = 0.02;
 // Pins in all, and at least in a component: more hold every limb, fewer take less time and memory.
 constexpr std::int32_t most_holds = 96, least_component_holds = 4;
 

@@ -26,6 +26,15 @@
 
 namespace hf_inner {
 
+// Strength of the pins at a share of one half, where all pins together count as one point of the surface. More lets a
+// hand take less of the body along at the same share. A hand pulled up by 0.25 of the box moves the head of eight
+// bipeds by 0.04 to 0.08, with a share of 0.25 by at most 0.03, and 0.039 with a fifth of this.
+constexpr double hold_strength = 6;
+// How fast pins get weaker towards the handle: (1 - field)^power. With 4 the head moves by 0.039.
+constexpr double hold_power = 2;
+// A share below it holds as if it were this: an infinite strength would hold the limb too.
+constexpr double least_following = 0.02;
+
 struct Holds {
   explicit Holds(Memory& memory)
       : vertex(&memory), row_start(&memory), row(&memory), strength(&memory), system(memory) {}

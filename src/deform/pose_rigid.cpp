@@ -41,9 +41,6 @@ void PoseStack::check_rigid(const RigidPieces& rigid, Span<const std::int32_t> v
              "entry %u is on a piece that handle %u has a part of; remove the handle, and add it again after this call",
              k, entry.number);
     }
-    for (const std::int32_t v : region) {
-      if (const std::int32_t p = rigid.piece_of(v); p >= 0) inside[p] = 0;  // a layer's region may cover the base's
-    }
   }
 }
 
