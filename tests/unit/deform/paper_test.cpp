@@ -34,6 +34,13 @@ struct PaperRig {
   }
 };
 
+// Section 5.2: linear bands between equal steps of the field.
+TEST(PaperScheme, ItsBandsAreThoseOfThePaper) {
+  const auto scheme = hf_test::scheme_of(hf_test::DeformMode::paper);
+  EXPECT_EQ(scheme->bands.degree, 1);
+  EXPECT_EQ(scheme->bands.spacing, BandSpacing::equal_value);
+}
+
 TEST(PaperScheme, FindsARigidMotionOfTheSurfaceAndRestsThere) {
   const PaperRig rig;
   const ClusterWeights& weights = *rig.pose->weights();

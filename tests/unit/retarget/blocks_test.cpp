@@ -29,7 +29,8 @@ struct Blocks {
   Memory memory;
   std::unique_ptr<hf_inner::Character> character;
 
-  explicit Blocks(double hang, double reach = 0.1, double spread = 0) {
+  enum class More { none, elbows, heels };  // heels: helpers at the ends of the shins
+  explicit Blocks(double hang, double reach = 0.1, double spread = 0, More more = More::none) {
     const int body = rig.add("body", -1, {0, 0.4, 0}, Role::spine);
     rig.add_block(body, {-0.3, 0.4, -0.2}, {0.3, 1, 0.2});
     const int head = rig.add("head", body, {0, 1, 0}, Role::head);
@@ -38,12 +39,17 @@ struct Blocks {
       const Side s = side > 0 ? Side::left : Side::right;
       const char* end = side > 0 ? ".l" : ".r";
       const int arm = rig.add(std::string("arm") + end, body, {side * 0.3, 0.9, 0}, Role::arm, s);
-      rig.add_box(arm, {side * 0.3, 0.9, 0}, {side * 0.8, 0.9, 0}, 0.06);
+      rig.add_box(arm, {side * 0.3, 0.9, 0}, {side * (more == More::elbows ? 0.55 : 0.8), 0.9, 0}, 0.06);
+      if (more == More::elbows) {
+        const int fore = rig.add(std::string("fore") + end, arm, {side * 0.55, 0.9, 0}, Role::arm, s);
+        rig.add_box(fore, {side * 0.55, 0.9, 0}, {side * 0.8, 0.9, 0}, 0.06);
+      }
       const int leg = rig.add(std::string("leg") + end, body, {side * 0.15, 0.4, 0}, Role::leg, s);
       if (spread > 0) {  // two bones
         rig.add_block(leg, {side * 0.15 - 0.08, 0.2, -reach}, {side * 0.15 + 0.08, 0.4, reach});
         const int shin = rig.add(std::string("shin") + end, leg, {side * 0.15, 0.2, 0}, Role::leg, s);
         rig.add_block(shin, {side * 0.15 - 0.08, 0, -reach}, {side * 0.15 + 0.08, 0.2, reach});
+        if (more == More::heels) rig.add_helper(std::string("heel") + end, shin, {side * 0.15, 0, 0});
         rig.turn(leg, {0, 0, 1}, side * spread);
       } else {
         rig.add_block(leg, {side * 0.15 - 0.08, 0, -reach}, {side * 0.15 + 0.08, 0.4, reach});
@@ -149,11 +155,31 @@ TEST(Blocks, ALegOfOneBonePointsToTheEndOfTheLegItFollows) {
   const Vec3 thigh{shin[0] - leg[0], shin[1] - leg[1], shin[2] - leg[2]};
   const Vec3 wanted = thigh + 2.0 * source.bone("shin.l", pose), is = target.bone("leg.l", out);
   EXPECT_LT(std::atan2(norm(cross(is, wanted)), dot(is, wanted)) / degree, 1);
+  EXPECT_TRUE(retarget.report().unmatched_source.empty());  // the shin is followed, too
+}
+
+TEST(Blocks, AnArmOfOneBonePointsToTheEndOfTheArmItFollows) {
+  const Blocks source(0, 0.1, 0, Blocks::More::elbows), target(0);
+  Memory memory;
+  hf_inner::RetargetOptions options;
+  options.goals = false;
+  Retarget retarget(source.side(), target.side(), options, memory);
+  std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
+  turn_joint(source, "arm.l", hf_inner::turn_about({0, 1, 0}, 40 * degree), pose);
+  turn_joint(source, "fore.l", hf_inner::turn_about({0, 1, 0}, -100 * degree), pose);
+  retarget.frame(pose.data(), 0, out.data());
+  const auto world = world_of(source.placed->parents, pose.data());
+  const double* arm = &world[12 * static_cast<std::size_t>(source.rig.find("arm.l")) + 9];
+  const double* fore = &world[12 * static_cast<std::size_t>(source.rig.find("fore.l")) + 9];
+  const Vec3 upper{fore[0] - arm[0], fore[1] - arm[1], fore[2] - arm[2]};
+  const Vec3 wanted = upper + 2.0 * source.bone("fore.l", pose), is = target.bone("arm.l", out);
+  EXPECT_LT(std::atan2(norm(cross(is, wanted)), dot(is, wanted)) / degree, 1);
 }
 
 // A shin without a foot stands: its end stays where it is while the body passes over it, at any scale of the travel.
-TEST(Blocks, ALegWithoutAFootStaysWhereItStands) {
-  const Blocks body(0, 0.02, 1e-9);
+class Standing : public testing::TestWithParam<Blocks::More> {};
+TEST_P(Standing, ALegWithoutAFootStaysWhereItStands) {
+  const Blocks body(0, 0.02, 1e-9, GetParam());
   Memory memory;
   hf_inner::RetargetOptions options;
   options.scale = 0.5;
@@ -182,6 +208,8 @@ TEST(Blocks, ALegWithoutAFootStaysWhereItStands) {
   EXPECT_GT(slide(false), 0.1);
   EXPECT_LT(slide(true), 0.1);  // its offset stays below a share of the leg
 }
+
+INSTANTIATE_TEST_SUITE_P(Blocks, Standing, testing::Values(Blocks::More::none, Blocks::More::heels));
 
 TEST(Blocks, LegsOfOneBoneLiftTheBodyOverTheGround) {
   const Blocks source(0), target(70, 0.4);

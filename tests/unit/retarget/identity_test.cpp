@@ -113,6 +113,45 @@ TEST(Identity, AKneeAsideOfItsFootIsABuildAndNoPose) {
   }
 }
 
+// The plane of a knee turns with its foot: a leg that both rest with turned out comes out as the straight one, turned.
+TEST(Identity, TheHingeOfALegTurnsWithItsFoot) {
+  const RigActor slim("mixamo", {}), stout("mixamo", {0.5, 1, 1, 3, Rest::t, 0.15});
+  const auto thigh_of = [](const RigActor& actor) {
+    std::size_t j = 0;
+    while (actor.rig().joints[j].side != Side::left || actor.rig().joints[j].role != Role::leg) ++j;
+    return j;
+  };
+  const auto turned_rest = [&](const RigActor& actor, hf_inner::Turn turn) {
+    std::vector<double> pose = rest_trs(actor.side().input);
+    const auto world = world_of(actor.parents(), pose.data());
+    const auto turn_at = [&](std::size_t k) {
+      const double* p = &world[12 * k];
+      return hf_inner::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
+    };
+    const std::size_t j = thigh_of(actor);
+    const hf_inner::Turn q = inverse(turn_at(static_cast<std::size_t>(actor.parents()[j]))) * (turn * turn_at(j));
+    const double numbers[] = {q.x, q.y, q.z, q.w};
+    std::copy(numbers, numbers + 4, &pose[10 * j + 3]);
+    return pose;
+  };
+  const auto knee_with = [&](hf_inner::Turn turn) {
+    const std::vector<double> a = turned_rest(stout, turn), b = turned_rest(slim, turn);
+    Memory memory;
+    RetargetOptions options;
+    options.goals = false;
+    Retarget retarget({stout.side().input, stout.side().character, a.data()},
+                      {slim.side().input, slim.side().character, b.data()}, options, memory);
+    const auto world = world_of(slim.parents(), run(retarget, a, slim.parents().size()).data());
+    const std::size_t thigh = thigh_of(slim);
+    std::size_t knee = thigh + 1;
+    while (slim.parents()[knee] != static_cast<std::int32_t>(thigh)) ++knee;
+    return place_of(world, knee) - place_of(world, thigh);
+  };
+  const hf_inner::Turn out = hf_inner::turn_about({0, 1, 0}, 0.7);
+  const Vec3 straight = knee_with({}), turned = knee_with(out);
+  EXPECT_LT(norm(turned - out * straight), 0.01 * norm(straight));
+}
+
 // A pose that both name as rest takes the place of what their files rest in.
 TEST(Identity, AnyPoseCanBeNamedAsRest) {
   const RigActor source("mixamo", {}), target("unreal", {1, 1, 1, 3, Rest::a});
