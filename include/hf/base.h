@@ -64,7 +64,7 @@ extern "C" {
 typedef int32_t hf_result;
 enum {
   HF_OK = 0,
-  /* arguments and state */
+
   HF_ERROR_INVALID_ARGUMENT = -1, /* a value outside what the function documents */
   HF_ERROR_NULL_POINTER = -2,     /* a required pointer is NULL */
   HF_ERROR_INVALID_OBJECT = -3,   /* an object is NULL, destroyed or of another kind */
@@ -80,14 +80,14 @@ enum {
   HF_ERROR_BUSY = -12,            /* another thread is changing this object */
   HF_ERROR_REENTRANT = -13,       /* called from inside a callback of the same object */
   HF_ERROR_TOO_SMALL = -14,       /* a capacity or stride is too small */
-  /* resources */
+
   HF_ERROR_OUT_OF_MEMORY = -100, /* the allocator refused; the object is as before */
   HF_ERROR_TOO_LARGE = -101,     /* beyond a limit; the detail names the limit */
   HF_ERROR_CANCELLED = -102,     /* cancelled through the progress object */
-  /* numerical */
+
   HF_ERROR_NOT_POSITIVE_DEFINITE = -200, /* the matrix has a pivot that is not positive: report it with the mesh */
   HF_ERROR_INACCURATE = -201,            /* hf_solver_certify: the field fails its equations */
-  /* internal */
+
   HF_ERROR_INTERNAL = -300 /* a fault of the library; destroy the object */
 };
 

@@ -23,7 +23,7 @@ class HfError(Exception):
 
 
 class InvalidArgumentError(HfError, ValueError):
-    """a value outside what the function documents arguments and state"""
+    """a value outside what the function documents"""
     code = _raw.HF_ERROR_INVALID_ARGUMENT
 
 
@@ -93,7 +93,7 @@ class TooSmallError(HfError, ValueError):
 
 
 class OutOfMemoryError(HfError, MemoryError):
-    """the allocator refused; the object is as before resources"""
+    """the allocator refused; the object is as before"""
     code = _raw.HF_ERROR_OUT_OF_MEMORY
 
 
@@ -108,7 +108,7 @@ class CancelledError(HfError):
 
 
 class NotPositiveDefiniteError(HfError, ArithmeticError):
-    """the matrix has a pivot that is not positive: report it with the mesh numerical"""
+    """the matrix has a pivot that is not positive: report it with the mesh"""
     code = _raw.HF_ERROR_NOT_POSITIVE_DEFINITE
 
 
@@ -118,7 +118,7 @@ class InaccurateError(HfError, ArithmeticError):
 
 
 class InternalError(HfError):
-    """internal a fault of the library; destroy the object"""
+    """a fault of the library; destroy the object"""
     code = _raw.HF_ERROR_INTERNAL
 
 
