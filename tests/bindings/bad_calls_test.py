@@ -1,5 +1,6 @@
 """The mistakes that need no thought, for every function of the ABI, made from its description (bindings/api.json): a handle that is
-NULL, destroyed or of another kind; NULL for a pointer that is needed, and for one that is not; a struct of the wrong size.
+NULL, destroyed, of another kind or no handle; NULL for a pointer that is needed, and for one that is not; a struct, or one that a
+struct points to, of the wrong size, and one of a newer header. No refused call changes an object.
 
 A new function is in all of them with no hand work. Calls go through ctypes, past what the package checks.
 """
@@ -23,6 +24,7 @@ NULL_POINTER, INVALID_HANDLE, INVALID_DESC = "HF_ERROR_NULL_POINTER", "HF_ERROR_
 ROOM = 1 << 16  # bytes behind every pointer: more than any call on the small mesh writes
 # other arguments are zeros: where the library reads those first, it refuses them first
 SOONER = ("HF_ERROR_INVALID_ARGUMENT", "HF_ERROR_EMPTY")
+FAR_SIZES = (0, 1, 4, 4999, 1 << 31, (1 << 32) - 1)  # no struct has one of them
 
 
 def objects():
@@ -45,7 +47,13 @@ def objects():
               "hf_transfer": lambda: hf.Transfer(surface, surface)}
     for name in HANDLES - made.keys():  # what is made on a surface alone needs no line here
         made[name] = makers[name]() if name in makers else getattr(hf, "".join(w.title() for w in name[3:].split("_")))(surface)
+    made["hf_direction"].add_sites([0], [[1.0, 0.0, 0.0]])
     return made
+
+
+def is_sized(p):
+    """Whether a parameter or a field points to a struct that says its size."""
+    return p["pointer"] and p["type"] in STRUCTS and STRUCTS[p["type"]]["fields"][0]["name"] == "struct_size"
 
 
 class Calls(unittest.TestCase):
@@ -54,6 +62,19 @@ class Calls(unittest.TestCase):
         cls.live, cls.stale = objects(), objects()
         for thing in cls.stale.values():
             thing.close()
+
+    def state(self):
+        """What the objects say, to the bit."""
+        def bits(part):
+            if isinstance(part, dict):
+                return {key: bits(value) for key, value in part.items()}
+            if isinstance(part, (tuple, list)):
+                return [bits(value) for value in part]
+            return bytes(part) if isinstance(part, ctypes.Structure) else np.asarray(part).tobytes()
+
+        live = self.live
+        return bits([live["hf_solver"].solve(), live["hf_direction"].solve(), live["hf_pose"].deform(), live["hf_weights"].get(),
+                     live["hf_region"].vertices(), live["hf_surface"].report])
 
     def arguments(self, function):
         """Arguments that are right in form: live handles, zeroed memory behind every pointer, structs with their size."""
@@ -84,20 +105,22 @@ class Calls(unittest.TestCase):
                     if kind(p):
                         yield function, place, p
 
-    def test_a_handle_that_is_null_or_destroyed_or_of_another_kind_is_refused_by_every_function(self):
-        rows = 0
+    def test_what_is_no_live_handle_of_its_kind_is_refused_by_every_function(self):
+        rows, before, memory = 0, self.state(), (ctypes.c_uint8 * ROOM)()
+        no_handles = [(1 << 8 * ctypes.sizeof(ctypes.c_void_p)) - 1, 1, ctypes.addressof(memory)]
         for function, place, p in self.each(lambda p: p["type"] in HANDLES and not p["pointer"]):
-            wrong = [self.stale[p["type"]].raw_handle, self.live["hf_pose" if p["type"] != "hf_pose" else "hf_solver"].raw_handle]
-            for handle in wrong + ([] if p.get("optional") else [None]):
+            others = [thing.raw_handle for kind, thing in self.live.items() if kind != p["type"]]
+            for handle in [self.stale[p["type"]].raw_handle, *others, *no_handles] + ([] if p.get("optional") else [None]):
                 keep, values = self.arguments(function)
                 values[place] = handle
                 with self.subTest(function=function["name"], parameter=p["name"], handle=handle):
                     self.assertEqual(self.code(function, values), INVALID_HANDLE)
                 rows += 1
-        self.assertGreater(rows, 200)
+        self.assertGreater(rows, 2000)
+        self.assertEqual(self.state(), before)
 
     def test_null_for_a_pointer_that_is_needed_is_refused_by_every_function(self):
-        rows = exact = 0
+        rows, exact, before = 0, 0, self.state()
         for function, place, p in self.each(lambda p: p["pointer"] and not p.get("optional")):
             keep, values = self.arguments(function)
             values[place] = None
@@ -111,6 +134,7 @@ class Calls(unittest.TestCase):
             rows += 1
         self.assertGreater(rows, 60)
         self.assertGreater(exact, 0.8 * rows)
+        self.assertEqual(self.state(), before)
 
     def test_null_for_a_pointer_that_may_be_left_out_is_never_called_null(self):
         rows = 0
@@ -125,20 +149,55 @@ class Calls(unittest.TestCase):
             rows += 1
         self.assertGreater(rows, 60)
 
-    def test_a_struct_of_the_wrong_size_is_refused_by_every_function(self):
-        rows = exact = 0
-        for function, place, p in self.each(lambda p: p["pointer"] and p["type"] in STRUCTS and
-                                            STRUCTS[p["type"]]["fields"][0]["name"] == "struct_size"):
-            for size in (0, 3):
-                keep, values = self.arguments(function)
-                ctypes.c_uint32.from_address(values[place]).value = size
-                with self.subTest(function=function["name"], parameter=p["name"], size=size):
+    def structs(self):
+        """(function, parameter, values, address of a struct) for each struct with a size that a call takes or points to."""
+        for function, place, p in self.each(is_sized):
+            for field in [None, *filter(is_sized, STRUCTS[p["type"]]["fields"])]:
+                if field and field["name"] == "move_to":  # a count of 0 skips this part of an edit
+                    continue
+                def call():
+                    keep, values = self.arguments(function)
+                    if not field:
+                        return keep, values, values[place], p["type"]
+                    inner = (ctypes.c_uint8 * ROOM)()
+                    parent = getattr(_raw, p["type"])
+                    setattr(parent.from_address(values[place]), field["name"], ctypes.addressof(inner))
+                    return [keep, inner], values, ctypes.addressof(inner), field["type"]
+                yield function, p["name"] + ("->" + field["name"] if field else ""), call
+
+    def test_a_struct_of_the_wrong_size_or_with_an_unknown_byte_is_refused_by_every_function(self):
+        rows, exact, before = 0, 0, self.state()
+        for function, name, call in self.structs():
+            own = ctypes.sizeof(getattr(_raw, call()[3]))
+            for size, byte in [(size, 0) for size in (*FAR_SIZES, own // 2, own - 1)] + [(own + n, 1) for n in (1, 8, 64)]:
+                keep, values, at, _ = call()
+                ctypes.c_uint32.from_address(at).value = size
+                if byte:
+                    ctypes.c_uint8.from_address(at + size - 1).value = byte
+                with self.subTest(function=function["name"], parameter=name, size=size):
                     code = self.code(function, values)
                     self.assertIn(code, (INVALID_DESC, *SOONER))
                     exact += code == INVALID_DESC
                 rows += 1
-        self.assertGreater(rows, 100)
+        self.assertGreater(rows, 900)
         self.assertGreater(exact, 0.8 * rows)
+        self.assertEqual(self.state(), before)
+
+    def test_a_longer_struct_of_zeros_is_taken_and_its_unknown_part_stays(self):
+        rows = taken = 0
+        for function, name, call in self.structs():
+            keep, values, at, kind = call()
+            own = ctypes.sizeof(getattr(_raw, kind))
+            ctypes.c_uint32.from_address(at).value = own + 24
+            with self.subTest(function=function["name"], parameter=name):
+                code = self.code(function, values)
+                self.assertNotEqual(code, INVALID_DESC)
+                self.assertEqual(ctypes.c_uint32.from_address(at).value, own + 24)
+                self.assertFalse(any(ctypes.string_at(at + own, 24)))
+                taken += code == "HF_OK"
+            rows += 1
+        self.assertGreater(rows, 80)
+        self.assertGreater(taken, 0.3 * rows)
 
 
 if __name__ == "__main__":
