@@ -272,18 +272,9 @@ static int starts_with_name(const char* call, const char* name) {
          (call[length] == '(' || call[length] == '\0' || call[length] == ':' || call[length] == ' ');
 }
 
-void count_row(const char* call) {
-  ++rows.count;
-  const char* const log = getenv("HF_ROWS_LOG");
-  FILE* file = log ? fopen(log, "a") : NULL;
-  if (!file) return;
-  fprintf(file, "%.*s\n", (int)strcspn(call, "(: ,"), call);
-  fclose(file);
-}
-
 void check_row(int line, const char* what, const char* call, hf_result got, hf_result expected, uint32_t index) {
   hf_error_detail detail;
-  count_row(call);
+  ++rows.count;
   if (got != expected) {
     ++rows.failures;
     print_error("row at line %d, %s, %s: got %s, expected %s\n", line, call, what, hf_result_get_name(got),

@@ -103,9 +103,6 @@ void give_kept_back(hf_surface surface);
 /* One row of a bad-input table: checks code, index and that the detail names the function and says something on one
  * line. call: the text of the call, whose first word is the function. Failures are printed and counted. */
 void check_row(int line, const char* what, const char* call, hf_result got, hf_result expected, uint32_t index);
-/* Counts a row of a function that answers no code; row_holds says what must hold. With HF_ROWS_LOG in the environment
- * the function of every row is appended to that file (tests/reliability/arguments.sh). */
-void count_row(const char* call);
 typedef struct Rows {
   unsigned count, failures;
 } Rows;

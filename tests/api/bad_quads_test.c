@@ -329,7 +329,6 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
   do {                                                                                                \
     for (size_t b = 0; b < COUNT_OF(bad); ++b) {                                                      \
       function(bad[b]);                                                                               \
-      count_row(#function);                                                                           \
       row_holds(__LINE__, #function, "the live objects go on",                                        \
                 hf_solver_get_site_count(solver) == 0 && hf_solver_release_preview(solver) == HF_OK); \
     }                                                                                                 \
@@ -349,7 +348,6 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
 #define COUNTS_NOTHING(function)                                               \
   do {                                                                         \
     for (size_t b = 0; b < COUNT_OF(bad); ++b) {                               \
-      count_row(#function);                                                    \
       row_holds(__LINE__, #function, "the count is 0", function(bad[b]) == 0); \
     }                                                                          \
   } while (0)
@@ -357,9 +355,7 @@ static void what_is_no_handle_is_ignored_by_every_destroy_and_counts_as_nothing(
   COUNTS_NOTHING(hf_pose_get_handle_count);
   COUNTS_NOTHING(hf_direction_get_site_count);
   check_row(__LINE__, "no output", "hf_progress_create", hf_progress_create(NULL), HF_ERROR_NULL_POINTER, NO_INDEX);
-  count_row("hf_error_get_detail");
   row_holds(__LINE__, "hf_error_get_detail", "no output is named", hf_error_get_detail(NULL) == HF_ERROR_NULL_POINTER);
-  count_row("hf_result_get_name");
   row_holds(__LINE__, "hf_result_get_name", "no such code is unknown",
             strcmp(hf_result_get_name(12345), "unknown") == 0);
   finish_rows("destroys and counts");

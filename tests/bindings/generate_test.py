@@ -18,7 +18,7 @@ import plan
 TOY = """
 /* Writes the mean of the values of all sites. out_mean: receives the mean. Errors: HF_ERROR_EMPTY. Thread safety: reads
  * `solver`. Since 0.1. */
-HF_API hf_result hf_solver_get_mean(hf_solver solver, double* out_mean);
+HF_API hf_result hf_solver_get_toy_mean(hf_solver solver, double* out_mean);
 
 /* Shifts sites by a vector for each. sites: uint32_t[site_count]. vectors: double[site_count][3] in the unit of the mesh.
  * Thread safety: changes `solver`. Since 0.1. */
@@ -52,7 +52,7 @@ class OneDescription(unittest.TestCase):
     def test_a_toy_function_is_in_every_raw_layer(self):
         made = generate.files(with_toy(self.folder))
         for name in ("functions.txt", "api.json", "python/hf/_raw.py", "js/src/raw.js", "csharp/Hf/Raw.cs", "rust/src/raw.rs", "../include/hf/hf.hpp"):
-            self.assertIn("hf_solver_get_mean", made[name], name)
+            self.assertIn("hf_solver_get_toy_mean", made[name], name)
 
     def test_a_toy_function_is_a_method_of_python_that_is_called_with_arrays(self):
         made = generate.files(with_toy(self.folder))
@@ -74,7 +74,7 @@ class OneDescription(unittest.TestCase):
             if name.startswith("js/"):
                 (self.folder / name).write_text(text)
         types = (self.folder / "js/src/index.d.ts").read_text()
-        self.assertIn("  readonly mean: number;", types)
+        self.assertIn("  readonly toyMean: number;", types)
         self.assertIn("  shiftSites(sites: Rows, vectors: Rows): void;", types)
         (self.folder / "js/src/call_toy.mjs").write_text(CALL_JS)
         subprocess.run([node, self.folder / "js/src/call_toy.mjs"], check=True)
@@ -138,7 +138,7 @@ class OneDescription(unittest.TestCase):
         parse_headers.read_api(with_toy(self.folder, many % " More than 16 fields: they are one vector."))
 
     def test_what_a_comment_leaves_open_is_refused_by_name(self):
-        cases = {"hf_solver_get_mean, out_mean: how many?": TOY.replace("out_mean: receives the mean. ", ""),
+        cases = {"hf_solver_get_toy_mean, out_mean: how many?": TOY.replace("out_mean: receives the mean. ", ""),
                  "hf_solver_shift_sites, vectors: how many?": TOY.replace("vectors: double[site_count][3] ", "vectors: "),
                  "what is angle_count?": TOY.replace("double[site_count][3]", "double[angle_count][3]"),
                  "its name starts with out_": TOY.replace("out_mean", "mean")}
@@ -161,7 +161,7 @@ from hf import _library
 
 class Stub:
     """A library with the two functions alone."""
-    def hf_solver_get_mean(self, handle, out):
+    def hf_solver_get_toy_mean(self, handle, out):
         out._obj.value = handle + 0.5
         return 0
     def hf_solver_shift_sites(self, handle, count, sites, vectors):
@@ -177,10 +177,10 @@ stub = Stub()
 _library.library = lambda: stub
 solver = hf.Solver.__new__(hf.Solver)
 solver._handle = 2
-assert solver.mean == 2.5
+assert solver.toy_mean == 2.5
 assert solver.words() == "two", solver.words()
-assert hf.Solver.mean.__doc__.startswith("Writes the mean of the values of all sites."), hf.Solver.mean.__doc__
-assert "EmptyError" in hf.Solver.mean.__doc__
+assert hf.Solver.toy_mean.__doc__.startswith("Writes the mean of the values of all sites."), hf.Solver.toy_mean.__doc__
+assert "EmptyError" in hf.Solver.toy_mean.__doc__
 solver.shift_sites([4, 5], [[1, 2, 3], [4, 5, 6]])
 assert stub.got == (2, [1, 2, 3, 4, 5, 6]), stub.got
 try:
@@ -205,7 +205,7 @@ const stub = {
   newHandle: () => new BigUint64Array(1),
   call(name, args) {
     if (name === 'hf_version_get') return 1000;
-    if (name === 'hf_solver_get_mean') args[1].array[0] = 2.5;
+    if (name === 'hf_solver_get_toy_mean') args[1].array[0] = 2.5;
     else if (name === 'hf_solver_shift_sites') got = [args[1], [...args[2].array], [...args[3].array]];
     else if (name === 'hf_solver_get_words') {
       args[3].array[0] = 4n;
@@ -216,7 +216,7 @@ const stub = {
 };
 const hf = makeApi(stub);
 const solver = new hf.Solver(new hf.Surface([0, 0, 0], [0, 0, 0]));
-assert.equal(solver.mean, 2.5);
+assert.equal(solver.toyMean, 2.5);
 assert.equal(solver.words(), 'two');
 solver.shiftSites([4, 5], [1, 2, 3, 4, 5, 6]);
 assert.deepEqual(got, [2, [4, 5], [1, 2, 3, 4, 5, 6]]);
@@ -233,7 +233,7 @@ int32_t hf_surface_create(const void* desc, void** out) { *out = (void*)8; retur
 void hf_surface_destroy(void* surface) {}
 int32_t hf_create(void* surface, const void* desc, void** out) { *out = (void*)16; return 0; }
 void hf_solver_destroy(void* solver) {}
-int32_t hf_solver_get_mean(void* solver, double* out_mean) { *out_mean = 2.5; return 0; }
+int32_t hf_solver_get_toy_mean(void* solver, double* out_mean) { *out_mean = 2.5; return 0; }
 int32_t hf_solver_get_words(void* solver, size_t capacity, char* out_text, size_t* out_size) {
   *out_size = 4;
   if (capacity) memcpy(out_text, "two", 4);
@@ -253,7 +253,7 @@ static class Toy
     static void Main()
     {
         var solver = new Solver(new Surface(new float[3], new uint[3]));
-        if (solver.Mean != 2.5 || solver.Words() != "two") throw new Exception("the mean, or the words");
+        if (solver.ToyMean != 2.5 || solver.Words() != "two") throw new Exception("the mean, or the words");
         solver.ShiftSites(new uint[] { 4, 5 }, new double[] { 1, 2, 3, 4, 5, 6 });
         try { solver.ShiftSites(new uint[] { 4, 5 }, new double[] { 1, 2, 3, 4 }); }
         catch (HfException error)
@@ -270,7 +270,7 @@ CALL_RS = '''
 fn main() -> hf::Result<()> {
     let surface = hf::Surface::new(&[0f32; 3], &[0u32; 3], &hf::SurfaceOptions::default())?;
     let mut solver = hf::Solver::new(&surface, &hf::SolverOptions::default())?;
-    assert_eq!((solver.mean()?, solver.words()?.as_str()), (2.5, "two"));
+    assert_eq!((solver.toy_mean()?, solver.words()?.as_str()), (2.5, "two"));
     solver.shift_sites(&[4, 5], &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0])?;
     let refused = solver.shift_sites(&[4, 5], &[1.0, 2.0, 3.0, 4.0]).unwrap_err();
     assert_eq!(refused.message, "vectors must hold 6 entries, not 4");
@@ -285,7 +285,7 @@ CALL_CPP = '''
 int main() {
   const hf::Surface surface(std::vector<float>(3), std::vector<uint32_t>(3));
   hf::Solver solver(surface);
-  if (solver.mean() != 2.5 || solver.words() != "two") return 1;
+  if (solver.toy_mean() != 2.5 || solver.words() != "two") return 1;
   solver.shift_sites({4, 5}, {1, 2, 3, 4, 5, 6});
   try {
     solver.shift_sites({4, 5}, {1, 2, 3, 4});
