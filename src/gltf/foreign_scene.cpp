@@ -1,0 +1,415 @@
+// foreign_glb_here() of foreign_file.h: the scene that assimp reads becomes a model, and the writer makes a GLB of it.
+//
+// assimp's own writer of glTF is not used: it makes one skin for all meshes and keeps four joints of a vertex.
+// Lengths: an FBX file states its unit in centimetres, COLLADA in metres (assimp scales the root by it), BVH has none.
+// The unit is multiplied into places, bind matrices and keys, so that no node scales for it.
+#ifdef HF_GLTF_ASSIMP
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "gltf/file_bytes.h"
+#include "gltf/foreign_file.h"
+#include "gltf/gltf_read.h"
+#include "gltf/gltf_write.h"
+
+namespace hf_gltf {
+namespace {
+
+// How far a matrix may be from the product of its parts, by its largest entry: above the rounding of floats.
+constexpr double shear_tolerance = 1e-5;
+// What assimp means by 0 ticks a second.
+constexpr double default_ticks = 25;
+
+glm::vec3 vec(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+std::string text_of(const aiString& s) { return printable({s.C_Str(), s.length}); }
+
+class SceneModel {
+ public:
+  SceneModel(const aiScene& scene, FileKind kind, const std::string& name, std::vector<std::string>& warnings)
+      : scene_(scene), fbx_(kind == FileKind::fbx), warnings_(warnings) {
+    model_.name = name;
+    set_root(kind);
+  }
+
+  Model run() {
+    add_materials();
+    add_node(*scene_.mRootNode, -1, 0);
+    for (const auto& [node, mesh] : surfaces_) add_surfaces(node, *mesh);
+    for (unsigned m = 0; m < scene_.mNumAnimations; ++m) add_clip(*scene_.mAnimations[m]);
+    if (lost_bones_) warnings_.push_back(std::to_string(lost_bones_) + " bones of skins name no node; they are left out");
+    if (lost_channels_)
+      warnings_.push_back(std::to_string(lost_channels_) +
+                          " curves are left out: they move a pivot, or no node or several have their name");
+    if (lost_faces_) warnings_.push_back(std::to_string(lost_faces_) + " points and lines are left out");
+    return std::move(model_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw std::runtime_error(model_.name + ": " + what); }
+
+  void set_root(FileKind kind) {
+    root_ = scene_.mRootNode->mTransformation;
+    if (kind == FileKind::dae) {
+      unit_ = static_cast<float>(std::sqrt(root_.a1 * root_.a1 + root_.b1 * root_.b1 + root_.c1 * root_.c1));
+      if (!(unit_ > 0) || !std::isfinite(unit_)) unit_ = 1;
+      const aiMatrix4x4 whole(aiVector3D(1 / unit_, 1 / unit_, 1 / unit_), aiQuaternion(), aiVector3D());
+      root_ = root_ * whole;
+    }
+    if (!fbx_) return;
+    root_ = aiMatrix4x4();  // newer releases of assimp put the axes there, older ones do not
+    if (!scene_.mMetaData) return;
+    float centimetres = 1;
+    double exact = 1;
+    if (scene_.mMetaData->Get("UnitScaleFactor", exact)) centimetres = static_cast<float>(exact);
+    scene_.mMetaData->Get("UnitScaleFactor", centimetres);
+    unit_ = centimetres > 0 && std::isfinite(centimetres) ? 0.01f * centimetres : 0.01f;
+    aiMatrix4x4 axes;
+    const char* names[3][2] = {{"CoordAxis", "CoordAxisSign"}, {"UpAxis", "UpAxisSign"}, {"FrontAxis", "FrontAxisSign"}};
+    for (unsigned row = 0; row < 3; ++row) {
+      int32_t axis = static_cast<int32_t>(row), sign = 1;
+      scene_.mMetaData->Get(names[row][0], axis);
+      scene_.mMetaData->Get(names[row][1], sign);
+      for (unsigned c = 0; c < 3; ++c) axes[row][c] = static_cast<int32_t>(c) == axis ? (sign < 0 ? -1.0f : 1.0f) : 0.0f;
+    }
+    if (axes.Determinant() > 0.5f)
+      root_ = axes;
+    else
+      warnings_.push_back("its axes are not right-handed; y is taken as up");
+  }
+
+  glm::dmat4 matrix_of(const aiMatrix4x4& m) const {
+    glm::dmat4 out;
+    for (unsigned row = 0; row < 4; ++row)
+      for (unsigned c = 0; c < 4; ++c)
+        out[static_cast<int>(c)][static_cast<int>(row)] = static_cast<double>(m[row][c]) * (c == 3 && row < 3 ? unit_ : 1);
+    return out;
+  }
+
+  void place(Node& node, const aiMatrix4x4& local) const {
+    aiVector3D scale, place;
+    aiQuaternion turn;
+    local.Decompose(scale, turn, place);
+    const aiMatrix4x4 again(scale, turn, place);
+    double largest = 0, error = 0;
+    for (unsigned row = 0; row < 4; ++row)
+      for (unsigned c = 0; c < 4; ++c) {
+        largest = std::max(largest, std::fabs(static_cast<double>(local[row][c])));
+        error = std::max(error, std::fabs(static_cast<double>(local[row][c] - again[row][c])));
+      }
+    node.translation = glm::dvec3(vec(place)) * static_cast<double>(unit_);
+    node.rotation = {turn.w, turn.x, turn.y, turn.z};
+    node.scale = vec(scale);
+    if (!(error <= shear_tolerance * largest)) node.matrix = matrix_of(local);
+  }
+
+  void add_node(const aiNode& from, int parent, uint32_t depth) {
+    const ReadLimits limits;
+    if (depth > limits.max_node_depth || model_.nodes.size() >= limits.max_nodes)
+      fail("has more nodes, or deeper ones, than are read");
+    int self = parent;
+    // the root of FBX stands for the file alone
+    if (parent >= 0 || !fbx_ || from.mNumMeshes > 0 || root_ != aiMatrix4x4()) {
+      self = static_cast<int>(model_.nodes.size());
+      Node& node = model_.nodes.emplace_back();
+      node.name = text_of(from.mName);
+      place(node, depth == 0 ? root_ : from.mTransformation);
+      attach(self, parent);
+      const auto [known, is_new] = by_name_.emplace(from.mName.C_Str(), self);
+      if (!is_new) known->second = -1;
+      if (from.mNumMeshes > 0) surfaces_.emplace_back(self, &from);
+    }
+    for (unsigned c = 0; c < from.mNumChildren; ++c) add_node(*from.mChildren[c], self, depth + 1);
+  }
+
+  void attach(int self, int parent) {
+    model_.nodes[static_cast<size_t>(self)].parent = parent;
+    if (parent >= 0)
+      model_.nodes[static_cast<size_t>(parent)].children.push_back(self);
+    else
+      model_.scene_roots.push_back(self);
+  }
+
+  int node_named(const aiString& name) const {
+    const auto found = by_name_.find(name.C_Str());
+    return found == by_name_.end() ? -1 : found->second;
+  }
+
+  void add_materials() {
+    size_t textured = 0;
+    for (unsigned m = 0; m < scene_.mNumMaterials; ++m) {
+      const aiMaterial& from = *scene_.mMaterials[m];
+      Material material;
+      aiString name;
+      if (from.Get(AI_MATKEY_NAME, name) == AI_SUCCESS) material.name = text_of(name);
+      aiColor4D color(1, 1, 1, 1);
+      if (from.Get(AI_MATKEY_BASE_COLOR, color) != AI_SUCCESS) from.Get(AI_MATKEY_COLOR_DIFFUSE, color);
+      material.base_color = glm::clamp(glm::vec4(color.r, color.g, color.b, 1), 0.0f, 1.0f);
+      material.metallic = 0;
+      int both = 0;
+      material.double_sided = from.Get(AI_MATKEY_TWOSIDED, both) == AI_SUCCESS && both != 0;
+      for (int kind = aiTextureType_DIFFUSE; kind <= AI_TEXTURE_TYPE_MAX; ++kind)
+        if (from.GetTextureCount(static_cast<aiTextureType>(kind)) > 0) {
+          ++textured;
+          break;
+        }
+      model_.materials.push_back(material);
+    }
+    if (textured)
+      warnings_.push_back("textures are not kept; " + std::to_string(textured) + " materials keep their colour alone");
+  }
+
+  // The meshes of a node, those with the same skin and as many shape keys together. All but the first such group hang
+  // on nodes of their own.
+  void add_surfaces(int node, const aiNode& from) {
+    int holder = node;
+    std::vector<const aiMesh*> left;
+    for (unsigned m = 0; m < from.mNumMeshes; ++m) left.push_back(scene_.mMeshes[from.mMeshes[m]]);
+    while (!left.empty()) {
+      MeshData mesh;
+      Skin skin;
+      std::unordered_map<int, size_t> slots;
+      std::vector<const aiMesh*> others;
+      const aiMesh& first = *left.front();
+      mesh.name = text_of(first.mName);
+      for (unsigned t = 0; t < first.mNumAnimMeshes; ++t) {
+        mesh.weights.push_back(first.mAnimMeshes[t]->mWeight);
+        mesh.target_names.push_back(text_of(first.mAnimMeshes[t]->mName));
+      }
+      for (const aiMesh* part : left) {
+        if ((part->mNumBones > 0) != (first.mNumBones > 0) || part->mNumAnimMeshes != first.mNumAnimMeshes ||
+            !take_bones(*part, skin, slots))
+          others.push_back(part);
+        else if (Primitive made = primitive_of(*part, node, skin, slots); !made.indices.empty())
+          mesh.primitives.push_back(std::move(made));
+      }
+      left = std::move(others);
+      if (mesh.primitives.empty()) continue;
+      if (holder < 0) {
+        holder = static_cast<int>(model_.nodes.size());
+        model_.nodes.emplace_back().name = mesh.name;
+        attach(holder, node);
+      }
+      Node& to = model_.nodes[static_cast<size_t>(holder)];
+      to.mesh = static_cast<int>(model_.meshes.size());
+      if (!skin.joints.empty()) {
+        to.skin = static_cast<int>(model_.skins.size());
+        model_.skins.push_back(std::move(skin));
+      }
+      model_.meshes.push_back(std::move(mesh));
+      holder = -1;
+    }
+  }
+
+  // False, and nothing is taken, if a joint has another bind matrix there already.
+  bool take_bones(const aiMesh& mesh, Skin& skin, std::unordered_map<int, size_t>& slots) {
+    Skin grown = skin;
+    std::unordered_map<int, size_t> more = slots;
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+      const int joint = node_named(mesh.mBones[b]->mName);
+      if (joint < 0) continue;
+      const glm::mat4 inverse_bind(matrix_of(mesh.mBones[b]->mOffsetMatrix));
+      const auto before = slots.find(joint);
+      if (before != slots.end() && skin.inverse_bind[before->second] != inverse_bind) return false;
+      if (!more.emplace(joint, grown.joints.size()).second) continue;
+      grown.joints.push_back(joint);
+      grown.inverse_bind.push_back(inverse_bind);
+    }
+    skin = std::move(grown);
+    slots = std::move(more);
+    return true;
+  }
+
+  // The eight heaviest joints of every vertex. One without any stays with the node, which becomes a joint then.
+  std::vector<Influences> influences_of(const aiMesh& mesh, int node, Skin& skin,
+                                        std::unordered_map<int, size_t>& slots) {
+    std::vector<std::vector<std::pair<float, size_t>>> all(mesh.mNumVertices);
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+      const aiBone& bone = *mesh.mBones[b];
+      const int joint = node_named(bone.mName);
+      if (joint < 0) {
+        lost_bones_ += bone.mNumWeights > 0;
+        continue;
+      }
+      for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+        const aiVertexWeight& weight = bone.mWeights[w];
+        if (weight.mVertexId < mesh.mNumVertices && weight.mWeight > 0)
+          all[weight.mVertexId].emplace_back(weight.mWeight, slots.at(joint));
+      }
+    }
+    std::vector<Influences> out(mesh.mNumVertices);
+    for (size_t v = 0; v < all.size(); ++v) {
+      std::vector<std::pair<float, size_t>>& of = all[v];
+      if (of.empty()) {
+        const auto [slot, is_new] = slots.emplace(node, skin.joints.size());
+        if (is_new) {
+          skin.joints.push_back(node);
+          skin.inverse_bind.emplace_back(1);
+        }
+        of.emplace_back(1.0f, slot->second);
+      }
+      std::stable_sort(of.begin(), of.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+      of.resize(std::min(of.size(), out[v].weights.size()));
+      float sum = 0;
+      for (const auto& [weight, slot] : of) sum += weight;
+      for (size_t k = 0; k < of.size(); ++k) {
+        out[v].weights[k] = of[k].first / sum;
+        out[v].joints[k] = static_cast<uint16_t>(of[k].second);
+      }
+    }
+    return out;
+  }
+
+  // Triangles alone. assimp gives every corner a vertex; those that agree in all bits become one.
+  Primitive primitive_of(const aiMesh& mesh, int node, Skin& skin, std::unordered_map<int, size_t>& slots) {
+    std::vector<Influences> influences;
+    if (mesh.mNumBones > 0) influences = influences_of(mesh, node, skin, slots);
+    Primitive out;
+    out.material = mesh.mMaterialIndex < model_.materials.size() ? static_cast<int>(mesh.mMaterialIndex) : -1;
+    out.texcoords.resize(mesh.HasTextureCoords(0) ? 1 : 0);
+    out.targets.resize(mesh.mNumAnimMeshes);
+    std::unordered_map<std::string, uint32_t> seen;
+    std::string key;
+    const auto put = [&](const auto& value) { key.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    const auto vertex = [&](unsigned v) {
+      key.clear();
+      put(mesh.mVertices[v]);
+      if (mesh.HasNormals()) put(mesh.mNormals[v]);
+      if (mesh.HasTextureCoords(0)) put(mesh.mTextureCoords[0][v]);
+      if (mesh.HasVertexColors(0)) put(mesh.mColors[0][v]);
+      if (!influences.empty()) put(influences[v]);
+      for (size_t t = 0; t < out.targets.size(); ++t) put(shape_key(mesh, t, v));
+      const auto [found, is_new] = seen.emplace(key, static_cast<uint32_t>(out.positions.size()));
+      if (!is_new) return found->second;
+      out.positions.push_back(vec(mesh.mVertices[v]) * unit_);
+      if (mesh.HasNormals()) out.normals.push_back(vec(mesh.mNormals[v]));
+      if (mesh.HasTextureCoords(0))
+        out.texcoords[0].emplace_back(mesh.mTextureCoords[0][v].x, 1 - mesh.mTextureCoords[0][v].y);
+      if (mesh.HasVertexColors(0)) {
+        const aiColor4D& c = mesh.mColors[0][v];
+        out.colors.emplace_back(c.r, c.g, c.b, c.a);
+      }
+      if (!influences.empty()) out.influences.push_back(influences[v]);
+      for (size_t t = 0; t < out.targets.size(); ++t) out.targets[t].positions.push_back(shape_key(mesh, t, v) * unit_);
+      return found->second;
+    };
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      const bool whole = face.mNumIndices == 3 && std::all_of(face.mIndices, face.mIndices + 3, [&](unsigned v) {
+                           return v < mesh.mNumVertices;
+                         });
+      lost_faces_ += !whole;
+      for (unsigned c = 0; whole && c < 3; ++c) out.indices.push_back(vertex(face.mIndices[c]));
+    }
+    return out;
+  }
+
+  static glm::vec3 shape_key(const aiMesh& mesh, size_t target, unsigned v) {
+    const aiAnimMesh& moved = *mesh.mAnimMeshes[target];
+    return moved.mVertices && v < moved.mNumVertices ? vec(moved.mVertices[v] - mesh.mVertices[v]) : glm::vec3(0);
+  }
+
+  // Takes the keys whose times increase. values(k, out) appends key k.
+  template <typename Key, typename Values>
+  void add_channel(Animation& clip, int node, Path path, double ticks, const Key* keys, unsigned count, size_t width,
+                   Values&& values) const {
+    Channel channel;
+    channel.node = node;
+    channel.path = path;
+    channel.width = width;
+    for (unsigned k = 0; k < count; ++k) {
+      const auto time = static_cast<float>(keys[k].mTime / ticks);
+      if (!(time >= 0) || (!channel.times.empty() && time <= channel.times.back())) continue;
+      channel.times.push_back(time);
+      values(keys[k], channel.values);
+    }
+    if (!channel.times.empty()) clip.channels.push_back(std::move(channel));
+  }
+
+  void add_clip(const aiAnimation& from) {
+    Animation clip;
+    clip.name = text_of(from.mName);
+    const double ticks = from.mTicksPerSecond != 0 ? from.mTicksPerSecond : default_ticks;
+    std::unordered_map<int, bool> moved;
+    for (unsigned c = 0; c < from.mNumChannels; ++c) {
+      const aiNodeAnim& of = *from.mChannels[c];
+      const int node = node_named(of.mNodeName);
+      if (node < 0 || !moved.emplace(node, true).second) {
+        ++lost_channels_;
+        continue;
+      }
+      model_.nodes[static_cast<size_t>(node)].matrix.reset();
+      const auto put = [](std::vector<float>& out, const glm::vec3& v) { out.insert(out.end(), {v.x, v.y, v.z}); };
+      add_channel(clip, node, Path::translation, ticks, of.mPositionKeys, of.mNumPositionKeys, 3,
+                  [&](const aiVectorKey& key, auto& out) { put(out, vec(key.mValue) * unit_); });
+      add_channel(clip, node, Path::rotation, ticks, of.mRotationKeys, of.mNumRotationKeys, 4,
+                  [](const aiQuatKey& key, auto& out) {
+                    const aiQuaternion& q = key.mValue;
+                    out.insert(out.end(), {q.x, q.y, q.z, q.w});
+                  });
+      add_channel(clip, node, Path::scale, ticks, of.mScalingKeys, of.mNumScalingKeys, 3,
+                  [&](const aiVectorKey& key, auto& out) { put(out, vec(key.mValue)); });
+    }
+    for (unsigned c = 0; c < from.mNumMorphMeshChannels; ++c) add_shape_keys(clip, *from.mMorphMeshChannels[c], ticks);
+    if (!clip.channels.empty()) model_.animations.push_back(std::move(clip));
+  }
+
+  // The curves of shape keys stand under the node's name, a star and a number.
+  void add_shape_keys(Animation& clip, const aiMeshMorphAnim& of, double ticks) {
+    const std::string name(of.mName.C_Str());
+    const int node = node_named(aiString(name.substr(0, name.rfind('*'))));
+    const int mesh = node < 0 ? -1 : model_.nodes[static_cast<size_t>(node)].mesh;
+    const size_t width = mesh < 0 ? 0 : model_.meshes[static_cast<size_t>(mesh)].weights.size();
+    if (width == 0) {
+      ++lost_channels_;
+      return;
+    }
+    std::vector<float> weights = model_.meshes[static_cast<size_t>(mesh)].weights;
+    add_channel(clip, node, Path::weights, ticks, of.mKeys, of.mNumKeys, width, [&](const aiMeshMorphKey& key, auto& out) {
+      for (unsigned i = 0; i < key.mNumValuesAndWeights; ++i)
+        if (key.mValues[i] < width) weights[key.mValues[i]] = static_cast<float>(key.mWeights[i]);
+      out.insert(out.end(), weights.begin(), weights.end());
+    });
+  }
+
+  const aiScene& scene_;
+  const bool fbx_;
+  std::vector<std::string>& warnings_;
+  Model model_;
+  aiMatrix4x4 root_;
+  float unit_ = 1;
+  std::unordered_map<std::string, int> by_name_;  // -1: several nodes have the name
+  std::vector<std::pair<int, const aiNode*>> surfaces_;
+  size_t lost_bones_ = 0, lost_channels_ = 0, lost_faces_ = 0;
+};
+
+const char* hint_of(FileKind kind) { return kind == FileKind::fbx ? "fbx" : kind == FileKind::dae ? "dae" : "bvh"; }
+
+}  // namespace
+
+std::string foreign_glb_here(const std::vector<uint8_t>& bytes, FileKind kind, const std::string& name,
+                             std::vector<std::string>& warnings) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_CAMERAS, false);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_LIGHTS, false);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  // from memory: assimp opens no file
+  const aiScene* scene =
+      importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, hint_of(kind));
+  const std::string error = importer.GetErrorString();
+  if (error.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+  if (!scene || !scene->mRootNode)
+    throw std::runtime_error(name + ": is not accepted by assimp: " + printable(error).substr(0, 400) + "; " +
+                             advice_on(FileKind::usd));
+  return gltf_bytes(SceneModel(*scene, kind, name, warnings).run(), true);
+}
+
+}  // namespace hf_gltf
+#endif
