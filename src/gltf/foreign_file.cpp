@@ -140,7 +140,8 @@ std::vector<uint8_t> foreign_glb(const std::vector<uint8_t>& bytes, FileKind kin
     fail("takes more than " + std::to_string(memory >> 20) + " MB to read, it may be damaged" + way_on);
   if (text.substr(0, 1) == std::string(1, refused)) throw std::runtime_error(text.substr(1));
   const size_t glb = text.find('\0');
-  if (text.empty() || WIFSIGNALED(status) || glb == std::string::npos) fail("assimp fails on it, it may be damaged" + way_on);
+  if (text.empty() || WIFSIGNALED(status) || glb == std::string::npos)
+    fail("assimp fails on it, it may be damaged" + way_on);
   for (size_t at = 1; at < glb;) {
     const size_t end = text.find('\n', at);
     warnings.push_back(text.substr(at, end - at));

@@ -10,10 +10,13 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <map>
 #include <new>
 #include <stdexcept>
 #include <unordered_map>
 
+#include "gltf/animate.h"
+#include "gltf/clip_binding.h"
 #include "gltf/file_bytes.h"
 #include "gltf/foreign_file.h"
 #include "gltf/gltf_read.h"
@@ -22,13 +25,40 @@
 namespace hf_gltf {
 namespace {
 
-// How far a matrix may be from the product of its parts, by its largest entry: above the rounding of floats.
-constexpr double shear_tolerance = 1e-5;
+// How far a matrix may be from the product of its parts, and a joint from where its skin was bound, by the largest
+// entry: above the rounding of floats.
+constexpr double rounding = 1e-5;
 // What assimp means by 0 ticks a second.
 constexpr double default_ticks = 25;
 
 glm::vec3 vec(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 std::string text_of(const aiString& s) { return printable({s.C_Str(), s.length}); }
+
+double largest_entry(const glm::dmat4& m) {
+  double out = 0;
+  for (int c = 0; c < 4; ++c)
+    for (int row = 0; row < 4; ++row) out = std::max(out, std::fabs(m[c][row]));
+  return out;
+}
+
+bool agree(const glm::dmat4& a, const glm::dmat4& b) {
+  return largest_entry(a - b) <= rounding * std::max(largest_entry(a), largest_entry(b));
+}
+
+glm::dmat4 local_of(const Node& node) {
+  Model one;
+  one.nodes.push_back(node);
+  one.nodes[0].mesh = -1;
+  return local_matrix(rest_pose(one)[0]);
+}
+
+// As translation, rotation and scale; as a matrix where it shears.
+void place(Node& node, const glm::dmat4& local) {
+  node.matrix = local;
+  Node parts = node;
+  split_matrix(parts);
+  if (agree(local_of(parts), local)) node = parts;
+}
 
 class SceneModel {
  public:
@@ -42,11 +72,16 @@ class SceneModel {
     add_materials();
     add_node(*scene_.mRootNode, -1, 0);
     for (const auto& [node, mesh] : surfaces_) add_surfaces(node, *mesh);
+    if (fbx_) rest_where_bound();
     for (unsigned m = 0; m < scene_.mNumAnimations; ++m) add_clip(*scene_.mAnimations[m]);
-    if (lost_bones_) warnings_.push_back(std::to_string(lost_bones_) + " bones of skins name no node; they are left out");
+    if (lost_bones_)
+      warnings_.push_back(std::to_string(lost_bones_) + " bones of skins name no node; they are left out");
     if (lost_channels_)
       warnings_.push_back(std::to_string(lost_channels_) +
-                          " curves are left out: they move a pivot, or no node or several have their name");
+                          " curves are left out: they move a pivot, or no node has their name");
+    if (shared_names_)
+      warnings_.push_back(std::to_string(shared_names_) +
+                          " nodes have the name of another; a clip may move the wrong one");
     if (lost_faces_) warnings_.push_back(std::to_string(lost_faces_) + " points and lines are left out");
     return std::move(model_);
   }
@@ -71,12 +106,14 @@ class SceneModel {
     scene_.mMetaData->Get("UnitScaleFactor", centimetres);
     unit_ = centimetres > 0 && std::isfinite(centimetres) ? 0.01f * centimetres : 0.01f;
     aiMatrix4x4 axes;
-    const char* names[3][2] = {{"CoordAxis", "CoordAxisSign"}, {"UpAxis", "UpAxisSign"}, {"FrontAxis", "FrontAxisSign"}};
+    const char* names[3][2] = {
+        {"CoordAxis", "CoordAxisSign"}, {"UpAxis", "UpAxisSign"}, {"FrontAxis", "FrontAxisSign"}};
     for (unsigned row = 0; row < 3; ++row) {
       int32_t axis = static_cast<int32_t>(row), sign = 1;
       scene_.mMetaData->Get(names[row][0], axis);
       scene_.mMetaData->Get(names[row][1], sign);
-      for (unsigned c = 0; c < 3; ++c) axes[row][c] = static_cast<int32_t>(c) == axis ? (sign < 0 ? -1.0f : 1.0f) : 0.0f;
+      for (unsigned c = 0; c < 3; ++c)
+        axes[row][c] = static_cast<int32_t>(c) == axis ? (sign < 0 ? -1.0f : 1.0f) : 0.0f;
     }
     if (axes.Determinant() > 0.5f)
       root_ = axes;
@@ -88,25 +125,9 @@ class SceneModel {
     glm::dmat4 out;
     for (unsigned row = 0; row < 4; ++row)
       for (unsigned c = 0; c < 4; ++c)
-        out[static_cast<int>(c)][static_cast<int>(row)] = static_cast<double>(m[row][c]) * (c == 3 && row < 3 ? unit_ : 1);
+        out[static_cast<int>(c)][static_cast<int>(row)] =
+            static_cast<double>(m[row][c]) * (c == 3 && row < 3 ? unit_ : 1);
     return out;
-  }
-
-  void place(Node& node, const aiMatrix4x4& local) const {
-    aiVector3D scale, place;
-    aiQuaternion turn;
-    local.Decompose(scale, turn, place);
-    const aiMatrix4x4 again(scale, turn, place);
-    double largest = 0, error = 0;
-    for (unsigned row = 0; row < 4; ++row)
-      for (unsigned c = 0; c < 4; ++c) {
-        largest = std::max(largest, std::fabs(static_cast<double>(local[row][c])));
-        error = std::max(error, std::fabs(static_cast<double>(local[row][c] - again[row][c])));
-      }
-    node.translation = glm::dvec3(vec(place)) * static_cast<double>(unit_);
-    node.rotation = {turn.w, turn.x, turn.y, turn.z};
-    node.scale = vec(scale);
-    if (!(error <= shear_tolerance * largest)) node.matrix = matrix_of(local);
   }
 
   void add_node(const aiNode& from, int parent, uint32_t depth) {
@@ -115,14 +136,15 @@ class SceneModel {
       fail("has more nodes, or deeper ones, than are read");
     int self = parent;
     // the root of FBX stands for the file alone
-    if (parent >= 0 || !fbx_ || from.mNumMeshes > 0 || root_ != aiMatrix4x4()) {
+    if (depth > 0 || !fbx_ || from.mNumMeshes > 0 || root_ != aiMatrix4x4()) {
       self = static_cast<int>(model_.nodes.size());
       Node& node = model_.nodes.emplace_back();
       node.name = text_of(from.mName);
-      place(node, depth == 0 ? root_ : from.mTransformation);
+      place(node, matrix_of(depth == 0 ? root_ : from.mTransformation));
       attach(self, parent);
       const auto [known, is_new] = by_name_.emplace(from.mName.C_Str(), self);
-      if (!is_new) known->second = -1;
+      shared_names_ += !is_new;
+      if (!is_new && from.mNumMeshes == 0) known->second = self;  // a bone under an object of its name
       if (from.mNumMeshes > 0) surfaces_.emplace_back(self, &from);
     }
     for (unsigned c = 0; c < from.mNumChildren; ++c) add_node(*from.mChildren[c], self, depth + 1);
@@ -165,31 +187,37 @@ class SceneModel {
       warnings_.push_back("textures are not kept; " + std::to_string(textured) + " materials keep their colour alone");
   }
 
-  // The meshes of a node, those with the same skin and as many shape keys together. All but the first such group hang
-  // on nodes of their own.
+  static bool have_one_rig(const aiMesh& a, const aiMesh& b) {
+    bool out = a.mNumBones == b.mNumBones && a.mNumAnimMeshes == b.mNumAnimMeshes;
+    for (unsigned k = 0; out && k < a.mNumBones; ++k)
+      out = a.mBones[k]->mName == b.mBones[k]->mName && a.mBones[k]->mOffsetMatrix == b.mBones[k]->mOffsetMatrix;
+    return out;
+  }
+
+  // The meshes of a node, one for each material. Those that follow with the same bones become one; others hang on nodes
+  // of their own.
   void add_surfaces(int node, const aiNode& from) {
     int holder = node;
-    std::vector<const aiMesh*> left;
-    for (unsigned m = 0; m < from.mNumMeshes; ++m) left.push_back(scene_.mMeshes[from.mMeshes[m]]);
-    while (!left.empty()) {
+    for (unsigned m = 0; m < from.mNumMeshes;) {
+      const aiMesh& first = *scene_.mMeshes[from.mMeshes[m]];
       MeshData mesh;
-      Skin skin;
-      std::unordered_map<int, size_t> slots;
-      std::vector<const aiMesh*> others;
-      const aiMesh& first = *left.front();
       mesh.name = text_of(first.mName);
       for (unsigned t = 0; t < first.mNumAnimMeshes; ++t) {
         mesh.weights.push_back(first.mAnimMeshes[t]->mWeight);
         mesh.target_names.push_back(text_of(first.mAnimMeshes[t]->mName));
       }
-      for (const aiMesh* part : left) {
-        if ((part->mNumBones > 0) != (first.mNumBones > 0) || part->mNumAnimMeshes != first.mNumAnimMeshes ||
-            !take_bones(*part, skin, slots))
-          others.push_back(part);
-        else if (Primitive made = primitive_of(*part, node, skin, slots); !made.indices.empty())
-          mesh.primitives.push_back(std::move(made));
+      Skin skin;
+      std::unordered_map<int, size_t> slots;  // of joints in the skin
+      for (unsigned b = 0; b < first.mNumBones; ++b) {
+        const int joint = node_named(first.mBones[b]->mName);
+        if (joint >= 0 && slots.emplace(joint, skin.joints.size()).second) {
+          skin.joints.push_back(joint);
+          skin.inverse_bind.emplace_back(matrix_of(first.mBones[b]->mOffsetMatrix));
+        }
       }
-      left = std::move(others);
+      for (; m < from.mNumMeshes && have_one_rig(first, *scene_.mMeshes[from.mMeshes[m]]); ++m)
+        if (Primitive part = primitive_of(*scene_.mMeshes[from.mMeshes[m]], node, skin, slots); !part.indices.empty())
+          mesh.primitives.push_back(std::move(part));
       if (mesh.primitives.empty()) continue;
       if (holder < 0) {
         holder = static_cast<int>(model_.nodes.size());
@@ -198,32 +226,12 @@ class SceneModel {
       }
       Node& to = model_.nodes[static_cast<size_t>(holder)];
       to.mesh = static_cast<int>(model_.meshes.size());
-      if (!skin.joints.empty()) {
-        to.skin = static_cast<int>(model_.skins.size());
-        model_.skins.push_back(std::move(skin));
-      }
       model_.meshes.push_back(std::move(mesh));
       holder = -1;
+      if (skin.joints.empty()) continue;
+      to.skin = static_cast<int>(model_.skins.size());
+      model_.skins.push_back(std::move(skin));
     }
-  }
-
-  // False, and nothing is taken, if a joint has another bind matrix there already.
-  bool take_bones(const aiMesh& mesh, Skin& skin, std::unordered_map<int, size_t>& slots) {
-    Skin grown = skin;
-    std::unordered_map<int, size_t> more = slots;
-    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
-      const int joint = node_named(mesh.mBones[b]->mName);
-      if (joint < 0) continue;
-      const glm::mat4 inverse_bind(matrix_of(mesh.mBones[b]->mOffsetMatrix));
-      const auto before = slots.find(joint);
-      if (before != slots.end() && skin.inverse_bind[before->second] != inverse_bind) return false;
-      if (!more.emplace(joint, grown.joints.size()).second) continue;
-      grown.joints.push_back(joint);
-      grown.inverse_bind.push_back(inverse_bind);
-    }
-    skin = std::move(grown);
-    slots = std::move(more);
-    return true;
   }
 
   // The eight heaviest joints of every vertex. One without any stays with the node, which becomes a joint then.
@@ -301,9 +309,8 @@ class SceneModel {
     };
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
-      const bool whole = face.mNumIndices == 3 && std::all_of(face.mIndices, face.mIndices + 3, [&](unsigned v) {
-                           return v < mesh.mNumVertices;
-                         });
+      const bool whole = face.mNumIndices == 3 && std::all_of(face.mIndices, face.mIndices + 3,
+                                                              [&](unsigned v) { return v < mesh.mNumVertices; });
       lost_faces_ += !whole;
       for (unsigned c = 0; whole && c < 3; ++c) out.indices.push_back(vertex(face.mIndices[c]));
     }
@@ -313,6 +320,32 @@ class SceneModel {
   static glm::vec3 shape_key(const aiMesh& mesh, size_t target, unsigned v) {
     const aiAnimMesh& moved = *mesh.mAnimMeshes[target];
     return moved.mVertices && v < moved.mNumVertices ? vec(moved.mVertices[v] - mesh.mVertices[v]) : glm::vec3(0);
+  }
+
+  // The nodes of an FBX file stand as they did when it was saved, in the middle of a clip perhaps. Joints go to where
+  // their skins were bound. There the surface has the shape that it is stored in.
+  void rest_where_bound() {
+    const std::vector<glm::dmat4> before = global_matrices(model_, rest_pose(model_));
+    std::unordered_map<int, glm::dmat4> bound;
+    for (const auto& [node, mesh] : surfaces_) {
+      const int skin = model_.nodes[static_cast<size_t>(node)].skin;
+      if (skin < 0) continue;
+      const Skin& of = model_.skins[static_cast<size_t>(skin)];
+      for (size_t j = 0; j < of.joints.size(); ++j)
+        if (glm::dmat4 bind(of.inverse_bind[j]); std::fabs(glm::determinant(bind)) > 0)
+          bound.emplace(of.joints[j], before[static_cast<size_t>(node)] * glm::inverse(bind));
+    }
+    std::vector<glm::dmat4> worlds = before;
+    for (size_t n = 0; n < model_.nodes.size(); ++n) {  // parents stand before children
+      Node& node = model_.nodes[n];
+      const glm::dmat4 parent = node.parent < 0 ? glm::dmat4(1) : worlds[static_cast<size_t>(node.parent)];
+      worlds[n] = parent * local_of(node);
+      const auto to = bound.find(static_cast<int>(n));
+      if (to == bound.end() || agree(worlds[n], to->second)) continue;
+      saved_.emplace(static_cast<int>(n), node);
+      place(node, glm::inverse(parent) * to->second);
+      worlds[n] = to->second;
+    }
   }
 
   // Takes the keys whose times increase. values(k, out) appends key k.
@@ -344,7 +377,7 @@ class SceneModel {
         ++lost_channels_;
         continue;
       }
-      model_.nodes[static_cast<size_t>(node)].matrix.reset();
+      split_matrix(model_.nodes[static_cast<size_t>(node)]);
       const auto put = [](std::vector<float>& out, const glm::vec3& v) { out.insert(out.end(), {v.x, v.y, v.z}); };
       add_channel(clip, node, Path::translation, ticks, of.mPositionKeys, of.mNumPositionKeys, 3,
                   [&](const aiVectorKey& key, auto& out) { put(out, vec(key.mValue) * unit_); });
@@ -356,8 +389,28 @@ class SceneModel {
       add_channel(clip, node, Path::scale, ticks, of.mScalingKeys, of.mNumScalingKeys, 3,
                   [&](const aiVectorKey& key, auto& out) { put(out, vec(key.mValue)); });
     }
+    // what a clip does not move stands as it was saved
+    for (const auto& [node, saved] : saved_)
+      if (!moved.count(node)) hold(clip, node, saved);
     for (unsigned c = 0; c < from.mNumMorphMeshChannels; ++c) add_shape_keys(clip, *from.mMorphMeshChannels[c], ticks);
     if (!clip.channels.empty()) model_.animations.push_back(std::move(clip));
+  }
+
+  void hold(Animation& clip, int node, const Node& saved) const {
+    if (saved.matrix || model_.nodes[static_cast<size_t>(node)].matrix) return;
+    const auto add = [&](Path path, std::vector<float> values) {
+      Channel channel;
+      channel.node = node;
+      channel.path = path;
+      channel.width = values.size();
+      channel.times = {0};
+      channel.values = std::move(values);
+      clip.channels.push_back(std::move(channel));
+    };
+    const glm::vec3 place(saved.translation);
+    add(Path::translation, {place.x, place.y, place.z});
+    add(Path::rotation, {saved.rotation.x, saved.rotation.y, saved.rotation.z, saved.rotation.w});
+    add(Path::scale, {saved.scale.x, saved.scale.y, saved.scale.z});
   }
 
   // The curves of shape keys stand under the node's name, a star and a number.
@@ -371,11 +424,12 @@ class SceneModel {
       return;
     }
     std::vector<float> weights = model_.meshes[static_cast<size_t>(mesh)].weights;
-    add_channel(clip, node, Path::weights, ticks, of.mKeys, of.mNumKeys, width, [&](const aiMeshMorphKey& key, auto& out) {
-      for (unsigned i = 0; i < key.mNumValuesAndWeights; ++i)
-        if (key.mValues[i] < width) weights[key.mValues[i]] = static_cast<float>(key.mWeights[i]);
-      out.insert(out.end(), weights.begin(), weights.end());
-    });
+    add_channel(clip, node, Path::weights, ticks, of.mKeys, of.mNumKeys, width,
+                [&](const aiMeshMorphKey& key, auto& out) {
+                  for (unsigned i = 0; i < key.mNumValuesAndWeights; ++i)
+                    if (key.mValues[i] < width) weights[key.mValues[i]] = static_cast<float>(key.mWeights[i]);
+                  out.insert(out.end(), weights.begin(), weights.end());
+                });
   }
 
   const aiScene& scene_;
@@ -384,9 +438,10 @@ class SceneModel {
   Model model_;
   aiMatrix4x4 root_;
   float unit_ = 1;
-  std::unordered_map<std::string, int> by_name_;  // -1: several nodes have the name
+  std::unordered_map<std::string, int> by_name_;
   std::vector<std::pair<int, const aiNode*>> surfaces_;
-  size_t lost_bones_ = 0, lost_channels_ = 0, lost_faces_ = 0;
+  std::map<int, Node> saved_;  // joints as they stood before they went to where they were bound
+  size_t shared_names_ = 0, lost_bones_ = 0, lost_channels_ = 0, lost_faces_ = 0;
 };
 
 const char* hint_of(FileKind kind) { return kind == FileKind::fbx ? "fbx" : kind == FileKind::dae ? "dae" : "bvh"; }
@@ -401,8 +456,7 @@ std::string foreign_glb_here(const std::vector<uint8_t>& bytes, FileKind kind, c
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_LIGHTS, false);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   // from memory: assimp opens no file
-  const aiScene* scene =
-      importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, hint_of(kind));
+  const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, hint_of(kind));
   const std::string error = importer.GetErrorString();
   if (error.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
   if (!scene || !scene->mRootNode)
