@@ -8,6 +8,7 @@
 
 #include "common/limits.h"
 #include "gltf/file_name.h"
+#include "gltf/gltf_write.h"
 
 namespace samples {
 
@@ -271,6 +272,8 @@ TransferCommand parse_command(int count, char** arguments) {
     if (out.frames.empty()) throw std::runtime_error("--out-poses is needed: the folder for the frames; see --help");
   } else if (out.output.empty()) {
     throw std::runtime_error("-o is needed: the file to write (or --out-poses, a folder of meshes); see --help");
+  } else {
+    is_binary_name(out.output);  // refuses other formats before the work
   }
   return out;
 }
