@@ -19,6 +19,7 @@
 #include "gltf/clip_binding.h"
 #include "gltf/file_bytes.h"
 #include "gltf/foreign_file.h"
+#include "gltf/foreign_mesh.h"
 #include "gltf/gltf_read.h"
 #include "gltf/gltf_write.h"
 
@@ -31,7 +32,6 @@ constexpr double rounding = 1e-5;
 // What assimp means by 0 ticks a second.
 constexpr double default_ticks = 25;
 
-glm::vec3 vec(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 std::string text_of(const aiString& s) { return printable({s.C_Str(), s.length}); }
 
 double largest_entry(const glm::dmat4& m) {
@@ -207,16 +207,17 @@ class SceneModel {
         mesh.target_names.push_back(text_of(first.mAnimMeshes[t]->mName));
       }
       Skin skin;
-      std::unordered_map<int, size_t> slots;  // of joints in the skin
       for (unsigned b = 0; b < first.mNumBones; ++b) {
         const int joint = node_named(first.mBones[b]->mName);
-        if (joint >= 0 && slots.emplace(joint, skin.joints.size()).second) {
+        if (joint < 0) {
+          lost_bones_ += first.mBones[b]->mNumWeights > 0;
+        } else if (std::find(skin.joints.begin(), skin.joints.end(), joint) == skin.joints.end()) {
           skin.joints.push_back(joint);
           skin.inverse_bind.emplace_back(matrix_of(first.mBones[b]->mOffsetMatrix));
         }
       }
       for (; m < from.mNumMeshes && have_one_rig(first, *scene_.mMeshes[from.mMeshes[m]]); ++m)
-        if (Primitive part = primitive_of(*scene_.mMeshes[from.mMeshes[m]], node, skin, slots); !part.indices.empty())
+        if (Primitive part = part_of(*scene_.mMeshes[from.mMeshes[m]], node, skin); !part.indices.empty())
           mesh.primitives.push_back(std::move(part));
       if (mesh.primitives.empty()) continue;
       if (holder < 0) {
@@ -234,92 +235,12 @@ class SceneModel {
     }
   }
 
-  // The eight heaviest joints of every vertex. One without any stays with the node, which becomes a joint then.
-  std::vector<Influences> influences_of(const aiMesh& mesh, int node, Skin& skin,
-                                        std::unordered_map<int, size_t>& slots) {
-    std::vector<std::vector<std::pair<float, size_t>>> all(mesh.mNumVertices);
-    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
-      const aiBone& bone = *mesh.mBones[b];
-      const int joint = node_named(bone.mName);
-      if (joint < 0) {
-        lost_bones_ += bone.mNumWeights > 0;
-        continue;
-      }
-      for (unsigned w = 0; w < bone.mNumWeights; ++w) {
-        const aiVertexWeight& weight = bone.mWeights[w];
-        if (weight.mVertexId < mesh.mNumVertices && weight.mWeight > 0)
-          all[weight.mVertexId].emplace_back(weight.mWeight, slots.at(joint));
-      }
-    }
-    std::vector<Influences> out(mesh.mNumVertices);
-    for (size_t v = 0; v < all.size(); ++v) {
-      std::vector<std::pair<float, size_t>>& of = all[v];
-      if (of.empty()) {
-        const auto [slot, is_new] = slots.emplace(node, skin.joints.size());
-        if (is_new) {
-          skin.joints.push_back(node);
-          skin.inverse_bind.emplace_back(1);
-        }
-        of.emplace_back(1.0f, slot->second);
-      }
-      std::stable_sort(of.begin(), of.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-      of.resize(std::min(of.size(), out[v].weights.size()));
-      float sum = 0;
-      for (const auto& [weight, slot] : of) sum += weight;
-      for (size_t k = 0; k < of.size(); ++k) {
-        out[v].weights[k] = of[k].first / sum;
-        out[v].joints[k] = static_cast<uint16_t>(of[k].second);
-      }
-    }
-    return out;
-  }
-
-  // Triangles alone. assimp gives every corner a vertex; those that agree in all bits become one.
-  Primitive primitive_of(const aiMesh& mesh, int node, Skin& skin, std::unordered_map<int, size_t>& slots) {
-    std::vector<Influences> influences;
-    if (mesh.mNumBones > 0) influences = influences_of(mesh, node, skin, slots);
-    Primitive out;
+  Primitive part_of(const aiMesh& mesh, int node, Skin& skin) {
+    ForeignMesh part{mesh, node, unit_, [this](const char* name) { return node_named(aiString(name)); }};
+    Primitive out = foreign_primitive(part, skin);
     out.material = mesh.mMaterialIndex < model_.materials.size() ? static_cast<int>(mesh.mMaterialIndex) : -1;
-    out.texcoords.resize(mesh.HasTextureCoords(0) ? 1 : 0);
-    out.targets.resize(mesh.mNumAnimMeshes);
-    std::unordered_map<std::string, uint32_t> seen;
-    std::string key;
-    const auto put = [&](const auto& value) { key.append(reinterpret_cast<const char*>(&value), sizeof value); };
-    const auto vertex = [&](unsigned v) {
-      key.clear();
-      put(mesh.mVertices[v]);
-      if (mesh.HasNormals()) put(mesh.mNormals[v]);
-      if (mesh.HasTextureCoords(0)) put(mesh.mTextureCoords[0][v]);
-      if (mesh.HasVertexColors(0)) put(mesh.mColors[0][v]);
-      if (!influences.empty()) put(influences[v]);
-      for (size_t t = 0; t < out.targets.size(); ++t) put(shape_key(mesh, t, v));
-      const auto [found, is_new] = seen.emplace(key, static_cast<uint32_t>(out.positions.size()));
-      if (!is_new) return found->second;
-      out.positions.push_back(vec(mesh.mVertices[v]) * unit_);
-      if (mesh.HasNormals()) out.normals.push_back(vec(mesh.mNormals[v]));
-      if (mesh.HasTextureCoords(0))
-        out.texcoords[0].emplace_back(mesh.mTextureCoords[0][v].x, 1 - mesh.mTextureCoords[0][v].y);
-      if (mesh.HasVertexColors(0)) {
-        const aiColor4D& c = mesh.mColors[0][v];
-        out.colors.emplace_back(c.r, c.g, c.b, c.a);
-      }
-      if (!influences.empty()) out.influences.push_back(influences[v]);
-      for (size_t t = 0; t < out.targets.size(); ++t) out.targets[t].positions.push_back(shape_key(mesh, t, v) * unit_);
-      return found->second;
-    };
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      const bool whole = face.mNumIndices == 3 && std::all_of(face.mIndices, face.mIndices + 3,
-                                                              [&](unsigned v) { return v < mesh.mNumVertices; });
-      lost_faces_ += !whole;
-      for (unsigned c = 0; whole && c < 3; ++c) out.indices.push_back(vertex(face.mIndices[c]));
-    }
+    lost_faces_ += part.lost_faces;
     return out;
-  }
-
-  static glm::vec3 shape_key(const aiMesh& mesh, size_t target, unsigned v) {
-    const aiAnimMesh& moved = *mesh.mAnimMeshes[target];
-    return moved.mVertices && v < moved.mNumVertices ? vec(moved.mVertices[v] - mesh.mVertices[v]) : glm::vec3(0);
   }
 
   // The nodes of an FBX file stand as they did when it was saved, in the middle of a clip perhaps. Joints go to where

@@ -85,12 +85,37 @@ TEST(ForeignFiles, UnitsAndAxesOfAnFbxFileAreApplied) {
   EXPECT_NE(mirrored.warnings[0].find("not right-handed"), std::string::npos);
 }
 
-TEST(ForeignFiles, ACurveOfNoNodeIsSaid) {
+// The file with one more property of the upper bone.
+std::string with_property(const char* name, const char* value) {
+  std::string text = fbx_text();
+  const std::string property = std::string("P: \"") + name + "\", \"Vector3D\", \"Vector\", \"\"," + value + "\n";
+  text.insert(text.find("P: \"Lcl Translation\""), property);
+  return text;
+}
+
+TEST(ForeignFiles, TheOrientationOfAJointOfAnFbxFileStandsBeforeItsCurve) {
+  HF_NEED_ASSIMP();
+  const Model model = read(with_property("PreRotation", "90,0,0"), "a.fbx");
+  // bent in the plane, then turned about x by 90 degrees
+  for (const glm::dvec3& place : bent(90))
+    expect_place(posed(model, 1), {place.x, place.y > 0 ? 0.5 : 0, std::max(place.y - 0.5, 0.0)});
+}
+
+TEST(ForeignFiles, AJointThatAClipDoesNotMoveStandsAsItWasSaved) {
   HF_NEED_ASSIMP();
   std::string text = fbx_text();
-  const std::string before = "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",0,50,0";
-  text.insert(text.find(before), "P: \"RotationPivot\", \"Vector3D\", \"Vector\", \"\",0,1,0\n");
-  const Model model = read(text, "pivot.fbx");
+  text.replace(text.find("C: \"OP\",22,4"), 12, "C: \"OP\",22,3");
+  const Model model = read(text, "a.fbx");
+  const auto places = posed(model, 1);
+  // the lower bone turns the strip on its side, the upper one is at 30 degrees still
+  const double c = std::cos(glm::radians(30.0)), s = 0.5;
+  expect_place(places, {-0.5 - 0.5 * c, -0.5 * s, 0});
+  expect_place(places, {-0.5 - 0.5 * c - 0.1 * s, -0.5 * s + 0.1 * c, 0});
+}
+
+TEST(ForeignFiles, ACurveOfNoNodeIsSaid) {
+  HF_NEED_ASSIMP();
+  const Model model = read(with_property("RotationPivot", "0,1,0"), "pivot.fbx");
   ASSERT_EQ(model.warnings.size(), 1u);
   EXPECT_NE(model.warnings[0].find("curves are left out: they move a pivot"), std::string::npos);
 }
