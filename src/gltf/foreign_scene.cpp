@@ -203,7 +203,8 @@ class SceneModel {
       MeshData mesh;
       mesh.name = text_of(first.mName);
       for (unsigned t = 0; t < first.mNumAnimMeshes; ++t) {
-        mesh.weights.push_back(first.mAnimMeshes[t]->mWeight);
+        // assimp gives those of FBX the weight 1, whatever the file says
+        mesh.weights.push_back(fbx_ ? 0 : first.mAnimMeshes[t]->mWeight);
         mesh.target_names.push_back(text_of(first.mAnimMeshes[t]->mName));
       }
       Skin skin;

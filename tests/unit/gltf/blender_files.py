@@ -129,3 +129,26 @@ for model in models:
     if not has_loose_parts:  # Blender loses the parents of those when it reads .dae
         check(base + ".dae", bpy.ops.wm.collada_import, 0, lambda action: "", vertices)
     check(base + ".bvh", bpy.ops.import_anim.bvh, 1, lambda action: "Motion", heads, both=False)
+
+# Shape keys and a clip of them. Blender writes them where the object moves too.
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.mesh.primitive_uv_sphere_add(segments=12, ring_count=8)
+sphere = bpy.context.object
+sphere.shape_key_add(name="Basis")
+for axis, factor in ((0, 2), (2, 3)):
+    for vertex in sphere.shape_key_add(name=f"along {axis}").data:
+        vertex.co[axis] *= factor
+keys = sphere.data.shape_keys.key_blocks
+for key, frame, value in ((1, 0, 0), (1, 20, 1), (2, 0, 0.5), (2, 10, 0), (2, 20, 1)):
+    keys[key].value = value
+    keys[key].keyframe_insert("value", frame=frame)
+for frame in (0, 20):
+    sphere.location.x = frame / 10
+    sphere.keyframe_insert("location", frame=frame)
+bpy.context.scene.frame_start, bpy.context.scene.frame_end = 0, 20
+file = os.path.join(folder, "sphere.fbx")
+bpy.ops.export_scene.fbx(filepath=file, bake_anim_use_all_actions=False, bake_anim_use_nla_strips=False, bake_anim_simplify_factor=0)
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.import_scene.fbx(filepath=file)
+rate = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
+compare(file, "Scene", [f / rate for f in (0, 7, 14, 20)], lambda time: bpy.context.scene.frame_set(round(time * rate) + 1), vertices, True)
