@@ -27,6 +27,11 @@ std::vector<uint8_t> foreign_glb(const std::vector<uint8_t>&, FileKind kind, con
   throw std::runtime_error(not_gltf(name, kind));
 }
 
+std::string foreign_glb_here(const std::vector<uint8_t>&, FileKind kind, const std::string& name,
+                             std::vector<std::string>&) {
+  throw std::runtime_error(not_gltf(name, kind));
+}
+
 #else
 
 namespace {
