@@ -2,6 +2,7 @@
 #include "gltf/foreign_file.h"
 
 #ifdef HF_GLTF_ASSIMP
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -123,6 +124,7 @@ std::vector<uint8_t> foreign_glb(const std::vector<uint8_t>& bytes, FileKind kin
   const uint64_t space = own_space() + memory;
   int ends[2];
   if (pipe(ends) != 0) fail("no pipe can be opened to read it through; close files and try again");
+  for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);  // a program that the host starts must not hold it open
   const pid_t process = fork();
   if (process == 0) {
     close(ends[0]);
