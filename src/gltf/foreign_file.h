@@ -21,8 +21,9 @@ namespace hf_gltf {
 bool reads_foreign(FileKind kind);
 
 struct ForeignLimits {
-  // What the process may take: free_bytes, and bytes_per_byte for each byte of the file.
-  uint64_t free_bytes = 1ull << 30, bytes_per_byte = 64;
+  // What the process may take: free_bytes, and bytes_per_byte for each byte of the file. assimp makes a token of each
+  // number of a text; half would refuse large texts.
+  uint64_t free_bytes = 1ull << 30, bytes_per_byte = 32;
   uint32_t seconds = 120;  // of processor time
   uint64_t max_glb_bytes = 128ull << 20;
 };
