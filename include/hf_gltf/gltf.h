@@ -54,7 +54,8 @@ typedef struct hf_gltf_read_desc {
                           bytes: the name for messages, or NULL */
 } hf_gltf_read_desc;
 
-/* Reads a glTF 2.0 file. Sets *out_model to NULL first. Errors: HF_ERROR_INVALID_ARGUMENT (the file cannot be read or
+/* Reads a glTF 2.0 file; .fbx, .dae and .bvh too where the library was built with assimp. Those are read in a process
+ * of their own, which fork() starts. Sets *out_model to NULL first. Errors: HF_ERROR_INVALID_ARGUMENT (the file cannot be read or
  * contradicts itself; the detail says where), HF_ERROR_TOO_LARGE. Thread safety: any thread. Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_read(const hf_gltf_read_desc* desc, hf_gltf_model* out_model);
 

@@ -213,7 +213,7 @@ SurfaceMesh read_mesh_bytes(const std::vector<uint8_t>& bytes, const std::string
 
 SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& limits) {
   const FileKind kind = kind_of_file(file);
-  if (kind == FileKind::gltf) {
+  if (is_model(kind)) {
     Model model = read_gltf(file);
     FlattenOptions options;
     options.max_vertices = std::min(options.max_vertices, limits.max_vertices);

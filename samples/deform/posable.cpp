@@ -32,7 +32,7 @@ void expect_ok(hf_result result, const std::string& what) {
 
 PosableMesh read_posable(const std::filesystem::path& file) {
   PosableMesh out;
-  if (kind_of_file(file) == FileKind::gltf) {
+  if (is_model(kind_of_file(file))) {
     out.model = read_gltf(file);
     out.flat = flatten(out.model);
     out.surface = to_surface_mesh(out.flat);

@@ -292,7 +292,7 @@ void write(const Command& options, const std::optional<Model>& model, const Surf
 
 void run(const Command& options) {
   std::optional<Model> model;  // only if its motion and look are asked for
-  if (kind_of_file(options.mesh) == FileKind::gltf && is_gltf(options.out)) model = read_gltf(options.mesh);
+  if (is_model(kind_of_file(options.mesh)) && is_gltf(options.out)) model = read_gltf(options.mesh);
   const SurfaceMesh input = model ? to_surface_mesh(flatten(*model)) : read_mesh_file(options.mesh);
   const std::vector<double> positions = double_positions(input.positions);
   auto create = hf::make<hf_surface_desc>();

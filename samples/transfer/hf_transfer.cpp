@@ -63,7 +63,7 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
   std::vector<PlayedClip> written;
   if (report.written_as == "frames") {
     const FileKind kind = kind_of_file(command.target);
-    const bool mesh = kind != FileKind::gltf;
+    const bool mesh = !is_model(kind);
     const SurfaceMesh rest = mesh ? read_mesh_file(command.target) : to_surface_mesh(session.target_flat());
     write_frames(output, mesh && kind != FileKind::stl ? command.target.extension().string() : ".ply", rest, clips);
     written = clips;

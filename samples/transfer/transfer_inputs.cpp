@@ -31,7 +31,7 @@ void list_joints(const std::filesystem::path& file) {
 }
 
 Model read_model(const std::filesystem::path& file) {
-  if (kind_of_file(file) == FileKind::gltf) return read_gltf(file);
+  if (is_model(kind_of_file(file))) return read_gltf(file);
   const SurfaceMesh mesh = read_mesh_file(file);
   Model model = make_model(file.string(), mesh.positions, mesh.triangles);
   model.warnings = mesh.warnings;

@@ -8,6 +8,7 @@
 
 #include "common/limits.h"
 #include "gltf/file_name.h"
+#include "gltf/gltf_write.h"
 
 namespace samples {
 
@@ -78,7 +79,7 @@ const char* usage() {
          "Plays the motion of SOURCE on TARGET: pairs of places say what corresponds, the rotations go over, the\n"
          "target keeps its own shape. OUT.glb is TARGET as it was, with the new clips before its own; a TARGET "
          "without\n"
-         "a skin gets a new one.\n"
+         "a skin gets a new one. Models are .glb, .gltf or .vrm, and .fbx, .dae or .bvh in builds with assimp.\n"
          "  --pairs FILE    which places correspond (format in samples/transfer/README.md); without\n"
          "                  it pairs are proposed from shapes and joint names, and said\n"
          "  --suggest-pairs FILE  write the proposal, to be edited, and stop\n"
@@ -271,6 +272,8 @@ TransferCommand parse_command(int count, char** arguments) {
     if (out.frames.empty()) throw std::runtime_error("--out-poses is needed: the folder for the frames; see --help");
   } else if (out.output.empty()) {
     throw std::runtime_error("-o is needed: the file to write (or --out-poses, a folder of meshes); see --help");
+  } else {
+    is_binary_name(out.output);  // refuses other formats before the work
   }
   return out;
 }

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string_view>
 
+#include "gltf/foreign_file.h"
+
 namespace hf_gltf {
 namespace {
 
@@ -98,14 +100,19 @@ const char* name_of(FileKind kind) {
   return names[static_cast<size_t>(kind)];
 }
 
+bool is_model(FileKind kind) { return kind == FileKind::gltf || reads_foreign(kind); }
+
 std::string advice_on(FileKind kind) {
+  const std::string by_blender = "open it in Blender (File > Import) and export it as glTF 2.0 (.glb)";
   switch (kind) {
     case FileKind::fbx:
-    case FileKind::bvh:
-    case FileKind::usd:
-      return "open it in Blender (File > Import) and export it as glTF 2.0 (.glb)";
     case FileKind::dae:
-      return "\"assimp export IN.dae OUT.glb\" makes glTF of it";
+    case FileKind::bvh:
+      if (reads_foreign(kind)) return "";
+      return std::string("this build has no reader of ") + name_of(kind) +
+             "; build with HF_WITH_ASSIMP=ON (Debian: libassimp-dev), or " + by_blender;
+    case FileKind::usd:
+      return by_blender;
     case FileKind::blend:
       return "export it from Blender as glTF 2.0 (.glb)";
     default:

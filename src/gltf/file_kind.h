@@ -17,7 +17,10 @@ FileKind kind_of_file(const std::filesystem::path& file);
 
 // "glTF", "OBJ", ...
 const char* name_of(FileKind kind);
-// A clause for formats that nothing here reads: which tool makes glTF of one. "" for the others.
+// Whether the file is a model with nodes, which read_gltf() reads: glTF, and FBX, COLLADA and BVH where this build has
+// assimp.
+bool is_model(FileKind kind);
+// A clause for formats that this build does not read: how to get one that it reads. "" for the others.
 std::string advice_on(FileKind kind);
 // What to say where `name` should be glTF and is not: "a.obj is OBJ; a glTF file is needed here ...".
 std::string not_gltf(const std::string& name, FileKind kind);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "gltf/file_bytes.h"
+#include "gltf/foreign_file.h"
 #include "gltf/gltf_check.h"
 #include "gltf/gltf_convert.h"
 #include "gltf/gltf_decompress.h"
@@ -301,7 +302,12 @@ Model read_gltf_bytes(std::vector<uint8_t> bytes, const std::string& name, const
     throw std::runtime_error(name + ": has " + std::to_string(bytes.size()) + " bytes, above the limit of " +
                              std::to_string(limits.max_file_bytes) + ".");
   }
-  return Loader(std::move(bytes), name, location, limits).run();
+  const FileKind kind = kind_of(bytes.data(), bytes.size(), bytes.size(), name);
+  std::vector<std::string> warnings;
+  if (reads_foreign(kind)) bytes = foreign_glb(bytes, kind, name, warnings);
+  Model model = Loader(std::move(bytes), name, location, limits).run();
+  model.warnings.insert(model.warnings.begin(), warnings.begin(), warnings.end());
+  return model;
 }
 
 Model read_gltf(const std::filesystem::path& file, const ReadLimits& limits) {

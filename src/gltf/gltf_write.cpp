@@ -443,14 +443,17 @@ std::string gltf_bytes(const Model& model, bool binary) {
   return Writer(model).run(binary);
 }
 
-void write_gltf(const Model& model, const std::filesystem::path& file) {
+bool is_binary_name(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".glb" && extension != ".gltf") {
-    throw std::runtime_error(file.string() + ": a glTF file must end in .glb or .gltf.");
-  }
-  write_bytes(file, gltf_bytes(model, extension == ".glb"));
+  if (extension == ".glb" || extension == ".gltf") return extension == ".glb";
+  throw std::runtime_error(file.string() + ": models are written as glTF; give a name that ends in .glb or .gltf.");
+}
+
+void write_gltf(const Model& model, const std::filesystem::path& file) {
+  const bool binary = is_binary_name(file);
+  write_bytes(file, gltf_bytes(model, binary));
 }
 
 }  // namespace hf_gltf

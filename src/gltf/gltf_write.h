@@ -21,6 +21,9 @@ namespace hf_gltf {
 
 void write_gltf(const Model& model, const std::filesystem::path& file);
 
+// Whether a model is written as .glb under this name. Throws std::runtime_error if the name is neither .glb nor .gltf.
+bool is_binary_name(const std::filesystem::path& file);
+
 // The bytes of the file, binary or text.
 std::string gltf_bytes(const Model& model, bool binary);
 

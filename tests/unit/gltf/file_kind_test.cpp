@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "common/mesh_file.h"
+#include "gltf/foreign_file.h"
 #include "gltf_support.h"
 
 namespace samples {
@@ -81,15 +82,26 @@ TEST(FileKinds, WhatShouldBeGltfAndIsNotIsNamed) {
     return message_of([&] { read_gltf_bytes({text.begin(), text.end()}, name); });
   };
   EXPECT_EQ(gltf("v 0 0 0\nv 1 0 0\n", "a.obj"), "a.obj is OBJ; a glTF file is needed here (.glb, .gltf or .vrm)");
-  EXPECT_EQ(gltf("Kaydara FBX Binary  ", "a.fbx"),
-            "a.fbx is FBX; a glTF file is needed here (.glb, .gltf or .vrm): open it in Blender (File > Import) and "
-            "export it as glTF 2.0 (.glb)");
-  EXPECT_EQ(
-      message_of([] { read("HIERARCHY\n", ".bvh"); }),
-      "a.bvh is BVH, which is not read; .obj, .off, .ply, .stl, .gltf, .glb and .vrm are: open it in Blender (File "
-      "> Import) and export it as glTF 2.0 (.glb)");
-  EXPECT_NE(message_of([] { read("<?xml?><COLLADA>", ".dae"); }).find("assimp export IN.dae OUT.glb"),
-            std::string::npos);
+  const std::string by_blender = "open it in Blender (File > Import) and export it as glTF 2.0 (.glb)";
+  EXPECT_EQ(gltf("#usda 1.0\n", "a.usda"),
+            "a.usda is USD; a glTF file is needed here (.glb, .gltf or .vrm): " + by_blender);
+  EXPECT_EQ(message_of([] { read("BLENDER", ".blend"); }),
+            "a.blend is a Blender file, which is not read; .obj, .off, .ply, .stl, .gltf, .glb and .vrm are: export it "
+            "from Blender as glTF 2.0 (.glb)");
+  // FBX, COLLADA and BVH are models where the build has assimp
+  for (const FileKind kind : {FileKind::fbx, FileKind::dae, FileKind::bvh})
+    EXPECT_EQ(is_model(kind), reads_foreign(kind));
+  EXPECT_TRUE(is_model(FileKind::gltf));
+  EXPECT_FALSE(is_model(FileKind::usd));
+  const std::string said = gltf("Kaydara FBX Binary  ", "a.fbx");
+  if (reads_foreign(FileKind::fbx))
+    EXPECT_EQ(said.find("a.fbx: is not accepted by assimp: "), 0u) << said;
+  else
+    EXPECT_EQ(said,
+              "a.fbx is FBX; a glTF file is needed here (.glb, .gltf or .vrm): this build has no reader of FBX; build "
+              "with HF_WITH_ASSIMP=ON (Debian: libassimp-dev), or " +
+                  by_blender);
+  EXPECT_NE(said.find(by_blender), std::string::npos);
 }
 
 // The content is read whatever the ending says.

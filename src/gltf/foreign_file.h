@@ -1,0 +1,41 @@
+// Reads .fbx, .dae and .bvh by way of assimp, where the build has it (HF_WITH_ASSIMP).
+//
+// assimp turns the file into its own scene; foreign_scene.cpp turns that into a model, and the writer turns the model
+// into a GLB, which the reader of glTF reads with all of its checks. What survives: nodes, surfaces, skins, shape keys,
+// clips, base colours. Lengths come out in metres and y points up, as the file declares them.
+//
+// A file may be hostile, and assimp does not bound what it takes. So it runs in a process of its own, with limits of
+// memory and time; whatever it does there, the caller gets the GLB or a sentence.
+#ifndef HF_GLTF_FOREIGN_FILE_H
+#define HF_GLTF_FOREIGN_FILE_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gltf/file_kind.h"
+
+namespace hf_gltf {
+
+// Whether the kind is one of these and this build reads it.
+bool reads_foreign(FileKind kind);
+
+struct ForeignLimits {
+  // What the process may take: free_bytes, and bytes_per_byte for each byte of the file. assimp makes a token of each
+  // number of a text; half would refuse large texts.
+  uint64_t free_bytes = 1ull << 30, bytes_per_byte = 32;
+  uint32_t seconds = 120;  // of processor time
+  uint64_t max_glb_bytes = 128ull << 20;
+};
+
+// The bytes of a GLB. warnings: receives what is not kept. Throws std::runtime_error that names `name`.
+std::vector<uint8_t> foreign_glb(const std::vector<uint8_t>& bytes, FileKind kind, const std::string& name,
+                                 std::vector<std::string>& warnings, const ForeignLimits& limits = {});
+
+// The same in this process, for files that are trusted.
+std::string foreign_glb_here(const std::vector<uint8_t>& bytes, FileKind kind, const std::string& name,
+                             std::vector<std::string>& warnings);
+
+}  // namespace hf_gltf
+
+#endif
