@@ -2082,6 +2082,24 @@ class Pose {
     check(hf_pose_set_following(get(), c.count("handle_count", 1), handles_, following));
   }
 
+  // Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The limb is the
+  // part of the surface where the field of the handle falls a long way over little area. It ends at the trunk, or at
+  // the next handle on the limb. The steps move the limb alone. The rest of the surface keeps its bits, and the body
+  // does not lean more than without the steps. A limb that is pulled beyond its length is stretched evenly. With the
+  // refine of DeformOptions the limbs take their steps after it. If several handles have a refine, all their limbs take
+  // the largest.
+  //
+  // handles: `[handle_count]`.
+  // refine: 0 to 64 steps of as-rigid-as-possible at every Pose.deform; 0 = none, as in a new handle. 1 keeps bends
+  // smooth. 8 and more keep lengths; the limb bends like two bones.
+  //
+  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+  void set_limb_refine(const std::vector<uint32_t>& handles, int32_t refine = 0) {
+    Call c(counts_);
+    const uint32_t* handles_ = c.array(handles, true, "handles", {"handle_count"});
+    check(hf_pose_set_limb_refine(get(), c.count("handle_count", 1), handles_, refine));
+  }
+
   // Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
   // moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the vertices
   // near links most. If the region of a handle touches a rigid piece, the whole piece joins the region and moves with

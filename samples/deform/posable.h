@@ -43,6 +43,7 @@ class Posable {
     bool paper = false, links = true;
     bool given_rotations = false;  // a drag without a turn keeps the rotation of its handle
     double following = 1;          // of dragged handles: how much of the surface follows
+    uint32_t limb_refine = 0;      // of dragged handles: full-mesh steps on their limbs
     bool rigid = false;            // pieces that are alone on a joint stay rigid
     uint32_t bands = 0, threads = 1;
     const Model* model = nullptr;  // its skin helps to link pieces; may be NULL
@@ -85,7 +86,7 @@ class Posable {
     glm::dvec3 centroid;
     MotionEntry motion;     // asked for last
     HandlePlace from, now;  // where the drag at hand began
-    bool moving = false, from_rest = true, from_place = false, free_rotation = false, follows = false;
+    bool moving = false, from_rest = true, from_place = false, free_rotation = false, dragged = false;
     MotionEntry before;
   };
   const std::vector<Live>& handles() const { return live_; }
@@ -109,6 +110,7 @@ class Posable {
   bool own_ = true;  // the surface
   bool frees_ = true;
   double following_ = 1;
+  uint32_t limb_refine_ = 0;
   std::vector<uint32_t> rigid_;  // by vertex; empty: none asked for
   hf_pose pose_ = nullptr;
   glm::dvec3 lower_{0}, upper_{0};

@@ -241,6 +241,7 @@ static hf_result pose_set_matrices(void* h) {
 static hf_result pose_set_free_rotations(void* h) { return hf_pose_set_free_rotations(h, 1, scene.handles, 1); }
 static hf_result pose_set_rigid_pieces(void* h) { return hf_pose_set_rigid_pieces(h, 0, NULL); }
 static hf_result pose_set_following(void* h) { return hf_pose_set_following(h, 1, scene.handles, 0.5); }
+static hf_result pose_set_limb_refine(void* h) { return hf_pose_set_limb_refine(h, 1, scene.handles, 2); }
 static hf_result pose_get_skin(void* h) {
   hf_skin_info info = HF_INIT(hf_skin_info);
   return hf_pose_get_skin(h, &info);
@@ -427,6 +428,7 @@ static const struct {
     {"hf_pose_set_matrices", POSE, pose_set_matrices, NO_INDEX},
     {"hf_pose_set_free_rotations", POSE, pose_set_free_rotations, NO_INDEX},
     {"hf_pose_set_following", POSE, pose_set_following, NO_INDEX},
+    {"hf_pose_set_limb_refine", POSE, pose_set_limb_refine, NO_INDEX},
     {"hf_pose_set_rigid_pieces", POSE, pose_set_rigid_pieces, NO_INDEX},
     {"hf_pose_get_skin", POSE, pose_get_skin, NO_INDEX},
     {"hf_pose_get_handle", POSE, pose_get_handle, NO_INDEX},

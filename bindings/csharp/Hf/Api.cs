@@ -1083,6 +1083,8 @@ namespace Hf
         public bool FreeRotation;
         /// <summary>how much of the surface follows; see Pose.SetFollowing</summary>
         public double Following;
+        /// <summary>steps on its limb; see Pose.SetLimbRefine</summary>
+        public int LimbRefine;
 
         internal HandleInfo(hf_handle_info* raw)
         {
@@ -1096,6 +1098,7 @@ namespace Hf
             Layer = raw->layer;
             FreeRotation = raw->free_rotation != 0;
             Following = raw->following;
+            LimbRefine = raw->limb_refine;
         }
     }
 
@@ -4169,6 +4172,28 @@ namespace Hf
                 void* handles_ = c.Array(handles, "handles", "handle_count");
                 HfException.Check(Functions.hf_pose_set_following(RawHandle, (uint)c.Count("handle_count", 1), handles_,
                     following));
+            }
+        }
+
+        /// <summary>Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The
+        /// limb is the part of the surface where the field of the handle falls a long way over little area. It ends
+        /// at the trunk, or at the next handle on the limb. The steps move the limb alone. The rest of the surface
+        /// keeps its bits, and the body does not lean more than without the steps. A limb that is pulled beyond its
+        /// length is stretched evenly. With the refine of DeformDesc the limbs take their steps after it. If
+        /// several handles have a refine, all their limbs take the largest.
+        ///
+        /// handles: [handleCount].
+        /// refine: 0 to 64 steps of as-rigid-as-possible at every Pose.Deform; 0 = none, as in a new handle. 1
+        ///     keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
+        ///
+        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
+        public void SetLimbRefine(uint[] handles, int refine = 0)
+        {
+            using (var c = new Call(this))
+            {
+                void* handles_ = c.Array(handles, "handles", "handle_count");
+                HfException.Check(Functions.hf_pose_set_limb_refine(RawHandle, (uint)c.Count("handle_count", 1),
+                    handles_, refine));
             }
         }
 

@@ -747,6 +747,8 @@ namespace Hf.Native
         public uint layer;
         public int free_rotation;
         public double following;
+        public int limb_refine;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1433,6 +1435,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_transform(IntPtr pose, uint handle, void* transform);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_free_rotations(IntPtr pose, uint handle_count, void* handles, int free_rotation);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_following(IntPtr pose, uint handle_count, void* handles, double following);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_limb_refine(IntPtr pose, uint handle_count, void* handles, int refine);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_rigid_pieces(IntPtr pose, uint vertex_count, void* vertices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_matrices(IntPtr pose, uint handle_count, void* handles, void* matrices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_handle(IntPtr pose, uint handle, void* out_info);

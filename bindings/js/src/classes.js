@@ -1077,6 +1077,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       call('hf_pose_set_following', this._handle, (c.n.handle_count ??= 1), handles_, following);
     }
 
+    setLimbRefine(handles, refine = 0) {
+      const c = new Call(this);
+      const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
+      call('hf_pose_set_limb_refine', this._handle, (c.n.handle_count ??= 1), handles_, refine);
+    }
+
     setRigidPieces(vertices) {
       const c = new Call(this);
       delete c.n.vertex_count; // of the list given here

@@ -529,6 +529,8 @@ export interface HandleInfo {
   freeRotation: number;
   /** how much of the surface follows; see Pose.setFollowing */
   following: number;
+  /** steps on its limb; see Pose.setLimbRefine */
+  limbRefine: number;
 }
 
 /** The work of a deform. */
@@ -1845,6 +1847,21 @@ export interface Pose extends Recorded {
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
    */
   setFollowing(handles: Rows, following?: number): void;
+  /**
+   * Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The limb
+   * is the part of the surface where the field of the handle falls a long way over little area. It ends at the
+   * trunk, or at the next handle on the limb. The steps move the limb alone. The rest of the surface keeps its
+   * bits, and the body does not lean more than without the steps. A limb that is pulled beyond its length is
+   * stretched evenly. With the refine of hf_deform_desc the limbs take their steps after it. If several handles
+   * have a refine, all their limbs take the largest.
+   *
+   * handles: [handleCount].
+   * refine: 0 to 64 steps of as-rigid-as-possible at every Pose.deform; 0 = none, as in a new handle. 1 keeps
+   *     bends smooth. 8 and more keep lengths; the limb bends like two bones.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+   */
+  setLimbRefine(handles: Rows, refine?: number): void;
   /**
    * Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
    * moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the

@@ -602,7 +602,7 @@ export const layouts = {
     rotation: ['f64', [0, 0], 4],
     translation: ['f64', [32, 32], 3],
   } },
-  hf_handle_info: { size: [120, 120], fields: {
+  hf_handle_info: { size: [128, 128], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     site_count: ['u32', [8, 8], 0],
@@ -614,6 +614,8 @@ export const layouts = {
     layer: ['u32', [104, 104], 0],
     free_rotation: ['i32', [108, 108], 0],
     following: ['f64', [112, 112], 0],
+    limb_refine: ['i32', [120, 120], 0],
+    reserved: ['u32', [124, 124], 0],
   } },
   hf_deform_info: { size: [24, 24], fields: {
     struct_size: ['u32', [0, 0], 0],
@@ -1167,6 +1169,7 @@ export const functions = {
   hf_pose_set_transform: ['i32', ['handle', 'u32', 'ptr']],
   hf_pose_set_free_rotations: ['i32', ['handle', 'u32', 'ptr', 'i32']],
   hf_pose_set_following: ['i32', ['handle', 'u32', 'ptr', 'f64']],
+  hf_pose_set_limb_refine: ['i32', ['handle', 'u32', 'ptr', 'i32']],
   hf_pose_set_rigid_pieces: ['i32', ['handle', 'u32', 'ptr']],
   hf_pose_set_matrices: ['i32', ['handle', 'u32', 'ptr', 'ptr']],
   hf_pose_get_handle: ['i32', ['handle', 'u32', 'ptr']],

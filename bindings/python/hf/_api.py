@@ -2243,6 +2243,25 @@ class Pose(Recorded):
         call('hf_pose_set_following', self._handle, c.n.setdefault('handle_count', 1), handles_, number(following,
                 'following', ctypes.c_double))
 
+    def set_limb_refine(self, handles: ArrayLike, refine: int = 0) -> None:
+        """Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The limb
+        is the part of the surface where the field of the handle falls a long way over little area. It ends at the
+        trunk, or at the next handle on the limb. The steps move the limb alone. The rest of the surface keeps its
+        bits, and the body does not lean more than without the steps. A limb that is pulled beyond its length is
+        stretched evenly. With the refine of hf_deform_desc the limbs take their steps after it. If several handles
+        have a refine, all their limbs take the largest.
+
+        handles: (handle_count,).
+        refine: 0 to 64 steps of as-rigid-as-possible at every Pose.deform; 0 = none, as in a new handle. 1 keeps
+            bends smooth. 8 and more keep lengths; the limb bends like two bones.
+
+        Raises InvalidArgumentError, NotFoundError, UnsupportedError.
+        """
+        c = Call(self)
+        handles_ = c.array('handles', handles, 'u4', ('handle_count',))
+        call('hf_pose_set_limb_refine', self._handle, c.n.setdefault('handle_count', 1), handles_, number(refine,
+                'refine', ctypes.c_int32))
+
     def set_rigid_pieces(self, vertices: ArrayLike) -> None:
         """Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
         moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the

@@ -844,9 +844,12 @@ class hf_handle_info(Struct):
     layer: int
     free_rotation: int
     following: float
+    limb_refine: int
+    reserved: int
     _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("site_count", c_uint32), ("component",
                 c_uint32), ("centroid", c_double * 3), ("leak", c_double), ("rotation", c_double * 4), ("translation",
-                c_double * 3), ("layer", c_uint32), ("free_rotation", c_int32), ("following", c_double)]
+                c_double * 3), ("layer", c_uint32), ("free_rotation", c_int32), ("following", c_double),
+                ("limb_refine", c_int32), ("reserved", c_uint32)]
 
 
 class hf_deform_info(Struct):
@@ -1607,6 +1610,7 @@ PROTOTYPES = {
     "hf_pose_set_transform": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_set_free_rotations": (c_int32, [c_void_p, c_uint32, c_void_p, c_int32]),
     "hf_pose_set_following": (c_int32, [c_void_p, c_uint32, c_void_p, c_double]),
+    "hf_pose_set_limb_refine": (c_int32, [c_void_p, c_uint32, c_void_p, c_int32]),
     "hf_pose_set_rigid_pieces": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_set_matrices": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_pose_get_handle": (c_int32, [c_void_p, c_uint32, c_void_p]),

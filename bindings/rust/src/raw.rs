@@ -850,6 +850,8 @@ pub struct hf_handle_info {
     pub layer: u32,
     pub free_rotation: i32,
     pub following: f64,
+    pub limb_refine: i32,
+    pub reserved: u32,
 }
 
 /// The work of a deform.
@@ -1574,7 +1576,8 @@ figures! {
         path_solve_count sweep_count irregular_vertex_count eliminated_count operator_ms numeric_ms factor_entries
         factor_bytes site_memory_bytes;
     hf_pose_info: struct_size band_count iteration_count group_count handle_count vertex_count;
-    hf_handle_info: struct_size vertex_count site_count component leak layer free_rotation following;
+    hf_handle_info: struct_size vertex_count site_count component leak layer free_rotation following limb_refine
+        reserved;
     hf_deform_info: struct_size iteration_count unreached_vertex_count reserved last_change;
     hf_pose_statistics: struct_size cluster_count solve_ms blend_ms normal_ms refine_ms;
     hf_quads_info: struct_size vertex_count face_count euler_characteristic edge_length;
@@ -1684,6 +1687,7 @@ extern "C" {
     pub fn hf_pose_set_transform(pose: hf_pose, handle: u32, transform: *const hf_transform) -> i32;
     pub fn hf_pose_set_free_rotations(pose: hf_pose, handle_count: u32, handles: *const u32, free_rotation: i32) -> i32;
     pub fn hf_pose_set_following(pose: hf_pose, handle_count: u32, handles: *const u32, following: f64) -> i32;
+    pub fn hf_pose_set_limb_refine(pose: hf_pose, handle_count: u32, handles: *const u32, refine: i32) -> i32;
     pub fn hf_pose_set_rigid_pieces(pose: hf_pose, vertex_count: u32, vertices: *const u32) -> i32;
     pub fn hf_pose_set_matrices(pose: hf_pose, handle_count: u32, handles: *const u32, matrices: *const f64) -> i32;
     pub fn hf_pose_get_handle(pose: hf_pose, handle: u32, out_info: *mut hf_handle_info) -> i32;
