@@ -49,6 +49,9 @@ struct Links {
   std::vector<uint16_t> joints{};
   // `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
   std::vector<float> weights{};
+  // `[joint_count]` parent of each joint, HF_NO_INDEX for a root. Pieces of parent and child link wherever they touch.
+  // Pieces of joints that are farther apart, such as two feet, link only if nothing else joins them
+  std::vector<uint32_t> joint_parents{};
   // `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
   // counts
   std::vector<uint32_t> tags{};
@@ -3445,6 +3448,7 @@ inline hf_links_desc Links::fill([[maybe_unused]] Call& c, [[maybe_unused]] cons
   desc.overlay_distance = overlay_distance;
   desc.joints = c.array(joints, false, "joints", {"vertex_count", prefix + "influence_count"});
   desc.weights = c.array(weights, false, "weights", {"vertex_count", prefix + "influence_count"});
+  desc.joint_parents = c.array(joint_parents, false, "joint_parents", {prefix + "joint_count"});
   desc.tags = c.array(tags, false, "tags", {"vertex_count"});
   desc.links = c.array(links, false, "links", {prefix + "link_count"});
   desc.light_vertices = c.array(light_vertices, false, "light_vertices", {prefix + "light_count"});
@@ -3453,6 +3457,7 @@ inline hf_links_desc Links::fill([[maybe_unused]] Call& c, [[maybe_unused]] cons
   desc.link_count = c.count(prefix + "link_count", 0);
   desc.light_count = c.count(prefix + "light_count", 0);
   desc.heavy_count = c.count(prefix + "heavy_count", 0);
+  desc.joint_count = c.count(prefix + "joint_count", 0);
   return desc;
 }
 

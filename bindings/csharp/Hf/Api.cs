@@ -596,6 +596,9 @@ namespace Hf
         public uint LightPieceCount;
         /// <summary>pieces without a link, if there are several</summary>
         public uint LonePieceCount;
+        /// <summary>with joint_parents: places where pieces touch and are not linked, such as two feet. Surface.MeasureGaps
+        /// tells how far they open</summary>
+        public uint ContactCount;
         /// <summary>longest link of the tree over the pieces, in the unit of the positions</summary>
         public double LongestTreeLink;
 
@@ -605,6 +608,7 @@ namespace Hf
             LinkCount = raw->link_count;
             LightPieceCount = raw->light_piece_count;
             LonePieceCount = raw->lone_piece_count;
+            ContactCount = raw->contact_count;
             LongestTreeLink = raw->longest_tree_link;
         }
     }
@@ -618,6 +622,12 @@ namespace Hf
         public double Worst;
         /// <summary>its number in Surface.Links; uint.MaxValue without links</summary>
         public uint WorstLink;
+        /// <summary>as in LinksInfo; worst does not count them</summary>
+        public uint ContactCount;
+        /// <summary>how far the widest of them opened; 0 without one</summary>
+        public double WorstContact;
+        /// <summary>of the widest, as given; uint.MaxValue without one</summary>
+        public uint ContactVertex;
 
         internal GapsInfo(hf_gaps_info* raw)
         {
@@ -625,6 +635,9 @@ namespace Hf
             Percentile95 = raw->percentile_95;
             Worst = raw->worst;
             WorstLink = raw->worst_link;
+            ContactCount = raw->contact_count;
+            WorstContact = raw->worst_contact;
+            ContactVertex = raw->contact_vertex;
         }
     }
 
@@ -1868,6 +1881,10 @@ namespace Hf
         public ushort[] Joints;
         /// <summary>[vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint</summary>
         public float[] Weights;
+        /// <summary>[jointCount] parent of each joint, uint.MaxValue for a root. Pieces of parent and child link wherever
+        /// they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing else joins
+        /// them</summary>
+        public uint[] JointParents;
         /// <summary>[vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a
         /// piece counts</summary>
         public uint[] Tags;
@@ -1901,6 +1918,7 @@ namespace Hf
             desc->overlay_distance = OverlayDistance;
             desc->joints = (IntPtr)c.Array(Joints, "joints", "vertex_count", prefix + "influence_count");
             desc->weights = (IntPtr)c.Array(Weights, "weights", "vertex_count", prefix + "influence_count");
+            desc->joint_parents = (IntPtr)c.Array(JointParents, "jointParents", prefix + "joint_count");
             desc->tags = (IntPtr)c.Array(Tags, "tags", "vertex_count");
             var linksRows = (hf_link*)c.Given(Links, "links", sizeof(hf_link), prefix + "link_count");
             for (int i = 0; Links != null && i < Links.Length; ++i) Links[i].Write(linksRows + i);
@@ -1911,6 +1929,7 @@ namespace Hf
             desc->link_count = (uint)c.Count(prefix + "link_count", 0);
             desc->light_count = (uint)c.Count(prefix + "light_count", 0);
             desc->heavy_count = (uint)c.Count(prefix + "heavy_count", 0);
+            desc->joint_count = (uint)c.Count(prefix + "joint_count", 0);
             return (IntPtr)desc;
         }
     }
@@ -2433,6 +2452,9 @@ namespace Hf
         ///
         /// joints: [vertexCount x influenceCount] of a skin: pieces of the same joint link sooner
         /// weights: [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint
+        /// jointParents: [jointCount] parent of each joint, uint.MaxValue for a root. Pieces of parent and child
+        ///     link wherever they touch. Pieces of joints that are farther apart, such as two feet, link only if
+        ///     nothing else joins them
         /// tags: [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of
         ///     a piece counts
         /// links: [linkCount]
@@ -2446,9 +2468,10 @@ namespace Hf
         /// progress: an object to poll and cancel through.
         ///
         /// Throws HF_ERROR_CANCELLED.</summary>
-        public Surface Relink(ushort[] joints = null, float[] weights = null, uint[] tags = null, Link[] links = null,
-                uint[] lightVertices = null, uint[] heavyVertices = null, LinkMode mode = default(LinkMode),
-                double distance = 0, double stiffness = 0, double overlayDistance = 0, Progress progress = null)
+        public Surface Relink(ushort[] joints = null, float[] weights = null, uint[] jointParents = null,
+                uint[] tags = null, Link[] links = null, uint[] lightVertices = null, uint[] heavyVertices = null,
+                LinkMode mode = default(LinkMode), double distance = 0, double stiffness = 0,
+                double overlayDistance = 0, Progress progress = null)
         {
             using (var c = new Call(this))
             {
@@ -2457,6 +2480,7 @@ namespace Hf
                 hf_links_desc* desc = &descStruct;
                 desc->joints = (IntPtr)c.Array(joints, "joints", "vertex_count", "influence_count");
                 desc->weights = (IntPtr)c.Array(weights, "weights", "vertex_count", "influence_count");
+                desc->joint_parents = (IntPtr)c.Array(jointParents, "jointParents", "joint_count");
                 desc->tags = (IntPtr)c.Array(tags, "tags", "vertex_count");
                 var linksRows = (hf_link*)c.Given(links, "links", sizeof(hf_link), "link_count");
                 for (int i = 0; links != null && i < links.Length; ++i) links[i].Write(linksRows + i);
@@ -2467,6 +2491,7 @@ namespace Hf
                 desc->link_count = (uint)c.Count("link_count", 0);
                 desc->light_count = (uint)c.Count("light_count", 0);
                 desc->heavy_count = (uint)c.Count("heavy_count", 0);
+                desc->joint_count = (uint)c.Count("joint_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Functions.hf_surface_relink(RawHandle, desc, c.Handle(progress), raw));
                 var made = new Surface();

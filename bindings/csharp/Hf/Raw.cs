@@ -252,8 +252,11 @@ namespace Hf.Native
         public uint link_count;
         public uint light_count;
         public uint heavy_count;
+        public uint joint_count;
+        public uint reserved;
         public IntPtr joints;
         public IntPtr weights;
+        public IntPtr joint_parents;
         public IntPtr tags;
         public IntPtr links;
         public IntPtr light_vertices;
@@ -380,7 +383,7 @@ namespace Hf.Native
         public uint link_count;
         public uint light_piece_count;
         public uint lone_piece_count;
-        public uint reserved;
+        public uint contact_count;
         public double longest_tree_link;
     }
 
@@ -392,6 +395,9 @@ namespace Hf.Native
         public double percentile_95;
         public double worst;
         public uint worst_link;
+        public uint contact_count;
+        public double worst_contact;
+        public uint contact_vertex;
         public uint reserved;
     }
 

@@ -159,6 +159,11 @@ export interface LinksInfo {
   lightPieceCount: number;
   /** pieces without a link, if there are several */
   lonePieceCount: number;
+  /**
+   * with joint_parents: places where pieces touch and are not linked, such as two feet. Surface.measureGaps tells
+   * how far they open
+   */
+  contactCount: number;
   /** longest link of the tree over the pieces, in the unit of the positions */
   longestTreeLink: number;
 }
@@ -171,6 +176,12 @@ export interface GapsInfo {
   worst: number;
   /** its number in Surface.links; constants.HF_NO_INDEX without links */
   worstLink: number;
+  /** as in LinksInfo; worst does not count them */
+  contactCount: number;
+  /** how far the widest of them opened; 0 without one */
+  worstContact: number;
+  /** of the widest, as given; constants.HF_NO_INDEX without one */
+  contactVertex: number;
 }
 
 /**
@@ -1019,6 +1030,11 @@ export interface LinksDescGiven {
   /** [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint */
   weights?: Rows | null;
   /**
+   * [jointCount] parent of each joint, constants.HF_NO_INDEX for a root. Pieces of parent and child link wherever
+   * they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing else joins them
+   */
+  jointParents?: Rows | null;
+  /**
    * [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
    * counts
    */
@@ -1178,6 +1194,9 @@ export interface Surface extends Handle {
    *
    * joints: [vertexCount x influenceCount] of a skin: pieces of the same joint link sooner
    * weights: [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint
+   * jointParents: [jointCount] parent of each joint, constants.HF_NO_INDEX for a root. Pieces of parent and child
+   *     link wherever they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing
+   *     else joins them
    * tags: [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a
    *     piece counts
    * links: [linkCount]
@@ -1192,7 +1211,7 @@ export interface Surface extends Handle {
    *
    * Throws HF_ERROR_CANCELLED.
    */
-  relink(options?: { joints?: Rows | null; weights?: Rows | null; tags?: Rows | null; links?: Rows | null; lightVertices?: Rows | null; heavyVertices?: Rows | null; mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; progress?: Progress | null }): Surface;
+  relink(options?: { joints?: Rows | null; weights?: Rows | null; jointParents?: Rows | null; tags?: Rows | null; links?: Rows | null; lightVertices?: Rows | null; heavyVertices?: Rows | null; mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; progress?: Progress | null }): Surface;
   /** Writes the statistics of a surface and of the factor it was made with. */
   readonly statistics: SurfaceStatistics;
   /**

@@ -290,16 +290,20 @@ class hf_links_desc(Struct):
     link_count: int
     light_count: int
     heavy_count: int
+    joint_count: int
+    reserved: int
     joints: int
     weights: int
+    joint_parents: int
     tags: int
     links: int
     light_vertices: int
     heavy_vertices: int
     _fields_ = [("struct_size", c_uint32), ("mode", c_int32), ("distance", c_double), ("stiffness", c_double),
                 ("overlay_distance", c_double), ("influence_count", c_uint32), ("link_count", c_uint32),
-                ("light_count", c_uint32), ("heavy_count", c_uint32), ("joints", c_void_p), ("weights", c_void_p),
-                ("tags", c_void_p), ("links", c_void_p), ("light_vertices", c_void_p), ("heavy_vertices", c_void_p)]
+                ("light_count", c_uint32), ("heavy_count", c_uint32), ("joint_count", c_uint32), ("reserved",
+                c_uint32), ("joints", c_void_p), ("weights", c_void_p), ("joint_parents", c_void_p), ("tags",
+                c_void_p), ("links", c_void_p), ("light_vertices", c_void_p), ("heavy_vertices", c_void_p)]
 
 
 class hf_faces_desc(Struct):
@@ -442,10 +446,11 @@ class hf_links_info(Struct):
     link_count: int
     light_piece_count: int
     lone_piece_count: int
-    reserved: int
+    contact_count: int
     longest_tree_link: float
     _fields_ = [("struct_size", c_uint32), ("piece_count", c_uint32), ("link_count", c_uint32), ("light_piece_count",
-                c_uint32), ("lone_piece_count", c_uint32), ("reserved", c_uint32), ("longest_tree_link", c_double)]
+                c_uint32), ("lone_piece_count", c_uint32), ("contact_count", c_uint32), ("longest_tree_link",
+                c_double)]
 
 
 class hf_gaps_info(Struct):
@@ -455,9 +460,13 @@ class hf_gaps_info(Struct):
     percentile_95: float
     worst: float
     worst_link: int
+    contact_count: int
+    worst_contact: float
+    contact_vertex: int
     reserved: int
     _fields_ = [("struct_size", c_uint32), ("link_count", c_uint32), ("percentile_95", c_double), ("worst", c_double),
-                ("worst_link", c_uint32), ("reserved", c_uint32)]
+                ("worst_link", c_uint32), ("contact_count", c_uint32), ("worst_contact", c_double), ("contact_vertex",
+                c_uint32), ("reserved", c_uint32)]
 
 
 class hf_surface_statistics(Struct):

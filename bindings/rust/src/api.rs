@@ -28,6 +28,9 @@ pub struct Links<'a> {
     pub joints: Option<&'a [u16]>,
     /// `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
     pub weights: Option<&'a [f32]>,
+    /// `[joint_count]` parent of each joint, [`raw::HF_NO_INDEX`] for a root. Pieces of parent and child link wherever
+    /// they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing else joins them
+    pub joint_parents: Option<&'a [u32]>,
     /// `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
     /// counts
     pub tags: Option<&'a [u32]>,
@@ -65,6 +68,7 @@ impl<'a> Links<'a> {
             overlay_distance: self.overlay_distance, ..Default::default() };
         desc.joints = c.array(self.joints, "joints", &["vertex_count", &format!("{prefix}influence_count")])?;
         desc.weights = c.array(self.weights, "weights", &["vertex_count", &format!("{prefix}influence_count")])?;
+        desc.joint_parents = c.array(self.joint_parents, "joint_parents", &[&format!("{prefix}joint_count")])?;
         desc.tags = c.array(self.tags, "tags", &["vertex_count"])?;
         desc.links = c.array(self.links, "links", &[&format!("{prefix}link_count")])?;
         desc.light_vertices = c.array(self.light_vertices, "light_vertices", &[&format!("{prefix}light_count")])?;
@@ -73,6 +77,7 @@ impl<'a> Links<'a> {
         desc.link_count = c.count(&format!("{prefix}link_count"), 0)?;
         desc.light_count = c.count(&format!("{prefix}light_count"), 0)?;
         desc.heavy_count = c.count(&format!("{prefix}heavy_count"), 0)?;
+        desc.joint_count = c.count(&format!("{prefix}joint_count"), 0)?;
         Ok(desc)
     }
 }

@@ -327,8 +327,11 @@ pub struct hf_links_desc {
     pub link_count: u32,
     pub light_count: u32,
     pub heavy_count: u32,
+    pub joint_count: u32,
+    pub reserved: u32,
     pub joints: *const u16,
     pub weights: *const f32,
+    pub joint_parents: *const u32,
     pub tags: *const u32,
     pub links: *const hf_link,
     pub light_vertices: *const u32,
@@ -462,7 +465,7 @@ pub struct hf_links_info {
     pub link_count: u32,
     pub light_piece_count: u32,
     pub lone_piece_count: u32,
-    pub reserved: u32,
+    pub contact_count: u32,
     pub longest_tree_link: f64,
 }
 
@@ -475,6 +478,9 @@ pub struct hf_gaps_info {
     pub percentile_95: f64,
     pub worst: f64,
     pub worst_link: u32,
+    pub contact_count: u32,
+    pub worst_contact: f64,
+    pub contact_vertex: u32,
     pub reserved: u32,
 }
 
@@ -1556,8 +1562,10 @@ figures! {
         bounding_box_diagonal;
     hf_mesh_statistics: struct_size polygon_count non_planar_count largest_face negative_edge_count
         changed_vertex_count first_changed_vertex reserved smallest_angle;
-    hf_links_info: struct_size piece_count link_count light_piece_count lone_piece_count reserved longest_tree_link;
-    hf_gaps_info: struct_size link_count percentile_95 worst worst_link reserved;
+    hf_links_info: struct_size piece_count link_count light_piece_count lone_piece_count contact_count
+        longest_tree_link;
+    hf_gaps_info: struct_size link_count percentile_95 worst worst_link contact_count worst_contact contact_vertex
+        reserved;
     hf_surface_statistics: struct_size unknown_count weld_ms operator_ms ordering_ms symbolic_ms numeric_ms
         factor_entries factor_bytes factor_flops memory_bytes peak_memory_bytes load_ms factor_loaded
         factor_borrowed links_ms;
