@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -35,7 +36,8 @@ const char* usage =
     "  --frames-obj DIR   every key frame as DIR/frame_0000.obj ..., in the vertex order of MESH\n"
     "  --mode MODE        smooth, or paper in builds with HF_WITH_PEERS; instead of the script's\n"
     "  --given-rotations  a drag without a turn keeps the rotation of its handle; otherwise the rotation is free\n"
-    "  --following S      how much follows what is dragged: 0 its limb alone, 1 all of the surface (default 1)\n"
+    "  --following S      how much follows what is dragged: 0 its limb alone, 1 all of the surface (default 0.25 for\n"
+    "                     proposed tips, 1 for handles of the script)\n"
     "  --limb-steps N     keeps lengths on the limb of what is dragged: N full-mesh steps there, 0 to 64 (default 0)\n"
     "  --rigid            pieces alone on a joint of the skin stay rigid, a sword for example\n"
     "  --no-links         pieces of the surface stay apart; otherwise links join them\n"
@@ -49,7 +51,8 @@ const char* usage =
 struct Command {
   std::filesystem::path mesh, script, output, sheet, frames;
   std::string mode;
-  double keys = 8, following = 1;
+  double keys = 8;
+  std::optional<double> following;
   uint32_t tiles = 7, threads = 1, limb_steps = 0;
   glm::dvec3 up{0, 1, 0};
   bool rigid = false, propose = false, refine = false, lengths = false, links = true, given_rotations = false,

@@ -55,6 +55,7 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   own_ = !options.on;
   frees_ = !options.given_rotations && !options.paper;
   following_ = options.following;
+  if (options.paper && !following_) following_ = 1;  // the paper's scheme has no following
   limb_refine_ = options.limb_refine;
   if (own_)
     make_surface(mesh, options);
@@ -194,7 +195,8 @@ void Posable::begin(const Step& step) {
     found->from_place = false;
     if (!found->dragged && found->entry.layer == 0) {
       const std::string what = "dragging \"" + name + "\"";
-      if (following_ < 1) expect_ok(hf_pose_set_following(pose_, 1, &found->number, following_), what);
+      const double following = following_.value_or(found->entry.offered ? tip_following : 1);
+      if (following < 1) expect_ok(hf_pose_set_following(pose_, 1, &found->number, following), what);
       if (limb_refine_ > 0)
         expect_ok(hf_pose_set_limb_refine(pose_, 1, &found->number, static_cast<int32_t>(limb_refine_)), what);
       found->dragged = true;
