@@ -6,9 +6,10 @@
 namespace hf_inner {
 namespace {
 
-// On a tube A grows like 1 - t, on a trunk much faster. With 1 a tube has no end, and a thin wrist ends an arm. With 2
-// a short, thick arm is no limb, and the whole body is.
-constexpr double limb_power = 1.5;
+// A large number says limb. On a tube the area grows like the fall, on a trunk much faster. With the power 1 a tube has
+// no end, and a thin wrist ends an arm. With 2 a short, thick arm is no limb, and the whole body is.
+double limb_measure(double fall, double area) { return fall * std::sqrt(fall) / area; }
+
 // The limb goes on while the measure is at least this share of the best, a little into the trunk, so that the steps can
 // turn a shoulder. With 0.8 the head of a biped belongs to its arm.
 constexpr double limb_margin = 0.85;
@@ -22,7 +23,7 @@ double limb_end(const Core& core, FieldColumn<const double> field, double area, 
     const double level = field[vertices[i]];
     area += core.areas[static_cast<std::size_t>(vertices[i])];
     if (i + 1 < vertices.size() && field[vertices[i + 1]] == level) continue;  // behind other handles all are 0
-    const double measure = std::pow(1 - level, limb_power) / area;
+    const double measure = limb_measure(1 - level, area);
     best = std::max(best, measure);
     if (measure >= limb_margin * best) end = level;
   }

@@ -2,7 +2,7 @@
 //
 // Let phi be the field of a handle, and A(t) the area where phi >= t. Along a limb the field falls a long way over
 // little area; on the trunk it falls little over much. The limb is where phi is at least the t that makes
-//     (1 - t)^limb_power / A(t)
+//     (1 - t)^1.5 / A(t)
 // largest, and a little beyond it. A tube between two handles is all limb. By the maximum principle every part of a
 // limb touches its handle.
 //
