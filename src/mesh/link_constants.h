@@ -12,8 +12,6 @@ namespace hf_inner {
 
 // Joints per vertex of a given skin, as the headers state: refuses a count of another thing, such as all joints.
 constexpr std::uint32_t most_skin_joints = 64;
-// Joints of a skeleton: as many as 16 bits can name.
-constexpr std::uint32_t most_joints = 0x10000;
 // Pieces touch up to this distance, and then link both ways, in the tree or not. It trades links for gaps. Half: gap
 // .072 / .32. Double: .072 / .35, 1.192, false 0.9 %.
 constexpr double touching = 0.005;

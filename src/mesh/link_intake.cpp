@@ -16,6 +16,8 @@ constexpr double barycentric_slack = 1e-3;
 // Nearer sums are 1 but for rounding, and the barycentrics stay as they are, so that a list read back has the same
 // bits. It trades nothing: sums of three shares miss 1 by at most 4e-16.
 constexpr double rounded_sum = 1e-15;
+// Joints of a skeleton: as many as 16 bits can name.
+constexpr std::uint32_t most_parents = 0x10000;
 
 double read_length(double given, double standard, const Mesh& mesh, const char* name) {
   const double length = given;
@@ -76,8 +78,8 @@ void read_parents(const hf_links_desc& desc, const Mesh& mesh, Memory& memory, S
     return;
   }
   require(desc.joint_parents, "joint_parents");
-  if (desc.joint_count > most_joints)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint_count is %u; it must be at most %u", desc.joint_count, most_joints);
+  if (desc.joint_count > most_parents)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint_count is %u; it must be at most %u", desc.joint_count, most_parents);
   if (out.influence_count == 0)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joint_parents needs joints and weights; influence_count is 0");
   for (std::uint32_t j = 0; j < desc.joint_count; ++j) {
