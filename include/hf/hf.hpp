@@ -49,6 +49,9 @@ struct Links {
   std::vector<uint16_t> joints{};
   // `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
   std::vector<float> weights{};
+  // `[joint_count]` parent of each joint, HF_NO_INDEX for a root. Pieces of parent and child link wherever they touch.
+  // Pieces of joints that are farther apart, such as two feet, link only if nothing else joins them
+  std::vector<uint32_t> joint_parents{};
   // `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
   // counts
   std::vector<uint32_t> tags{};
@@ -2082,6 +2085,24 @@ class Pose {
     check(hf_pose_set_following(get(), c.count("handle_count", 1), handles_, following));
   }
 
+  // Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The limb is the
+  // part of the surface where the field of the handle falls a long way over little area. It ends at the trunk, or at
+  // the next handle on the limb. The steps move the limb alone. The rest of the surface keeps its bits, and the body
+  // does not lean more than without the steps. A limb that is pulled beyond its length is stretched evenly. With the
+  // refine of DeformOptions the limbs take their steps after it. If several handles have a refine, all their limbs take
+  // the largest.
+  //
+  // handles: `[handle_count]`.
+  // refine: 0 to 64 steps of as-rigid-as-possible at every Pose.deform; 0 = none, as in a new handle. 1 keeps bends
+  // smooth. 8 and more keep lengths; the limb bends like two bones.
+  //
+  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+  void set_limb_refine(const std::vector<uint32_t>& handles, int32_t refine = 0) {
+    Call c(counts_);
+    const uint32_t* handles_ = c.array(handles, true, "handles", {"handle_count"});
+    check(hf_pose_set_limb_refine(get(), c.count("handle_count", 1), handles_, refine));
+  }
+
   // Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
   // moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the vertices
   // near links most. If the region of a handle touches a rigid piece, the whole piece joins the region and moves with
@@ -3427,6 +3448,7 @@ inline hf_links_desc Links::fill([[maybe_unused]] Call& c, [[maybe_unused]] cons
   desc.overlay_distance = overlay_distance;
   desc.joints = c.array(joints, false, "joints", {"vertex_count", prefix + "influence_count"});
   desc.weights = c.array(weights, false, "weights", {"vertex_count", prefix + "influence_count"});
+  desc.joint_parents = c.array(joint_parents, false, "joint_parents", {prefix + "joint_count"});
   desc.tags = c.array(tags, false, "tags", {"vertex_count"});
   desc.links = c.array(links, false, "links", {prefix + "link_count"});
   desc.light_vertices = c.array(light_vertices, false, "light_vertices", {prefix + "light_count"});
@@ -3435,6 +3457,7 @@ inline hf_links_desc Links::fill([[maybe_unused]] Call& c, [[maybe_unused]] cons
   desc.link_count = c.count(prefix + "link_count", 0);
   desc.light_count = c.count(prefix + "light_count", 0);
   desc.heavy_count = c.count(prefix + "heavy_count", 0);
+  desc.joint_count = c.count(prefix + "joint_count", 0);
   return desc;
 }
 

@@ -83,7 +83,8 @@ typedef struct hf_link {
 } hf_link;
 
 /* Says which pieces to link. Joints and weights or tags help the automatic links; each array may be NULL. A light
- * piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it. */
+ * piece is a sheet over a larger one, such as cloth: it follows the surface below and hardly pulls it. More than 16
+ * fields: they are the arrays of one search, and their counts. */
 typedef struct hf_links_desc {
   uint32_t struct_size;
   int32_t mode;     /* HF_LINK_* */
@@ -95,8 +96,13 @@ typedef struct hf_links_desc {
   uint32_t link_count;      /* for HF_LINK_LIST */
   uint32_t light_count;     /* entries of light_vertices */
   uint32_t heavy_count;     /* entries of heavy_vertices */
+  uint32_t joint_count;     /* entries of joint_parents, up to 65,536; 0 = the skeleton is not known */
+  uint32_t reserved;        /* 0 */
   const uint16_t* joints;   /* [vertex_count][influence_count] of a skin: pieces of the same joint link sooner */
   const float* weights;     /* [vertex_count][influence_count] of sum 1; where all are 0, a vertex shares no joint */
+  const uint32_t* joint_parents; /* [joint_count] parent of each joint, HF_NO_INDEX for a root. Pieces of parent and
+                               child link wherever they touch. Pieces of joints that are farther apart, such as two
+                               feet, link only if nothing else joins them */
   const uint32_t* tags;     /* [vertex_count]: pieces with different tags do not link, as a rider and a horse. The
                                first vertex of a piece counts */
   const hf_link* links;     /* [link_count] */
@@ -307,7 +313,8 @@ typedef struct hf_links_info {
   uint32_t link_count;  /* hf_surface_get_links writes them */
   uint32_t light_piece_count;
   uint32_t lone_piece_count; /* pieces without a link, if there are several */
-  uint32_t reserved;         /* 0 */
+  uint32_t contact_count;    /* with joint_parents: places where pieces touch and are not linked, such as two feet.
+                                hf_surface_measure_gaps tells how far they open */
   double longest_tree_link;  /* longest link of the tree over the pieces, in the unit of the positions */
 } hf_links_info;
 
@@ -334,6 +341,9 @@ typedef struct hf_gaps_info {
   double percentile_95; /* 95 of 100 links opened no more than this; 0 without links */
   double worst;
   uint32_t worst_link; /* its number in hf_surface_get_links; HF_NO_INDEX without links */
+  uint32_t contact_count; /* as in hf_links_info; worst does not count them */
+  double worst_contact;   /* how far the widest of them opened; 0 without one */
+  uint32_t contact_vertex; /* of the widest, as given; HF_NO_INDEX without one */
   uint32_t reserved;
 } hf_gaps_info;
 

@@ -46,6 +46,9 @@ ModelLinks::ModelLinks(const Model* model, const FlatMesh& mesh) {
   desc.influence_count = slots;
   desc.joints = joints.data();
   desc.weights = weights.data();
+  for (const Node& node : model->nodes) parents.push_back(node.parent < 0 ? HF_NO_INDEX : uint32_t(node.parent));
+  desc.joint_count = static_cast<uint32_t>(parents.size());
+  desc.joint_parents = parents.data();
 }
 
 namespace {
@@ -68,7 +71,13 @@ std::string gaps_sentence(hf_surface surface, const std::vector<double>& positio
   std::snprintf(text, sizeof text,
                 "gaps between linked pieces: %.2g %% of the box at 95 of 100 links, %.2g %% at worst",
                 100 * info.percentile_95 / diagonal, 100 * info.worst / diagonal);
-  return text;
+  std::string out = text;
+  if (info.contact_count > 0) {
+    std::snprintf(text, sizeof text, "; pieces that only touch open by %.2g %% at worst",
+                  100 * info.worst_contact / diagonal);
+    out += text;
+  }
+  return out;
 }
 
 void WidestGap::take(const std::vector<double>& positions, const std::string& place) {

@@ -21,6 +21,7 @@ struct ModelLinks {
   hf_links_desc desc = HF_INIT(hf_links_desc);
   std::vector<uint16_t> joints;  // 8 per vertex; empty without a skin
   std::vector<float> weights;
+  std::vector<uint32_t> parents;  // by joint
 };
 
 // "66 pieces, joined by 824 links (8 light pieces; 2 stay apart)"; empty for a surface of one piece.
@@ -40,8 +41,8 @@ inline std::string links_sentence(hf_surface surface) {
   return more.empty() ? out : out + " (" + more + ")";
 }
 
-// "gaps between linked pieces: 0.08 % of the box at 95 of 100 links, 0.6 % at worst"; empty without links. diagonal: of
-// the box. positions: xyz of every vertex.
+// "gaps between linked pieces: 0.08 % of the box at 95 of 100 links, 0.6 % at worst; pieces that only touch open by 4 %
+// at worst"; empty without links. diagonal: of the box. positions: xyz of every vertex.
 std::string gaps_sentence(hf_surface surface, const std::vector<double>& positions, double diagonal);
 
 // The frame with the widest gap between linked pieces, of all frames that were taken.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -35,7 +36,9 @@ const char* usage =
     "  --frames-obj DIR   every key frame as DIR/frame_0000.obj ..., in the vertex order of MESH\n"
     "  --mode MODE        smooth, or paper in builds with HF_WITH_PEERS; instead of the script's\n"
     "  --given-rotations  a drag without a turn keeps the rotation of its handle; otherwise the rotation is free\n"
-    "  --following S      how much follows what is dragged: 0 its limb alone, 1 all of the surface (default 1)\n"
+    "  --following S      how much follows what is dragged: 0 its limb alone, 1 all of the surface (default 0.25 for\n"
+    "                     proposed tips, 1 for handles of the script)\n"
+    "  --limb-steps N     keeps lengths on the limb of what is dragged: N full-mesh steps there, 0 to 64 (default 0)\n"
     "  --rigid            pieces alone on a joint of the skin stay rigid, a sword for example\n"
     "  --no-links         pieces of the surface stay apart; otherwise links join them\n"
     "  --refine           one full-mesh step on every frame\n"
@@ -48,8 +51,9 @@ const char* usage =
 struct Command {
   std::filesystem::path mesh, script, output, sheet, frames;
   std::string mode;
-  double keys = 8, following = 1;
-  uint32_t tiles = 7, threads = 1;
+  double keys = 8;
+  std::optional<double> following;
+  uint32_t tiles = 7, threads = 1, limb_steps = 0;
   glm::dvec3 up{0, 1, 0};
   bool rigid = false, propose = false, refine = false, lengths = false, links = true, given_rotations = false,
        quiet = false, help = false;
@@ -98,6 +102,8 @@ Command parse(Words words) {
       out.given_rotations = true;
     } else if (words.is("--following")) {
       out.following = words.number(0, 1);
+    } else if (words.is("--limb-steps")) {
+      out.limb_steps = words.whole(0, 64);
     } else if (words.is("--rigid")) {
       out.rigid = true;
     } else if (words.is("--no-links")) {
@@ -270,6 +276,7 @@ void run(const Command& command) {
   options.links = command.links;
   options.rigid = command.rigid;
   options.following = command.following;
+  options.limb_refine = command.limb_steps;
   options.given_rotations = command.given_rotations;
   options.model = mesh.model.skins.empty() ? nullptr : &mesh.model;
   Posable posable(mesh.flat, options);

@@ -55,6 +55,8 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
   own_ = !options.on;
   frees_ = !options.given_rotations && !options.paper;
   following_ = options.following;
+  if (options.paper && !following_) following_ = 1;  // the paper's scheme has no following
+  limb_refine_ = options.limb_refine;
   if (own_)
     make_surface(mesh, options);
   else
@@ -191,9 +193,13 @@ void Posable::begin(const Step& step) {
     found->from = found->now;
     found->moving = true;
     found->from_place = false;
-    if (following_ < 1 && !found->follows) {
-      expect_ok(hf_pose_set_following(pose_, 1, &found->number, following_), "dragging \"" + name + "\"");
-      found->follows = true;
+    if (!found->dragged && found->entry.layer == 0) {
+      const std::string what = "dragging \"" + name + "\"";
+      const double following = following_.value_or(found->entry.offered ? tip_following : 1);
+      if (following < 1) expect_ok(hf_pose_set_following(pose_, 1, &found->number, following), what);
+      if (limb_refine_ > 0)
+        expect_ok(hf_pose_set_limb_refine(pose_, 1, &found->number, static_cast<int32_t>(limb_refine_)), what);
+      found->dragged = true;
     }
     const bool free = frees_ && motion.degrees == 0 && !motion.bend;
     if (free == found->free_rotation) continue;

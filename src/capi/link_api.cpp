@@ -21,6 +21,16 @@ hf_link written(const Link& link, const Mesh& mesh) noexcept {
   return out;
 }
 
+void measure_contacts(const Mesh& mesh, Span<const Link> contacts, const ConstRows& posed, Memory& memory,
+                      hf_gaps_info& info) {
+  Vector<double> gaps(contacts.size(), 0.0, &memory);
+  measure_gaps(mesh, contacts, posed, gaps);
+  const GapSummary found = summarise_gaps(gaps);
+  info.contact_count = static_cast<std::uint32_t>(contacts.size());
+  info.worst_contact = found.worst;
+  info.contact_vertex = given_vertex(mesh, contacts[found.worst_link].vertex);
+}
+
 }  // namespace
 }  // namespace hf_inner::capi
 
@@ -70,11 +80,13 @@ hf_result hf_surface_measure_gaps(hf_surface surface, const hf_array* positions,
     const std::size_t count = shape.links ? shape.links->links.size() : 0;
     hf_gaps_info info{};
     info.link_count = static_cast<std::uint32_t>(count);
-    info.worst_link = HF_NO_INDEX;
+    info.worst_link = info.contact_vertex = HF_NO_INDEX;
     if (out_gaps && capacity < count && out_info) write_struct(out_info, info);
     check_capacity(out_gaps, capacity, count, "capacity");
     Vector<double> gaps(count, 0.0, object->memory.get());
-    if (count > 0) measure_gaps(shape.mesh, *shape.links, posed, gaps);
+    if (count > 0) measure_gaps(shape.mesh, shape.links->links, posed, gaps);
+    if (shape.links && !shape.links->open.empty())
+      measure_contacts(shape.mesh, shape.links->open, posed, *object->memory, info);
     if (out_gaps) std::copy(gaps.begin(), gaps.end(), out_gaps);
     const GapSummary found = summarise_gaps(gaps);
     info.worst = found.worst;

@@ -113,8 +113,7 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const VertexRange range = read_range(desc, core.mesh.report.vertex_count);
   const PointsOut out = read_points_out(desc, range.count);
   if (out.positions && !out.positions.is_double()) require_float_positions(core.mesh);
-  request.surface = range.whole || request.normals || request.refine > 0 || pose->pose->has_layers() ||
-                    pose->pose->has_rigid_pieces();
+  request.surface = range.whole || request.normals || request.refine > 0 || pose->pose->needs_surface();
   // The library's and the caller's vertices have the same order.
   const bool straight = range.whole && pose->keeps_order;
   if (straight) {
@@ -262,6 +261,16 @@ hf_result hf_pose_set_following(hf_pose handle, uint32_t handle_count, const uin
   });
 }
 
+hf_result hf_pose_set_limb_refine(hf_pose handle, uint32_t handle_count, const uint32_t* handles, int32_t refine) {
+  return guarded("hf_pose_set_limb_refine", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    check_handles(handle_count, handles);
+    const std::uint32_t steps = read_refine(refine);
+    const Changing changing(*pose);
+    pose->pose->set_limb_steps({handles, handle_count}, steps);
+  });
+}
+
 hf_result hf_pose_set_rigid_pieces(hf_pose handle, uint32_t vertex_count, const uint32_t* vertices) {
   return guarded("hf_pose_set_rigid_pieces", [&] {
     const auto pose = get<PoseObject>(handle, "pose");
@@ -288,6 +297,7 @@ hf_result hf_pose_get_handle(hf_pose handle, uint32_t number, hf_handle_info* ou
     info.layer = pose->pose->layer_of(number);
     info.free_rotation = pose->pose->free_turn(number);
     info.following = pose->pose->following(number);
+    info.limb_refine = static_cast<int32_t>(pose->pose->limb_steps(number));
     write_struct(out_info, info);
   });
 }

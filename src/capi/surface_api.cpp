@@ -102,6 +102,7 @@ hf_result hf_surface_get_links_info(hf_surface surface, hf_links_info* out_info)
       info.link_count = static_cast<std::uint32_t>(links->links.size());
       info.light_piece_count = static_cast<std::uint32_t>(std::count(links->light.begin(), links->light.end(), 1));
       info.lone_piece_count = static_cast<std::uint32_t>(links->alone_count);
+      info.contact_count = static_cast<std::uint32_t>(links->open.size());
       info.longest_tree_link = geometry.mesh.scale * links->longest_tree_link;
     } else {
       info.lone_piece_count = info.piece_count > 1 ? info.piece_count : 0;

@@ -101,6 +101,12 @@ void check_following(double following) {
          following);
 }
 
+std::uint32_t read_refine(std::int32_t refine) {
+  if (refine < 0 || refine > static_cast<std::int32_t>(most_refine_steps))
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "refine is %d; it must be 0 to %u steps", refine, most_refine_steps);
+  return static_cast<std::uint32_t>(refine);
+}
+
 HandleTransform read_transform(const hf_transform& given) noexcept {
   HandleTransform out;
   const double* q = given.rotation;
@@ -120,9 +126,7 @@ VertexRange read_range(const hf_deform_desc& desc, std::uint32_t vertex_count) {
 DeformRequest read_request(const hf_deform_desc& desc) {
   require_zero(desc.reserved);
   check_flag(desc.restart, "restart");
-  if (desc.refine < 0 || desc.refine > static_cast<std::int32_t>(most_refine_steps))
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "refine is %d; it must be 0 to %u steps", desc.refine,
-         most_refine_steps);
+  const std::uint32_t refine = read_refine(desc.refine);
   check_flag(desc.refine_from_last, "refine_from_last");
   if (desc.refine_from_last && desc.refine == 0)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "refine_from_last needs steps; set refine to 1 or more");
@@ -130,7 +134,7 @@ DeformRequest read_request(const hf_deform_desc& desc) {
   request.normals = is_given(desc.normals);
   request.iteration_count = desc.iteration_count;
   request.restart = desc.restart != 0;
-  request.refine = static_cast<std::uint32_t>(desc.refine);
+  request.refine = refine;
   request.refine_from_last = desc.refine_from_last != 0;
   return request;
 }

@@ -30,6 +30,8 @@ Vector<std::int32_t> read_rigid_pieces(const Core& core, std::uint32_t count, co
                                        Memory& memory);
 // Throws HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT.
 void check_following(double following);
+// Returns the steps. Throws HF_ERROR_INVALID_ARGUMENT.
+std::uint32_t read_refine(std::int32_t refine);
 HandleTransform read_transform(const hf_transform& given) noexcept;
 
 // The vertices as given that hf_pose_deform writes.

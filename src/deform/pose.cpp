@@ -180,7 +180,7 @@ bool Pose::restore_previous(const Handles& remaining) {
       return false;
   }
   auto state = make_shared_in<State>(memory(), *previous_state_, memory());
-  bool other_holds = false;
+  bool other_holds = false, other_limbs = false;
   for (std::size_t i = 0; i < remaining.size(); ++i) {
     const HandleState& now = state_->handles[find(remaining[i].number)];
     HandleState& then = state->handles[i];
@@ -195,9 +195,12 @@ bool Pose::restore_previous(const Handles& remaining) {
     }
     state->changed = state->changed || then.free_turn != now.free_turn;
     other_holds = other_holds || then.following != now.following || (state->without && then.free_turn != now.free_turn);
+    other_limbs = other_limbs || then.limb_steps != now.limb_steps;
     then.free_turn = now.free_turn;
     then.following = now.following;
+    then.limb_steps = now.limb_steps;
   }
+  if (other_limbs) prepare_limbs(*previous_layout_, *state);
   if (other_holds) prepare_holds(*previous_layout_, *state);
   state->changed = state->changed || other_holds;
   prepare_turns(*previous_layout_, *state);
@@ -288,6 +291,7 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout, bool free_tu
     }
     state->handles.push_back(carried);
   }
+  prepare_limbs(layout, *state);
   state->started = state_ && state_->started;
   if (state_ && state_->followed) {
     state->followed = make_shared_in<Followed>(memory(), core_->size(), layout.weights.cluster_count, memory());

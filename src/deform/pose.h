@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "deform/crossfade.h"
+#include "deform/limbs.h"
 #include "deform/normals.h"
 #include "deform/pose_scheme.h"
 #include "deform/pose_solver.h"
@@ -106,6 +107,12 @@ class Pose {
   void set_following(Span<const std::uint32_t> numbers, double following);
   double following(std::uint32_t number) const;
 
+  // Sets how many full-mesh steps every frame takes on the limbs of handles (limbs.h); 0: none. Throws HF_ERROR_EMPTY
+  // or _NOT_FOUND (index: position).
+  void set_limb_steps(Span<const std::uint32_t> numbers, std::uint32_t steps);
+  std::uint32_t limb_steps(std::uint32_t number) const;
+  bool keeps_limbs() const noexcept { return state_ && state_->limbs; }
+
   // Solves the pose and writes the surface. Throws HF_ERROR_EMPTY when the pose has no handle. The returned spans stay
   // valid until the next change of the pose.
   DeformReport deform(const DeformRequest& request);
@@ -165,8 +172,9 @@ class Pose {
     Vec3 turn;            // rotation vector of the motion so far, with full turns
     Quaternion solved;    // rotation in the last solve
     Vec3 solved_turn;
-    bool free_turn = false;  // rotation and turn are those of the last solve
-    double following = 1;    // below 1: the rest of the surface is held back (holds.h)
+    bool free_turn = false;        // rotation and turn are those of the last solve
+    double following = 1;          // below 1: the rest of the surface is held back (holds.h)
+    std::uint32_t limb_steps = 0;  // full-mesh steps on its limb (limbs.h)
   };
   struct State {
     explicit State(Memory& memory) : handles(&memory), transforms(&memory), smooth(memory) {}
@@ -180,7 +188,8 @@ class Pose {
           changed(other.changed),
           last_change(other.last_change),
           idle_iterations(other.idle_iterations),
-          crossfade(other.crossfade) {
+          crossfade(other.crossfade),
+          limbs(other.limbs) {
       if (other.followed) followed = make_shared_in<Followed>(memory, *other.followed, memory);
       if (other.without) without = other.without->clone();
     }
@@ -195,6 +204,7 @@ class Pose {
     std::uint32_t idle_iterations = 0;           // iterations since the last change
     std::shared_ptr<const Crossfade> crossfade;  // null: the surface is that of the transforms
     std::shared_ptr<Followed> followed;          // null: full-mesh steps begin at the blended pose
+    std::shared_ptr<const Limbs> limbs;          // null: no limb takes steps of its own
     std::shared_ptr<Pose> without;  // without the handles that are held back; null: nothing is, or rest is meant
   };
 
@@ -209,6 +219,7 @@ class Pose {
   std::shared_ptr<State> carry_over(const Layout& layout, bool free_turn = false) const;
   void prepare_turns(const Layout& layout, State& state) const;
   void prepare_holds(const Layout& layout, State& state) const;
+  void prepare_limbs(const Layout& layout, State& state) const;
   bool pull_to_others(State& state, const DeformRequest& request) const;
   void start_turns(State& state) const noexcept;
   void take_turns(State& state) const noexcept;
@@ -220,7 +231,7 @@ class Pose {
   Span<const RigidMotion> placed(const State& state) const noexcept;
   double crossfade_share() const noexcept;
   void make_refinement(const Layout& layout, std::uint32_t steps, const Followed* followed);
-  void refine(const Layout& layout, const State& state, std::uint32_t steps, Vec3* positions);
+  void refine(const Layout& layout, const State& state, std::uint32_t steps, const Limbs* limbs, Vec3* positions);
   void install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept;
   bool restore_previous(const Handles& remaining);
   void solve_smooth(std::uint32_t iterations) noexcept;

@@ -103,15 +103,7 @@ bool Pose::pull_to_others(State& state, const DeformRequest& request) const {
 // ---- layers ----
 
 void PoseStack::set_following(Span<const std::uint32_t> numbers, double following) {
-  Vector<std::uint32_t> inner(&memory());
-  for (std::uint32_t k = 0; k < numbers.size(); ++k) {
-    const Entry& entry = entries_[require(numbers[k], k)];
-    if (entry.layer > 0)
-      fail(HF_ERROR_UNSUPPORTED, k, "handle %u is on layer %u; set a following for handles of layer 0 only", numbers[k],
-           entry.layer);
-    inner.push_back(entry.inner[0]);
-  }
-  base_->set_following(inner, following);
+  base_->set_following(on_base(numbers, "a following"), following);
   mark_stale(0);
 }
 

@@ -154,7 +154,8 @@ void Pose::prepare(const DeformRequest& request) {
   std::shared_ptr<Followed> followed = request.refine_from_last ? state_->followed : nullptr;
   if (request.refine_from_last && !followed)
     followed = make_shared_in<Followed>(memory(), n, layout_->weights.cluster_count, memory());
-  if (request.refine > 0) make_refinement(*layout_, request.refine, followed.get());
+  const std::uint32_t steps = std::max(request.refine, state_->limbs ? state_->limbs->steps : 0);
+  if (steps > 0) make_refinement(*layout_, steps, followed.get());
   state_->followed = std::move(followed);
   if (!sums.empty()) normal_sums_ = std::move(sums);
   if (!normals.empty()) normals_ = std::move(normals);
@@ -211,8 +212,8 @@ double Pose::crossfade_share() const noexcept {
   return state_->crossfade ? share_left(*state_->crossfade, placed(*state_)) : 0;
 }
 
-// Takes the full-mesh steps.
-void Pose::refine(const Layout& layout, const State& state, std::uint32_t steps, Vec3* positions) {
+// Takes full-mesh steps. limbs: null, or the only vertices that they move.
+void Pose::refine(const Layout& layout, const State& state, std::uint32_t steps, const Limbs* limbs, Vec3* positions) {
   const RefineInput input{*core_,
                           *rest_,
                           layout.reach,
@@ -221,8 +222,9 @@ void Pose::refine(const Layout& layout, const State& state, std::uint32_t steps,
                           layout.handles,
                           layout.groups.get(),
                           layout.smooth ? &state.smooth.rotation : nullptr,
-                          state.transforms.data()};
-  refinement_->apply(input, steps, state.followed.get(), positions);
+                          state.transforms.data(),
+                          limbs};
+  refinement_->apply(input, steps, limbs ? nullptr : state.followed.get(), positions);
 }
 
 Vec3 Pose::blended(std::int32_t vertex) const noexcept {
@@ -246,17 +248,18 @@ void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   const Timer blend_timer;
   const double share = crossfade_share();
   if (!(share > 0)) state_->crossfade.reset();  // it comes back to nothing
-  float* packed = request.refine > 0 || share > 0 || rigid_ ? nullptr : request.packed_positions;
+  const Limbs* const limbs = state_->limbs.get();
+  const bool blended_only = request.refine == 0 && !limbs && !(share > 0) && !rigid_;
+  float* packed = blended_only ? request.packed_positions : nullptr;
   blend(mesh, layout_->weights, state_->transforms.data(), state_->columns.data(), mesh.centre, mesh.scale,
         positions_.data(), packed, *core_->jobs);
   report.packed_positions = packed != nullptr;
   report.blend_ms = blend_timer.milliseconds();
-  if (request.refine > 0) {
-    const Timer refine_timer;
-    const bool stays = state_->followed && share == 1;  // handles were added in place, and nothing moved since
-    refine(*layout_, *state_, stays ? 0 : request.refine, positions_.data());
-    report.refine_ms = refine_timer.milliseconds();
-  }
+  const Timer refine_timer;
+  const bool stays = state_->followed && share == 1;  // handles were added in place, and nothing moved since
+  if (request.refine > 0) refine(*layout_, *state_, stays ? 0 : request.refine, nullptr, positions_.data());
+  if (limbs) refine(*layout_, *state_, limbs->steps, limbs, positions_.data());
+  report.refine_ms = request.refine > 0 || limbs ? refine_timer.milliseconds() : 0;
   if (share > 0) add_crossfade(*state_->crossfade, share, positions_.data(), *core_->jobs);
   make_rigid();
   report.positions = {positions_.data(), positions_.size()};

@@ -51,10 +51,11 @@ void Pose::keep_in_place(const Layout& layout, State& state, bool fades_at_rest)
   blend(core_->mesh, layout.weights, state.transforms.data(), state.columns.data(), core_->mesh.centre,
         core_->mesh.scale, fresh.data(), nullptr, *core_->jobs);
   if (state.followed) state.followed->lead(fresh.data(), positions_.data());
-  if (refined_ > 0) {
-    make_refinement(layout, refined_, state.followed.get());
-    refine(layout, state, state.followed ? 0 : refined_, fresh.data());
-  }
+  const Limbs* const limbs = state.limbs.get();
+  const std::uint32_t steps = std::max(refined_, limbs ? limbs->steps : 0);
+  if (steps > 0) make_refinement(layout, steps, state.followed.get());
+  if (refined_ > 0) refine(layout, state, state.followed ? 0 : refined_, nullptr, fresh.data());
+  if (limbs) refine(layout, state, limbs->steps, limbs, fresh.data());
   auto crossfade = make_shared_in<Crossfade>(memory(), n, memory());
   const Span<const RigidMotion> now = placed(state);
   crossfade->placed.assign(now.begin(), now.end());

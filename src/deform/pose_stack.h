@@ -54,10 +54,16 @@ class PoseStack {
   void set_following(Span<const std::uint32_t> numbers, double following);
   double following(std::uint32_t number) const;
 
+  // Sets the full-mesh steps on the limbs of handles of layer 0. Throws HF_ERROR_UNSUPPORTED for others.
+  void set_limb_steps(Span<const std::uint32_t> numbers, std::uint32_t steps);
+  std::uint32_t limb_steps(std::uint32_t number) const;
+
   // The pieces of these inner vertices are rigid from now on, no others. A handle on one takes all of it. Throws
   // HF_ERROR_CONFLICT where a handle has a part of one (index: position).
   void set_rigid_pieces(Span<const std::int32_t> vertices);
   bool has_rigid_pieces() const noexcept { return rigid_ != nullptr; }
+  // Whether a vertex is more than a blend of clusters.
+  bool needs_surface() const noexcept { return rigid_ || has_layers() || base_->keeps_limbs(); }
 
   // Solves all layers that changed and writes the surface. request.surface = false only has an effect while there is
   // one layer.
@@ -108,6 +114,8 @@ class PoseStack {
   void check_rigid(const RigidPieces& rigid, Span<const std::int32_t> vertices) const;
   void take_whole_pieces(Span<const std::uint32_t> start, Span<const std::int32_t> vertices,
                          Vector<std::uint32_t>& whole_start, Vector<std::int32_t>& whole) const;
+  // Returns the numbers of these handles in the pose of layer 0. Throws for others; `word`: what is set for them.
+  Vector<std::uint32_t> on_base(Span<const std::uint32_t> numbers, const char* word) const;
   void mark_stale(std::uint32_t layer) noexcept;
   void take_base_turns();
   void take_turns(std::uint32_t k);

@@ -30,6 +30,19 @@ inline Vec3 times_sum(const Mat3& a, const Mat3& b, Vec3 v) noexcept {
   return {row(0), row(1), row(2)};
 }
 
+// Calls loop(first, last) for pieces of a list; null: of all vertices. vertex_at gives their vertices.
+template <class Loop>
+void for_listed(const RefineInput& input, const Vector<std::int32_t>* list, Loop&& loop) {
+  for_vertex_pieces(*input.core.jobs, list ? static_cast<std::int32_t>(list->size()) : input.core.size(), loop);
+}
+inline std::int32_t vertex_at(const Vector<std::int32_t>* list, std::int32_t i) noexcept {
+  return list ? (*list)[i] : i;
+}
+
+const Vector<std::int32_t>* moved_by(const RefineInput& input) noexcept {
+  return input.limbs ? &input.limbs->vertex : nullptr;
+}
+
 }  // namespace
 
 Mat3 linear_part(const Affine& affine) noexcept {
@@ -81,7 +94,8 @@ void Refinement::fit(std::int32_t slot_count, std::uint32_t steps, const Followe
 void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) {
   const Core& core = input.core;
   const SymmetricMatrix& k = core.laplacian;
-  for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
+  const Vector<std::int32_t>* const list = input.limbs ? &input.limbs->around : nullptr;
+  for_listed(input, list, [&](std::int32_t first, std::int32_t last) {
     RotationBatch batch;
     std::int32_t vertex[RotationBatch::lanes];
     int count = 0;
@@ -90,8 +104,8 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
       for (int l = 0; l < count; ++l) rotation_[vertex[l]] = batch.rotation(l).toRotationMatrix();
       count = 0;
     };
-    for (std::int32_t v = first; v < last; ++v) {
-      const std::int32_t owner = input.reach.owner[v];
+    for (std::int32_t i = first; i < last; ++i) {
+      const std::int32_t v = vertex_at(list, i), owner = input.reach.owner[v];
       if (owner >= 0) {
         rotation_[v] = linear_part(input.transforms[owner]);
       } else if (elastic_[core.mesh.component[v]]) {
@@ -120,13 +134,15 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
   });
 }
 
-// Computes the right-hand side b - K x, in the unit of the scaled mesh.
+// Computes the right-hand side b - K x, in the unit of the scaled mesh; of limbs their rows.
 void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* positions, double* load) {
   const Core& core = input.core;
   const SymmetricMatrix& k = core.laplacian;
   const double own_unit = 2.0 / core.mesh.scale;  // contains the 1/2 of the two rotations
-  for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
-    for (std::int32_t v = first; v < last; ++v) {
+  const Vector<std::int32_t>* const list = moved_by(input);
+  for_listed(input, list, [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t i = first; i < last; ++i) {
+      const std::int32_t v = vertex_at(list, i);
       Vec3 sum;
       if (elastic_[core.mesh.component[v]]) {
         for (std::int32_t e = k.column_start[v]; e < k.column_start[v + 1]; ++e) {
@@ -136,7 +152,7 @@ void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* posit
           sum = sum - 0.5 * k.value[e] * missing;  // the diagonal adds nothing
         }
       }
-      double* row = load + 3 * static_cast<std::size_t>(v);
+      double* row = load + 3 * static_cast<std::size_t>(i);
       row[0] = sum.x;
       row[1] = sum.y;
       row[2] = sum.z;
@@ -204,34 +220,49 @@ void Refinement::apply(const RefineInput& input, std::uint32_t steps, Followed* 
 }
 
 void Refinement::take_steps(const RefineInput& input, std::uint32_t steps, Vec3* positions) {
-  const std::int32_t n = input.core.size();
+  const Vector<std::int32_t>* const list = moved_by(input);
   const double radius = 1 - refine_gap / steps;
   double weight = 1;
   for (std::uint32_t k = 0; k < steps; ++k) {
-    if (steps > 1) std::copy(positions, positions + n, last_.data());
+    if (steps > 1) {
+      for_listed(input, list, [&](std::int32_t first, std::int32_t last) {
+        for (std::int32_t i = first; i < last; ++i) last_[vertex_at(list, i)] = positions[vertex_at(list, i)];
+      });
+    }
     step(input, positions);
     if (k > 0) {
       weight = k == 1 ? 2 / (2 - radius * radius) : 4 / (4 - radius * radius * weight);
-      for_vertex_pieces(*input.core.jobs, n, [&](std::int32_t first, std::int32_t last) {
-        for (std::int32_t v = first; v < last; ++v) positions[v] = before_[v] + weight * (positions[v] - before_[v]);
+      for_listed(input, list, [&](std::int32_t first, std::int32_t last) {
+        for (std::int32_t i = first; i < last; ++i) {
+          const std::int32_t v = vertex_at(list, i);
+          positions[v] = before_[v] + weight * (positions[v] - before_[v]);
+        }
       });
     }
     before_.swap(last_);
   }
 }
 
+// Solves for the correction. The vertices around the handles already are where they belong, so it is zero there.
+void Refinement::respond(const RefineInput& input, double* load) {
+  if (!input.limbs) return input.sites.respond(load, nullptr, 3, field_.data(), values_.data());
+  Workspace scratch(input.core.workspaces, 3 * input.limbs->vertex.size());
+  input.limbs->factor->solve(load, field_.data(), 3, scratch.data(), *input.core.jobs);
+}
+
 void Refinement::step(const RefineInput& input, Vec3* positions) {
   const Core& core = input.core;
   const Mesh& mesh = core.mesh;
+  const Vector<std::int32_t>* const list = moved_by(input);
   fit_rotations(input, positions);
-  // The vertices around the handles already are where they belong, so the change is zero there.
   Workspace load(core.workspaces, 3 * static_cast<std::size_t>(core.size()));
   set_right_hand_side(input, positions, load.data());
-  input.sites.respond(load.data(), nullptr, 3, field_.data(), values_.data());
-  for_vertex_pieces(*core.jobs, core.size(), [&](std::int32_t first, std::int32_t last) {
-    for (std::int32_t v = first; v < last; ++v) {
+  respond(input, load.data());
+  for_listed(input, list, [&](std::int32_t first, std::int32_t last) {
+    for (std::int32_t i = first; i < last; ++i) {
+      const std::int32_t v = vertex_at(list, i);
       if (input.reach.owner[v] >= 0 || !elastic_[mesh.component[v]]) continue;
-      const double* u = field_.data() + 3 * static_cast<std::size_t>(v);
+      const double* u = field_.data() + 3 * static_cast<std::size_t>(i);
       positions[v] = positions[v] + mesh.scale * Vec3{u[0], u[1], u[2]};
     }
   });

@@ -23,6 +23,8 @@
 // it goes to the minimum. The momentum is dropped when a step goes against it (O'Donoghue and Candes 2015). With
 // it, the energy may still grow for a step.
 //
+// Steps on limbs alone (limbs.h) have u = 0 on all other vertices, and a factor of their own.
+//
 // GroupStart finds the rotation of every rotation group on a given surface, from the edges at some of its vertices.
 //
 // Both keep their memory from frame to frame. A failed call changes nothing.
@@ -30,6 +32,7 @@
 #include "deform/blend.h"
 #include "deform/groups.h"
 #include "deform/handles.h"
+#include "deform/limbs.h"
 #include "deform/rotation.h"
 
 namespace hf_inner {
@@ -44,6 +47,7 @@ struct RefineInput {
   const Groups* groups;                      // groups of vertices that share a rotation; null: no starting rotations
   const Vector<Quaternion>* group_rotation;  // rotation by group, where the search starts
   const Affine* transforms;                  // by cluster, handles first
+  const Limbs* limbs = nullptr;              // null: the steps move the whole surface
 };
 
 // What the steps of one frame leave for the next.
@@ -84,7 +88,7 @@ class Refinement {
   }
   // Improves the blended `positions` in place by this many steps. They are in the given unit and frame. Vertices of
   // handles and of components without free clusters keep their positions. followed: null, or where the steps go on
-  // from, which this call renews.
+  // from, which this call renews; null with limbs.
   void apply(const RefineInput& input, std::uint32_t steps, Followed* followed, Vec3* positions);
 
  private:
@@ -94,10 +98,11 @@ class Refinement {
   void step(const RefineInput& input, Vec3* positions);
   void fit_rotations(const RefineInput& input, const Vec3* positions);
   void set_right_hand_side(const RefineInput& input, const Vec3* positions, double* z);
+  void respond(const RefineInput& input, double* load);
 
   Memory* memory_;
   Vector<Mat3> rotation_;         // by vertex
-  Buffer<double> field_;          // correction by vertex: x, y, z
+  Buffer<double> field_;          // correction by vertex, or by vertex of limbs: x, y, z
   Vector<double> values_;         // x, y, z by site
   Buffer<Vec3> before_, last_;    // positions before this step and the one before; several steps only
   Buffer<Vec3> blended_, begin_;  // positions without and with the last correction; steps from the last frame only

@@ -32,7 +32,8 @@ ContactSearch::ContactSearch(const Mesh& mesh, const SkinHint& skin, Memory& mem
       chunk_vertex_(&memory),
       chunk_(&memory),
       joint_start_(&memory),
-      joint_(&memory) {
+      joint_(&memory),
+      heaviest_(&memory) {
   for (const Index p : mesh.component) ++start_[at(p) + 1];
   for (std::size_t p = 0; p + 1 < start_.size(); ++p) start_[p + 1] += start_[p];
   Vector<Index> next(start_.begin(), start_.end() - 1, &memory);
@@ -40,6 +41,7 @@ ContactSearch::ContactSearch(const Mesh& mesh, const SkinHint& skin, Memory& mem
     vertex_[at(next[at(mesh.component[v])]++)] = static_cast<Index>(v);
   make_chunks();
   if (skin.influence_count > 0) list_joints();
+  if (!skin.parents.empty()) read_skeleton();
 }
 
 void ContactSearch::make_chunks() {
@@ -94,6 +96,30 @@ void ContactSearch::list_joints() {
     seen.clear();
   }
   joint_start_.push_back(static_cast<Index>(joint_.size()));
+}
+
+void ContactSearch::read_skeleton() {
+  const std::size_t count = skin_.influence_count;
+  Vector<std::uint8_t> owns(skin_.parents.size(), 0, &memory_);
+  for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
+    const std::size_t row = count * at(mesh_.given_of_inner[v]);
+    const auto most = std::max_element(skin_.weights + row, skin_.weights + row + count);
+    heaviest_.push_back(skin_.joints[most - skin_.weights]);
+    owns[heaviest_[v]] = 1;
+  }
+  tree_of_joints_.emplace(skin_.parents, owns, memory_);
+}
+
+bool ContactSearch::are_kin(Index a, Index b) const noexcept {
+  if (!tree_of_joints_) return false;
+  constexpr double owned = 0.5;  // more than half of a vertex
+  for (Index i = joint_start_[at(a)]; i < joint_start_[at(a) + 1]; ++i) {
+    for (Index j = joint_start_[at(b)]; j < joint_start_[at(b) + 1]; ++j) {
+      const JointWeight &x = joint_[at(i)], &y = joint_[at(j)];
+      if (x.weight > owned && y.weight > owned && tree_of_joints_->steps(x.joint, y.joint) == 1) return true;
+    }
+  }
+  return false;
 }
 
 double ContactSearch::least_skin_cost(Index a, Index b) const noexcept {
@@ -153,7 +179,12 @@ Contact ContactSearch::contact(Index v, Index triangle, double squared_length) c
   if (skin_.influence_count > 0) {
     double share[3];
     squared(mesh_.positions[at(v)], triangle, share);
-    out.cost += skin_distance * difference(skin_, mesh_, v, mesh_.triangle(triangle), share);
+    const Index* corner = mesh_.triangle(triangle);
+    if (tree_of_joints_) {
+      const Index nearest = corner[std::max_element(share, share + 3) - share];
+      out.steps = tree_of_joints_->steps(heaviest_[at(v)], heaviest_[at(nearest)]);
+    }
+    out.cost += skin_distance * difference(skin_, mesh_, v, corner, share) * std::max(1, out.steps);
   }
   return out;
 }

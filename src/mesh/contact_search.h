@@ -3,6 +3,9 @@
 // Each piece has a tree of boxes over its triangles. Its vertices are cut into chunks that are neighbours in space, and
 // a chunk that is far from the other piece is left out. Cost: O(log n) per vertex near the other piece.
 #pragma once
+#include <optional>
+
+#include "mesh/joint_tree.h"
 #include "mesh/links.h"
 #include "mesh/piece_tree.h"
 
@@ -11,6 +14,9 @@ namespace hf_inner {
 struct Contact {
   Index vertex, triangle;
   double distance, cost;  // cost: with the difference of skin weights
+  Index steps = 0;        // between the joints of both ends in the skeleton; 0: the same joint, or no skeleton
+  // What skin weights add to the distance, for neighbours in the skeleton.
+  double unlike() const noexcept { return (cost - distance) / std::max(1, steps); }
 };
 
 class ContactSearch {
@@ -29,6 +35,8 @@ class ContactSearch {
   double nearest(Index piece, const Vec3& p, double within, double enough, Index hint, Index& triangle) const noexcept;
   // A lower bound of what the difference of skin weights adds to the cost of contacts between two pieces.
   double least_skin_cost(Index a, Index b) const noexcept;
+  // Whether joints that own the pieces are parent and child. Without a skeleton none are.
+  bool are_kin(Index a, Index b) const noexcept;
   // Appends the contacts of piece `from` with piece `to` that are nearer than reach, in ascending order of the
   // vertices. reach falls to the distance at which a contact costs `depth` more than the cheapest, or more. Contacts
   // that cost more are not needed, but some are found. most: where more vertices may have contacts, about so many are
@@ -51,6 +59,7 @@ class ContactSearch {
   };
   void make_chunks();
   void list_joints();
+  void read_skeleton();
   Span<const Chunk> chunks_of(Index piece) const noexcept {
     return {chunk_.data() + chunk_start_[at(piece)], at(chunk_start_[at(piece) + 1] - chunk_start_[at(piece)])};
   }
@@ -71,6 +80,8 @@ class ContactSearch {
   Vector<Chunk> chunk_;
   Vector<Index> joint_start_;  // the joints of piece p: joint_[joint_start_[p] .. joint_start_[p + 1]), ascending
   Vector<JointWeight> joint_;
+  Vector<std::uint16_t> heaviest_;  // joint by vertex; empty without a skeleton
+  std::optional<JointTree> tree_of_joints_;
 };
 
 }  // namespace hf_inner

@@ -19,7 +19,8 @@ constexpr double touching = 0.005;
 // entries. Half: gap .154 / .65, entries 1.167. Double: .075 / .38, 1.210, false 1.7 %.
 constexpr double contact_depth = 0.007;
 // Different skin weights count like this much more distance: all joints differ at this distance. Half: false 2.4 %.
-// Double: the longest link of a tree is 2.7 instead of .9 % of the box, gap .138 / .57.
+// Double: the longest link of a tree is 2.7 instead of .9 % of the box, gap .138 / .57. With a skeleton it counts once
+// for each step between the joints: left and right foot are far.
 constexpr double skin_distance = 0.02;
 // Pieces that differ by more than this in their skin weights hinge: they link in the tree only, and near the middle of
 // their contact. Half: gap .148 / .38, entries 1.150, false 0.4 %. Double, so that no pair hinges: .059 / .20, 1.225,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/arguments.h"
+#include "mesh/joint_tree.h"
 #include "mesh/link_constants.h"
 #include "mesh/vertex_lists.h"
 
@@ -15,6 +16,8 @@ constexpr double barycentric_slack = 1e-3;
 // Nearer sums are 1 but for rounding, and the barycentrics stay as they are, so that a list read back has the same
 // bits. It trades nothing: sums of three shares miss 1 by at most 4e-16.
 constexpr double rounded_sum = 1e-15;
+// Joints of a skeleton: as many as 16 bits can name.
+constexpr std::uint32_t most_parents = 0x10000;
 
 double read_length(double given, double standard, const Mesh& mesh, const char* name) {
   const double length = given;
@@ -64,7 +67,36 @@ void read_skin_hint(const hf_links_desc& desc, const Mesh& mesh, SkinHint& out) 
       if (!std::isfinite(w)) fail(HF_ERROR_NON_FINITE, v, "a weight of vertex %u is not finite", v);
     }
   }
-  out = {desc.influence_count, desc.joints, desc.weights};
+  out = {desc.influence_count, desc.joints, desc.weights, {}};
+}
+
+// The skeleton of the joints of a skin.
+void read_parents(const hf_links_desc& desc, const Mesh& mesh, Memory& memory, SkinHint& out) {
+  require_zero(desc.reserved);
+  if (desc.joint_count == 0) {
+    if (desc.joint_parents) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joint_parents is set, but joint_count is 0");
+    return;
+  }
+  require(desc.joint_parents, "joint_parents");
+  if (desc.joint_count > most_parents)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint_count is %u; it must be at most %u", desc.joint_count, most_parents);
+  if (out.influence_count == 0)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joint_parents needs joints and weights; influence_count is 0");
+  for (std::uint32_t j = 0; j < desc.joint_count; ++j) {
+    const std::uint32_t parent = desc.joint_parents[j];
+    if (parent != HF_NO_INDEX && parent >= desc.joint_count)
+      fail(HF_ERROR_OUT_OF_RANGE, j, "the parent of joint %u is %u; there are %u joints", j, parent, desc.joint_count);
+  }
+  out.parents = {desc.joint_parents, desc.joint_count};
+  if (const std::uint32_t j = joint_in_circle(out.parents, memory); j != HF_NO_INDEX)
+    fail(HF_ERROR_INVALID_ARGUMENT, j, "the parents of joint %u go in a circle", j);
+  for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
+    for (std::size_t i = 0; i < desc.influence_count; ++i) {
+      const std::uint32_t joint = desc.joints[std::size_t{v} * desc.influence_count + i];
+      if (joint >= desc.joint_count)
+        fail(HF_ERROR_OUT_OF_RANGE, v, "vertex %u names joint %u; there are %u joints", v, joint, desc.joint_count);
+    }
+  }
 }
 
 void read_pieces(const Mesh& mesh, std::uint32_t count, const std::uint32_t* vertices, const char* count_name,
@@ -86,6 +118,7 @@ void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out) {
   if (!(options.stiffness > 0))
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "stiffness is %g; it must be above 0", options.stiffness);
   read_skin_hint(desc, mesh, options.skin);
+  read_parents(desc, mesh, out.memory, options.skin);
   if (desc.tags) options.tags = {desc.tags, mesh.report.vertex_count};
   read_pieces(mesh, desc.light_count, desc.light_vertices, "light_count", "light_vertices", out.light);
   read_pieces(mesh, desc.heavy_count, desc.heavy_vertices, "heavy_count", "heavy_vertices", out.heavy);

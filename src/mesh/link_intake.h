@@ -7,9 +7,10 @@ namespace hf_inner {
 
 // The links of a desc as the mesh room takes them. `options` refers to the lists.
 struct LinksIn {
-  explicit LinksIn(Memory* memory) : list(memory), light(memory), heavy(memory) {}
+  explicit LinksIn(Memory* given) : memory(*given), list(given), light(given), heavy(given) {}
   LinksIn(const LinksIn&) = delete;
   LinksIn& operator=(const LinksIn&) = delete;
+  Memory& memory;
   Vector<Link> list;
   Vector<std::int32_t> light, heavy;
   LinkOptions options;

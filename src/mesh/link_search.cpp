@@ -28,6 +28,9 @@ struct Pair {
   double cost;      // of the cheapest contact; unbounded: not found yet
   double distance;  // of the nearest
   bool in_tree = false;
+  bool kin = false;  // their joints are parent and child
+  Index steps = 0;   // between the joints of the cheapest contact
+  double unlike() const noexcept { return (cost - distance) / std::max(1, steps); }
 };
 
 // Gives all weight to a corner that is near the point of these barycentrics.
@@ -85,11 +88,12 @@ class LinkSearch {
   void link_pairs();
   void link_light();
   void find_below(Index piece, Vector<Contact>& best) const;
-  void link_spread(const Vector<Contact>& contacts, std::size_t most, double spacing, bool in_tree);
-  void link_hinge(Vector<Contact>* sides);
+  void link_spread(const Vector<Contact>& contacts, std::size_t most, double spacing, bool in_tree, Vector<Link>& to);
+  void link_hinge(Vector<Contact>* sides, bool in_tree);
   void link_pair(const Pair& pair);
+  void list_open(const Pair& pair);
   double edge_length(const Link& link) const;
-  void add_link(const Contact& contact, bool in_tree);
+  void add_link(const Contact& contact, bool in_tree, Vector<Link>& to);
   std::uint32_t tag_of(Index piece) const {
     const Index first = contacts_.vertices_of(piece)[0];
     return options_.tags.empty() ? 0 : options_.tags[at(mesh_.given_of_inner[at(first)])];
@@ -97,9 +101,9 @@ class LinkSearch {
   bool smaller(Index a, Index b) const noexcept {
     return area_[at(a)] != area_[at(b)] ? area_[at(a)] < area_[at(b)] : a > b;
   }
-  // Pieces of different joints never do.
+  // Pieces of joints that are no neighbours never do.
   static bool may_touch(const Pair& pair) noexcept {
-    return pair.gap < touching && pair.skin <= skin_difference * skin_distance;
+    return pair.gap < touching && (pair.kin || pair.skin <= skin_difference * skin_distance);
   }
   bool is_light(Index vertex) const noexcept { return out_.light[at(mesh_.component[at(vertex)])] != 0; }
   bool has_sheet(const Pair& pair) const noexcept { return sheet_[at(pair.a)] || sheet_[at(pair.b)]; }
@@ -183,6 +187,7 @@ void LinkSearch::list_pairs() {
       pairs_.end());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     pairs_[i].skin = contacts_.least_skin_cost(pairs_[i].a, pairs_[i].b);
+    pairs_[i].kin = contacts_.are_kin(pairs_[i].a, pairs_[i].b);
     pairs_of_[at(pairs_[i].a)].push_back(i);
     pairs_of_[at(pairs_[i].b)].push_back(i);
   }
@@ -196,6 +201,7 @@ void LinkSearch::measure_pair(Pair& pair, double range) const {
   contacts_.find(pair.a, pair.b, 0, reach, found, SIZE_MAX);
   contacts_.find(pair.b, pair.a, 0, reach, found, SIZE_MAX);
   for (const Contact& contact : found) {
+    if (contact.cost < pair.cost) pair.steps = contact.steps;
     pair.cost = std::min(pair.cost, contact.cost);
     pair.distance = std::min(pair.distance, contact.distance);
   }
@@ -330,7 +336,7 @@ double LinkSearch::edge_length(const Link& link) const {
   return std::sqrt(area);
 }
 
-void LinkSearch::add_link(const Contact& contact, bool in_tree) {
+void LinkSearch::add_link(const Contact& contact, bool in_tree, Vector<Link>& to) {
   Link link;
   link.vertex = contact.vertex;
   link.tree = in_tree;
@@ -352,21 +358,21 @@ void LinkSearch::add_link(const Contact& contact, bool in_tree) {
   double weight = std::max(1.0, edge_length(link) / spring_edge);
   // What moves with the same joints is one body: it opens nowhere.
   if (options_.skin.influence_count > 0)
-    weight *=
-        1 + rigid_weight * std::max(0.0, 1 - (contact.cost - contact.distance) / (skin_difference * skin_distance));
+    weight *= 1 + rigid_weight * std::max(0.0, 1 - contact.unlike() / (skin_difference * skin_distance));
   link.weight = std::round(16 * weight) / 16;  // so that a list read back has the same bits
-  out_.links.push_back(link);
+  to.push_back(link);
 }
 
 // Links contacts, the nearest first, then each as far as possible from those before: links_a_side of them, and more up
 // to `most` while they are at least `spacing` apart.
-void LinkSearch::link_spread(const Vector<Contact>& contacts, std::size_t most, double spacing, bool in_tree) {
+void LinkSearch::link_spread(const Vector<Contact>& contacts, std::size_t most, double spacing, bool in_tree,
+                             Vector<Link>& to) {
   if (contacts.empty()) return;
   Vector<double> apart(contacts.size(), unbounded, &memory_);  // squared
   std::size_t next = 0;
   for (std::size_t i = 1; i < contacts.size(); ++i) next = contacts[i].cost < contacts[next].cost ? i : next;
   for (std::size_t count = 0; count < most && apart[next] > (count < links_a_side ? 0 : spacing * spacing); ++count) {
-    add_link(contacts[next], in_tree);
+    add_link(contacts[next], in_tree, to);
     const Vec3 p = mesh_.positions[at(contacts[next].vertex)];
     apart[next] = 0;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -377,9 +383,9 @@ void LinkSearch::link_spread(const Vector<Contact>& contacts, std::size_t most, 
   }
 }
 
-// Links each side of a pair of the tree once, near the middle of the contact. Pieces of different joints turn about
+// Links each side of a pair once, near the middle of the contact. Pieces of different joints turn about
 // each other, and points near the axis move apart the least. The links are as stiff as those of other pairs together.
-void LinkSearch::link_hinge(Vector<Contact>* sides) {
+void LinkSearch::link_hinge(Vector<Contact>* sides, bool in_tree) {
   Vec3 middle;
   double sum = 0;
   for (int side = 0; side < 2; ++side) {
@@ -399,7 +405,7 @@ void LinkSearch::link_hinge(Vector<Contact>* sides) {
     near.erase(std::remove_if(near.begin(), near.end(),
                               [&](const Contact& contact) { return off(contact) > least + hinge_width; }),
                near.end());
-    link_spread(near, 1, unbounded, true);
+    link_spread(near, 1, unbounded, in_tree, out_.links);
   }
   for (std::size_t i = before; i < out_.links.size(); ++i) out_.links[i].weight *= static_cast<double>(links_a_side);
 }
@@ -408,7 +414,7 @@ void LinkSearch::link_hinge(Vector<Contact>* sides) {
 // the candidates is a contact, so that a pair of the tree always gets a link.
 void LinkSearch::link_pair(const Pair& pair) {
   Vector<Contact> sides[2] = {Vector<Contact>(&memory_), Vector<Contact>(&memory_)};
-  const bool hinge = pair.cost - pair.distance > skin_difference * skin_distance;
+  const bool hinge = pair.unlike() > skin_difference * skin_distance;
   const double depth = hinge ? hinge_depth : contact_depth;
   for (const std::size_t most : {link_candidates, std::size_t{SIZE_MAX}}) {
     for (int side = 0; side < 2; ++side) {
@@ -421,10 +427,20 @@ void LinkSearch::link_pair(const Pair& pair) {
                  near.end());
     }
     if (sides[0].empty() && sides[1].empty()) continue;
-    if (hinge) return link_hinge(sides);
+    if (hinge) return link_hinge(sides, pair.in_tree);
     for (const Vector<Contact>& near : sides)
-      link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree);
+      link_spread(near, pair.in_tree ? links_a_side : links_a_side / 2, unbounded, pair.in_tree, out_.links);
     return;
+  }
+}
+
+// Notes contacts of pieces that touch and are not linked, so that poses can tell how far they open.
+void LinkSearch::list_open(const Pair& pair) {
+  for (int side = 0; side < 2; ++side) {
+    Vector<Contact> near(&memory_);
+    double reach = touching;
+    contacts_.find(side ? pair.b : pair.a, side ? pair.a : pair.b, unbounded, reach, near, link_candidates);
+    link_spread(near, links_a_side / 2, unbounded, false, out_.open);
   }
 }
 
@@ -432,8 +448,12 @@ void LinkSearch::link_pairs() {
   for (Pair& pair : pairs_) {
     if (out_.light[at(pair.a)] || out_.light[at(pair.b)]) continue;
     if (!(pair.cost < unbounded) && may_touch(pair)) measure_pair(pair, touching);  // a sheet, not light
-    const bool touches = pair.distance <= touching && pair.cost - pair.distance <= skin_difference * skin_distance;
-    if (!pair.in_tree && !touches) continue;
+    const bool alike = pair.unlike() <= skin_difference * skin_distance, kin = pair.steps == 1;
+    if (!pair.in_tree && !(pair.distance <= touching && (alike || kin))) {
+      const bool near = pair.gap < touching || pair.distance <= touching;  // not measured, or measured
+      if (!options_.skin.parents.empty() && near) list_open(pair);
+      continue;
+    }
     if (pair.in_tree) out_.longest_tree_link = std::max(out_.longest_tree_link, pair.distance);
     link_pair(pair);
   }
@@ -454,9 +474,9 @@ void LinkSearch::link_light() {
       if (best[at(v)].vertex != Mesh::none) found.push_back(best[at(v)]);
     }
     double unlike = unbounded;
-    for (const Contact& contact : found) unlike = std::min(unlike, contact.cost - contact.distance);
+    for (const Contact& contact : found) unlike = std::min(unlike, contact.unlike());
     const bool hinge = unlike > skin_difference * skin_distance;
-    link_spread(found, hinge ? light_hinge_links : found.size(), light_spacing, true);
+    link_spread(found, hinge ? light_hinge_links : found.size(), light_spacing, true, out_.links);
     for (const std::size_t i : pairs_of_[p]) {
       if (found.empty() && pairs_[i].in_tree) link_pair(pairs_[i]);
     }

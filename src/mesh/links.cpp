@@ -237,7 +237,7 @@ void add_links(SymmetricMatrix& laplacian, const Links& links, Span<const LinkEd
   laplacian = std::move(out);
 }
 
-void measure_gaps(const Mesh& mesh, const Links& links, const ConstRows& posed, Span<double> gaps) {
+void measure_gaps(const Mesh& mesh, Span<const Link> links, const ConstRows& posed, Span<double> gaps) {
   const auto place = [&](Index inner) {
     const std::size_t v = at(mesh.given_of_inner[at(inner)]);
     const Vec3 p{posed.get(v, 0), posed.get(v, 1), posed.get(v, 2)};
@@ -245,8 +245,8 @@ void measure_gaps(const Mesh& mesh, const Links& links, const ConstRows& posed, 
       fail(HF_ERROR_NON_FINITE, static_cast<std::uint32_t>(v), "the position of vertex %zu is not finite", v);
     return p;
   };
-  for (std::size_t i = 0; i < links.links.size(); ++i) {
-    const Link& link = links.links[i];
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const Link& link = links[i];
     Vec3 apart = place(link.vertex);
     for (std::size_t k = 0; k < 3; ++k) {
       if (link.corner[k] != Mesh::none) apart = apart - link.share[k] * place(link.corner[k]);

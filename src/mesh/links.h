@@ -36,6 +36,7 @@ struct SkinHint {
   std::uint32_t influence_count = 0;      // per vertex; 0: no hint
   const std::uint16_t* joints = nullptr;  // [vertex as given][influence_count]
   const float* weights = nullptr;
+  Span<const std::uint32_t> parents;  // by joint, HF_NO_INDEX of a root; empty: the skeleton is not known
 };
 
 // Lengths are in the unit of the inner mesh: shares of the diagonal of the bounding box.
@@ -51,8 +52,9 @@ struct LinkOptions {
 };
 
 struct Links {
-  explicit Links(Memory& memory) : links(&memory), piece(&memory), light(&memory), group(&memory) {}
+  explicit Links(Memory& memory) : links(&memory), open(&memory), piece(&memory), light(&memory), group(&memory) {}
   Vector<Link> links;
+  Vector<Link> open;           // contacts of joints that are far apart in the skeleton: measured, and no springs
   Vector<Index> piece;         // by vertex
   Vector<std::uint8_t> light;  // by piece
   Vector<Index> group;         // by piece, numbered by their first pieces
@@ -101,6 +103,6 @@ GapSummary summarise_gaps(Span<double> gaps);
 
 // Writes for every link how much farther its ends are apart than at rest, or 0. posed: positions by vertex as given, in
 // the unit of the mesh. Throws HF_ERROR_NON_FINITE or HF_ERROR_TOO_LARGE (index = vertex as given).
-void measure_gaps(const Mesh& mesh, const Links& links, const ConstRows& posed, Span<double> gaps);
+void measure_gaps(const Mesh& mesh, Span<const Link> links, const ConstRows& posed, Span<double> gaps);
 
 }  // namespace hf_inner

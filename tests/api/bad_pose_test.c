@@ -347,6 +347,15 @@ static void other_calls_of_a_pose_refuse_bad_arguments(void** state) {
   FOLLOW("following 1.1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, 2, numbers, 1.1);
   FOLLOW("no such handle", HF_ERROR_NOT_FOUND, 1, numbers[1] = 9, 2, numbers, 0.5);
 
+#define LIMB(what, expected, index, change, count, list, refine) \
+  ROW(what, expected, index, change, hf_pose_set_limb_refine(scene.pose, count, list, refine))
+  LIMB("none", HF_ERROR_EMPTY, NO_INDEX, (void)0, 0, numbers, 1);
+  LIMB("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, 2, NULL, 1);
+  LIMB("257 of them", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, 257, numbers, 1);
+  LIMB("refine -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, 2, numbers, -1);
+  LIMB("refine 65", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (void)0, 2, numbers, 65);
+  LIMB("no such handle", HF_ERROR_NOT_FOUND, 1, numbers[1] = 9, 2, numbers, 1);
+
 #define RIGID(what, expected, index, change, count, list) \
   ROW(what, expected, index, change, hf_pose_set_rigid_pieces(scene.pose, count, list))
   RIGID("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, 2, NULL);

@@ -358,7 +358,7 @@ static hf_surface out;
 static double* expected;
 static uint16_t joints[CUT_VERTICES];
 static float weights[CUT_VERTICES], posed[3 * CUT_VERTICES];
-static uint32_t vertex_list[2];
+static uint32_t vertex_list[2], parents[3];
 static hf_array posed_rows;
 static hf_gaps_info gaps_info;
 
@@ -398,6 +398,14 @@ static void automatic_with_skin(void) {
   bad.influence_count = 1;
   bad.joints = joints;
   bad.weights = weights;
+}
+static void with_skeleton(void) {
+  automatic_with_skin();
+  parents[0] = HF_NO_INDEX;
+  parents[1] = 0;
+  parents[2] = 1;
+  bad.joint_count = 3;
+  bad.joint_parents = parents;
 }
 static uint32_t linked_vertex;
 static void spoil_linked_vertex(void) { posed[3 * linked_vertex] = NAN; }
@@ -447,6 +455,15 @@ static void bad_links_are_refused_by_index_and_change_nothing(void** state) {
   RELINK("no joints", HF_ERROR_NULL_POINTER, NO_INDEX, (automatic_with_skin(), bad.joints = NULL));
   RELINK("no weights", HF_ERROR_NULL_POINTER, NO_INDEX, (automatic_with_skin(), bad.weights = NULL));
   RELINK("weight of a vertex not finite", HF_ERROR_NON_FINITE, 9, (automatic_with_skin(), weights[9] = NAN));
+  RELINK("no parents", HF_ERROR_NULL_POINTER, NO_INDEX, (with_skeleton(), bad.joint_parents = NULL));
+  RELINK("parents without a count", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, (with_skeleton(), bad.joint_count = 0));
+  RELINK("65,537 joints", HF_ERROR_TOO_LARGE, NO_INDEX, (with_skeleton(), bad.joint_count = 65537));
+  RELINK("parents without a skin", HF_ERROR_INVALID_ARGUMENT, NO_INDEX,
+         (with_skeleton(), bad.influence_count = 0, bad.joints = NULL, bad.weights = NULL));
+  RELINK("a parent that is none", HF_ERROR_OUT_OF_RANGE, 2, (with_skeleton(), parents[2] = 3));
+  RELINK("parents in a circle", HF_ERROR_INVALID_ARGUMENT, 1, (with_skeleton(), parents[1] = 2));
+  RELINK("a joint that is none", HF_ERROR_OUT_OF_RANGE, 9, (with_skeleton(), joints[9] = 3));
+  RELINK("reserved", HF_ERROR_INVALID_DESC, NO_INDEX, bad.reserved = 1);
   RELINK("light vertices missing", HF_ERROR_NULL_POINTER, NO_INDEX, bad.light_count = 1);
   RELINK("light vertex out of range", HF_ERROR_OUT_OF_RANGE, 1, (light_list(2), vertex_list[1] = CUT_VERTICES));
   RELINK("heavy vertex out of range", HF_ERROR_OUT_OF_RANGE, 0, (heavy_list(1), vertex_list[0] = CUT_VERTICES));

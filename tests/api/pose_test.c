@@ -723,12 +723,12 @@ static void a_point_and_a_radius_make_a_handle(void** state) {
   hf_pose_destroy(pose);
 }
 
-static void a_range_of_vertices_is_the_same_as_in_the_whole(void** state) {
-  (void)state;
+static void check_range(int32_t limb_refine) {
   uint32_t handles[2];
   static double whole[3 * VERTICES], part[3 * VERTICES];
   static float normals[3 * VERTICES], part_normals[3 * VERTICES];
   hf_pose pose = bent_pose(POSE_SMOOTH, handles, whole);
+  if (limb_refine > 0) assert_ok(hf_pose_set_limb_refine(pose, 1, handles, limb_refine));
   hf_deform_desc desc = to_doubles(whole, normals);
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   const uint32_t first = 3 * AROUND + 5, count = 2 * AROUND;
@@ -749,6 +749,12 @@ static void a_range_of_vertices_is_the_same_as_in_the_whole(void** state) {
   assert_ok(hf_pose_deform(pose, &desc, NULL));
   assert_true(fabs(part[5] - whole[3 * VERTICES - 1]) < 1e-12);
   hf_pose_destroy(pose);
+}
+
+static void a_range_of_vertices_is_the_same_as_in_the_whole(void** state) {
+  (void)state;
+  check_range(0);
+  check_range(2);
 }
 
 static void a_refined_frame_keeps_the_handles_and_moves_the_rest_a_little(void** state) {

@@ -174,6 +174,11 @@ void held_poses(Story& s, const Tube& tube, Allocator& memory) {
   };
   s.call(
       "hf_pose_set_following", [&] { return hf_pose_set_following(pose, 2, held, 0.3); }, [&] { return follows(1); });
+  const auto refines = [&](std::int32_t wanted) {
+    return hf_pose_get_handle(pose, held[0], &info) == HF_OK && info.limb_refine == wanted;
+  };
+  s.call(
+      "hf_pose_set_limb_refine", [&] { return hf_pose_set_limb_refine(pose, 2, held, 2); }, [&] { return refines(0); });
   const hf_transform turned = {{0, 0.5, 0, 0.8660254037844386}, {1, 2, 0.5}};
   for (const std::uint32_t number : {numbers[1], numbers[2]})
     s.call("hf_pose_set_transforms", [&] { return hf_pose_set_transforms(pose, 1, &number, &turned); });

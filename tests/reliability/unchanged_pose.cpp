@@ -16,6 +16,7 @@ struct Handle {
   hf_transform transform = {{0, 0, 0, 1}, {0, 0, 0}};
   bool free_rotation = false;
   double following = 1;
+  std::int32_t limb_refine = 0;
   std::vector<std::uint32_t> rigid;  // of the pose when it was added: it took all of such a piece
   std::vector<double> matrix;        // 16 numbers instead of the transform, or none
 };
@@ -207,6 +208,7 @@ hf_result fill(hf_pose fresh, const PoseBranch& b, bool batches) {
     const Handle& h = b.handles[i];
     if (h.free_rotation) result = hf_pose_set_free_rotations(fresh, 1, &numbers[i], 1);
     if (result == HF_OK && h.following < 1) result = hf_pose_set_following(fresh, 1, &numbers[i], h.following);
+    if (result == HF_OK && h.limb_refine > 0) result = hf_pose_set_limb_refine(fresh, 1, &numbers[i], h.limb_refine);
     if (result != HF_OK) break;
     result = h.matrix.empty() ? hf_pose_set_transform(fresh, numbers[i], &h.transform)
                               : hf_pose_set_matrices(fresh, 1, &numbers[i], h.matrix.data());
@@ -399,6 +401,17 @@ struct PoseCalls {
     }
     return result;
   }
+  static hf_result keep_limb(Subject& subject, Random& random) {
+    Poses& s = of(subject);
+    PoseBranch& b = s.any(random);
+    const std::uint32_t number = s.number(b, random);
+    const std::int32_t wanted = random.pick({0, 1, 3, 65});
+    const hf_result result = hf_pose_set_limb_refine(b.handle, 1, &number, wanted);
+    for (Handle& h : b.handles) {
+      if (result == HF_OK && h.number == number) h.limb_refine = wanted;
+    }
+    return result;
+  }
   static hf_result rigid(Subject& subject, Random& random) {
     Poses& s = of(subject);
     PoseBranch& b = s.any(random);
@@ -475,6 +488,7 @@ const std::vector<Command>& Poses::commands() const {
       {"hf_pose_set_matrices", 1, PoseCalls::matrices},
       {"hf_pose_set_free_rotations", 4, PoseCalls::free},
       {"hf_pose_set_following", 3, PoseCalls::follow},
+      {"hf_pose_set_limb_refine", 3, PoseCalls::keep_limb},
       {"hf_pose_set_rigid_pieces", 2, PoseCalls::rigid},
       {"hf_pose_deform", 8, PoseCalls::deform},
       {"hf_pose_clone", 2, PoseCalls::clone},

@@ -65,6 +65,8 @@ void Run::pose_and_transfer() {
     call(hf_pose_set_following(copy, 1, &handles[1], 0.3), "hf_pose_set_following",
          smooth ? HF_OK : HF_ERROR_UNSUPPORTED);
     call(hf_pose_deform(copy, &deform, nullptr), "hf_pose_deform, a limb that follows alone");
+    call(hf_pose_set_limb_refine(copy, 1, &handles[1], 2), "hf_pose_set_limb_refine");
+    call(hf_pose_deform(copy, &deform, nullptr), "hf_pose_deform, a limb that keeps its lengths");
     hf_pose_destroy(pose);
     hf_pose_destroy(copy);
   }

@@ -596,6 +596,9 @@ namespace Hf
         public uint LightPieceCount;
         /// <summary>pieces without a link, if there are several</summary>
         public uint LonePieceCount;
+        /// <summary>with joint_parents: places where pieces touch and are not linked, such as two feet. Surface.MeasureGaps
+        /// tells how far they open</summary>
+        public uint ContactCount;
         /// <summary>longest link of the tree over the pieces, in the unit of the positions</summary>
         public double LongestTreeLink;
 
@@ -605,6 +608,7 @@ namespace Hf
             LinkCount = raw->link_count;
             LightPieceCount = raw->light_piece_count;
             LonePieceCount = raw->lone_piece_count;
+            ContactCount = raw->contact_count;
             LongestTreeLink = raw->longest_tree_link;
         }
     }
@@ -618,6 +622,12 @@ namespace Hf
         public double Worst;
         /// <summary>its number in Surface.Links; uint.MaxValue without links</summary>
         public uint WorstLink;
+        /// <summary>as in LinksInfo; worst does not count them</summary>
+        public uint ContactCount;
+        /// <summary>how far the widest of them opened; 0 without one</summary>
+        public double WorstContact;
+        /// <summary>of the widest, as given; uint.MaxValue without one</summary>
+        public uint ContactVertex;
 
         internal GapsInfo(hf_gaps_info* raw)
         {
@@ -625,6 +635,9 @@ namespace Hf
             Percentile95 = raw->percentile_95;
             Worst = raw->worst;
             WorstLink = raw->worst_link;
+            ContactCount = raw->contact_count;
+            WorstContact = raw->worst_contact;
+            ContactVertex = raw->contact_vertex;
         }
     }
 
@@ -1083,6 +1096,8 @@ namespace Hf
         public bool FreeRotation;
         /// <summary>how much of the surface follows; see Pose.SetFollowing</summary>
         public double Following;
+        /// <summary>steps on its limb; see Pose.SetLimbRefine</summary>
+        public int LimbRefine;
 
         internal HandleInfo(hf_handle_info* raw)
         {
@@ -1096,6 +1111,7 @@ namespace Hf
             Layer = raw->layer;
             FreeRotation = raw->free_rotation != 0;
             Following = raw->following;
+            LimbRefine = raw->limb_refine;
         }
     }
 
@@ -1865,6 +1881,10 @@ namespace Hf
         public ushort[] Joints;
         /// <summary>[vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint</summary>
         public float[] Weights;
+        /// <summary>[jointCount] parent of each joint, uint.MaxValue for a root. Pieces of parent and child link wherever
+        /// they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing else joins
+        /// them</summary>
+        public uint[] JointParents;
         /// <summary>[vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a
         /// piece counts</summary>
         public uint[] Tags;
@@ -1898,6 +1918,7 @@ namespace Hf
             desc->overlay_distance = OverlayDistance;
             desc->joints = (IntPtr)c.Array(Joints, "joints", "vertex_count", prefix + "influence_count");
             desc->weights = (IntPtr)c.Array(Weights, "weights", "vertex_count", prefix + "influence_count");
+            desc->joint_parents = (IntPtr)c.Array(JointParents, "jointParents", prefix + "joint_count");
             desc->tags = (IntPtr)c.Array(Tags, "tags", "vertex_count");
             var linksRows = (hf_link*)c.Given(Links, "links", sizeof(hf_link), prefix + "link_count");
             for (int i = 0; Links != null && i < Links.Length; ++i) Links[i].Write(linksRows + i);
@@ -1908,6 +1929,7 @@ namespace Hf
             desc->link_count = (uint)c.Count(prefix + "link_count", 0);
             desc->light_count = (uint)c.Count(prefix + "light_count", 0);
             desc->heavy_count = (uint)c.Count(prefix + "heavy_count", 0);
+            desc->joint_count = (uint)c.Count(prefix + "joint_count", 0);
             return (IntPtr)desc;
         }
     }
@@ -2430,6 +2452,9 @@ namespace Hf
         ///
         /// joints: [vertexCount x influenceCount] of a skin: pieces of the same joint link sooner
         /// weights: [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint
+        /// jointParents: [jointCount] parent of each joint, uint.MaxValue for a root. Pieces of parent and child
+        ///     link wherever they touch. Pieces of joints that are farther apart, such as two feet, link only if
+        ///     nothing else joins them
         /// tags: [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of
         ///     a piece counts
         /// links: [linkCount]
@@ -2443,9 +2468,10 @@ namespace Hf
         /// progress: an object to poll and cancel through.
         ///
         /// Throws HF_ERROR_CANCELLED.</summary>
-        public Surface Relink(ushort[] joints = null, float[] weights = null, uint[] tags = null, Link[] links = null,
-                uint[] lightVertices = null, uint[] heavyVertices = null, LinkMode mode = default(LinkMode),
-                double distance = 0, double stiffness = 0, double overlayDistance = 0, Progress progress = null)
+        public Surface Relink(ushort[] joints = null, float[] weights = null, uint[] jointParents = null,
+                uint[] tags = null, Link[] links = null, uint[] lightVertices = null, uint[] heavyVertices = null,
+                LinkMode mode = default(LinkMode), double distance = 0, double stiffness = 0,
+                double overlayDistance = 0, Progress progress = null)
         {
             using (var c = new Call(this))
             {
@@ -2454,6 +2480,7 @@ namespace Hf
                 hf_links_desc* desc = &descStruct;
                 desc->joints = (IntPtr)c.Array(joints, "joints", "vertex_count", "influence_count");
                 desc->weights = (IntPtr)c.Array(weights, "weights", "vertex_count", "influence_count");
+                desc->joint_parents = (IntPtr)c.Array(jointParents, "jointParents", "joint_count");
                 desc->tags = (IntPtr)c.Array(tags, "tags", "vertex_count");
                 var linksRows = (hf_link*)c.Given(links, "links", sizeof(hf_link), "link_count");
                 for (int i = 0; links != null && i < links.Length; ++i) links[i].Write(linksRows + i);
@@ -2464,6 +2491,7 @@ namespace Hf
                 desc->link_count = (uint)c.Count("link_count", 0);
                 desc->light_count = (uint)c.Count("light_count", 0);
                 desc->heavy_count = (uint)c.Count("heavy_count", 0);
+                desc->joint_count = (uint)c.Count("joint_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Functions.hf_surface_relink(RawHandle, desc, c.Handle(progress), raw));
                 var made = new Surface();
@@ -4169,6 +4197,28 @@ namespace Hf
                 void* handles_ = c.Array(handles, "handles", "handle_count");
                 HfException.Check(Functions.hf_pose_set_following(RawHandle, (uint)c.Count("handle_count", 1), handles_,
                     following));
+            }
+        }
+
+        /// <summary>Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The
+        /// limb is the part of the surface where the field of the handle falls a long way over little area. It ends
+        /// at the trunk, or at the next handle on the limb. The steps move the limb alone. The rest of the surface
+        /// keeps its bits, and the body does not lean more than without the steps. A limb that is pulled beyond its
+        /// length is stretched evenly. With the refine of DeformDesc the limbs take their steps after it. If
+        /// several handles have a refine, all their limbs take the largest.
+        ///
+        /// handles: [handleCount].
+        /// refine: 0 to 64 steps of as-rigid-as-possible at every Pose.Deform; 0 = none, as in a new handle. 1
+        ///     keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
+        ///
+        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
+        public void SetLimbRefine(uint[] handles, int refine = 0)
+        {
+            using (var c = new Call(this))
+            {
+                void* handles_ = c.Array(handles, "handles", "handle_count");
+                HfException.Check(Functions.hf_pose_set_limb_refine(RawHandle, (uint)c.Count("handle_count", 1),
+                    handles_, refine));
             }
         }
 

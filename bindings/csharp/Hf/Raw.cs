@@ -252,8 +252,11 @@ namespace Hf.Native
         public uint link_count;
         public uint light_count;
         public uint heavy_count;
+        public uint joint_count;
+        public uint reserved;
         public IntPtr joints;
         public IntPtr weights;
+        public IntPtr joint_parents;
         public IntPtr tags;
         public IntPtr links;
         public IntPtr light_vertices;
@@ -380,7 +383,7 @@ namespace Hf.Native
         public uint link_count;
         public uint light_piece_count;
         public uint lone_piece_count;
-        public uint reserved;
+        public uint contact_count;
         public double longest_tree_link;
     }
 
@@ -392,6 +395,9 @@ namespace Hf.Native
         public double percentile_95;
         public double worst;
         public uint worst_link;
+        public uint contact_count;
+        public double worst_contact;
+        public uint contact_vertex;
         public uint reserved;
     }
 
@@ -747,6 +753,8 @@ namespace Hf.Native
         public uint layer;
         public int free_rotation;
         public double following;
+        public int limb_refine;
+        public uint reserved;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1433,6 +1441,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_transform(IntPtr pose, uint handle, void* transform);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_free_rotations(IntPtr pose, uint handle_count, void* handles, int free_rotation);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_following(IntPtr pose, uint handle_count, void* handles, double following);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_limb_refine(IntPtr pose, uint handle_count, void* handles, int refine);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_rigid_pieces(IntPtr pose, uint vertex_count, void* vertices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_set_matrices(IntPtr pose, uint handle_count, void* handles, void* matrices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_handle(IntPtr pose, uint handle, void* out_info);

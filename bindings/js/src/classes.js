@@ -11,18 +11,20 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const linksDesc = (c, prefix, options) => {
-    const { joints = null, weights = null, tags = null, links = null, lightVertices = null, heavyVertices = null,
-            mode = 0, distance = 0, stiffness = 0, overlayDistance = 0, ...more } = options;
+    const { joints = null, weights = null, jointParents = null, tags = null, links = null, lightVertices = null,
+            heavyVertices = null, mode = 0, distance = 0, stiffness = 0, overlayDistance = 0, ...more } = options;
     none(more);
     const desc = c.struct('hf_links_desc', { mode, distance, stiffness, overlay_distance: overlayDistance });
     c.rows(desc, 'joints', 'joints', joints, 'u2', ['vertex_count', prefix + 'influence_count']);
     c.rows(desc, 'weights', 'weights', weights, 'f4', ['vertex_count', prefix + 'influence_count']);
+    c.rows(desc, 'joint_parents', 'jointParents', jointParents, 'u4', [prefix + 'joint_count']);
     c.rows(desc, 'tags', 'tags', tags, 'u4', ['vertex_count']);
     desc.set('links', c.written('links', links, 'hf_link', [prefix + 'link_count']));
     c.rows(desc, 'light_vertices', 'lightVertices', lightVertices, 'u4', [prefix + 'light_count']);
     c.rows(desc, 'heavy_vertices', 'heavyVertices', heavyVertices, 'u4', [prefix + 'heavy_count']);
     c.counts(desc, { influence_count: [prefix + 'influence_count', 0], link_count: [prefix + 'link_count', 0],
-            light_count: [prefix + 'light_count', 0], heavy_count: [prefix + 'heavy_count', 0] });
+            light_count: [prefix + 'light_count', 0], heavy_count: [prefix + 'heavy_count', 0],
+            joint_count: [prefix + 'joint_count', 0] });
     return desc;
   };
 
@@ -1075,6 +1077,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
       call('hf_pose_set_following', this._handle, (c.n.handle_count ??= 1), handles_, following);
+    }
+
+    setLimbRefine(handles, refine = 0) {
+      const c = new Call(this);
+      const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
+      call('hf_pose_set_limb_refine', this._handle, (c.n.handle_count ??= 1), handles_, refine);
     }
 
     setRigidPieces(vertices) {

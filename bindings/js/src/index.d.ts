@@ -159,6 +159,11 @@ export interface LinksInfo {
   lightPieceCount: number;
   /** pieces without a link, if there are several */
   lonePieceCount: number;
+  /**
+   * with joint_parents: places where pieces touch and are not linked, such as two feet. Surface.measureGaps tells
+   * how far they open
+   */
+  contactCount: number;
   /** longest link of the tree over the pieces, in the unit of the positions */
   longestTreeLink: number;
 }
@@ -171,6 +176,12 @@ export interface GapsInfo {
   worst: number;
   /** its number in Surface.links; constants.HF_NO_INDEX without links */
   worstLink: number;
+  /** as in LinksInfo; worst does not count them */
+  contactCount: number;
+  /** how far the widest of them opened; 0 without one */
+  worstContact: number;
+  /** of the widest, as given; constants.HF_NO_INDEX without one */
+  contactVertex: number;
 }
 
 /**
@@ -529,6 +540,8 @@ export interface HandleInfo {
   freeRotation: number;
   /** how much of the surface follows; see Pose.setFollowing */
   following: number;
+  /** steps on its limb; see Pose.setLimbRefine */
+  limbRefine: number;
 }
 
 /** The work of a deform. */
@@ -1017,6 +1030,11 @@ export interface LinksDescGiven {
   /** [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint */
   weights?: Rows | null;
   /**
+   * [jointCount] parent of each joint, constants.HF_NO_INDEX for a root. Pieces of parent and child link wherever
+   * they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing else joins them
+   */
+  jointParents?: Rows | null;
+  /**
    * [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
    * counts
    */
@@ -1176,6 +1194,9 @@ export interface Surface extends Handle {
    *
    * joints: [vertexCount x influenceCount] of a skin: pieces of the same joint link sooner
    * weights: [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint
+   * jointParents: [jointCount] parent of each joint, constants.HF_NO_INDEX for a root. Pieces of parent and child
+   *     link wherever they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing
+   *     else joins them
    * tags: [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a
    *     piece counts
    * links: [linkCount]
@@ -1190,7 +1211,7 @@ export interface Surface extends Handle {
    *
    * Throws HF_ERROR_CANCELLED.
    */
-  relink(options?: { joints?: Rows | null; weights?: Rows | null; tags?: Rows | null; links?: Rows | null; lightVertices?: Rows | null; heavyVertices?: Rows | null; mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; progress?: Progress | null }): Surface;
+  relink(options?: { joints?: Rows | null; weights?: Rows | null; jointParents?: Rows | null; tags?: Rows | null; links?: Rows | null; lightVertices?: Rows | null; heavyVertices?: Rows | null; mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; progress?: Progress | null }): Surface;
   /** Writes the statistics of a surface and of the factor it was made with. */
   readonly statistics: SurfaceStatistics;
   /**
@@ -1845,6 +1866,21 @@ export interface Pose extends Recorded {
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
    */
   setFollowing(handles: Rows, following?: number): void;
+  /**
+   * Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The limb
+   * is the part of the surface where the field of the handle falls a long way over little area. It ends at the
+   * trunk, or at the next handle on the limb. The steps move the limb alone. The rest of the surface keeps its
+   * bits, and the body does not lean more than without the steps. A limb that is pulled beyond its length is
+   * stretched evenly. With the refine of hf_deform_desc the limbs take their steps after it. If several handles
+   * have a refine, all their limbs take the largest.
+   *
+   * handles: [handleCount].
+   * refine: 0 to 64 steps of as-rigid-as-possible at every Pose.deform; 0 = none, as in a new handle. 1 keeps
+   *     bends smooth. 8 and more keep lengths; the limb bends like two bones.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
+   */
+  setLimbRefine(handles: Rows, refine?: number): void;
   /**
    * Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
    * moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the

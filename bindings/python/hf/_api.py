@@ -606,19 +606,21 @@ def _factor_desc(c: Call, prefix: str = '', *, bytes: Optional[bytes] = None) ->
 
 
 def _links_desc(c: Call, prefix: str = '', *, joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
-        tags: Optional[ArrayLike] = None, links: Optional[ArrayLike] = None, light_vertices: Optional[ArrayLike] = None,
-        heavy_vertices: Optional[ArrayLike] = None, mode: int = LinkMode.NONE, distance: float = 0.0,
-        stiffness: float = 0.0, overlay_distance: float = 0.0) -> Any:
+        joint_parents: Optional[ArrayLike] = None, tags: Optional[ArrayLike] = None, links: Optional[ArrayLike] = None,
+        light_vertices: Optional[ArrayLike] = None, heavy_vertices: Optional[ArrayLike] = None,
+        mode: int = LinkMode.NONE, distance: float = 0.0, stiffness: float = 0.0, overlay_distance: float = 0.0) -> Any:
     desc = c.struct(_raw.hf_links_desc, {'mode': mode, 'distance': distance, 'stiffness': stiffness,
             'overlay_distance': overlay_distance})
     c.rows(desc, 'joints', joints, 'u2', ('vertex_count', prefix + 'influence_count'))
     c.rows(desc, 'weights', weights, 'f4', ('vertex_count', prefix + 'influence_count'))
+    c.rows(desc, 'joint_parents', joint_parents, 'u4', (prefix + 'joint_count',), sentinel=True)
     c.rows(desc, 'tags', tags, 'u4', ('vertex_count',))
     desc.links = c.written('links', links, _raw.hf_link, (prefix + 'link_count',))
     c.rows(desc, 'light_vertices', light_vertices, 'u4', (prefix + 'light_count',))
     c.rows(desc, 'heavy_vertices', heavy_vertices, 'u4', (prefix + 'heavy_count',))
     c.counts(desc, influence_count=(prefix + 'influence_count', 0), link_count=(prefix + 'link_count', 0),
-            light_count=(prefix + 'light_count', 0), heavy_count=(prefix + 'heavy_count', 0))
+            light_count=(prefix + 'light_count', 0), heavy_count=(prefix + 'heavy_count', 0),
+            joint_count=(prefix + 'joint_count', 0))
     return desc
 
 
@@ -1230,15 +1232,18 @@ class Surface(Object):
         return found['gaps']
 
     def relink(self, joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
-            tags: Optional[ArrayLike] = None, links: Optional[ArrayLike] = None,
-            light_vertices: Optional[ArrayLike] = None, heavy_vertices: Optional[ArrayLike] = None, *,
-            mode: int = LinkMode.NONE, distance: float = 0.0, stiffness: float = 0.0, overlay_distance: float = 0.0,
-            progress: Optional[Progress] = None) -> "Surface":
+            joint_parents: Optional[ArrayLike] = None, tags: Optional[ArrayLike] = None,
+            links: Optional[ArrayLike] = None, light_vertices: Optional[ArrayLike] = None,
+            heavy_vertices: Optional[ArrayLike] = None, *, mode: int = LinkMode.NONE, distance: float = 0.0,
+            stiffness: float = 0.0, overlay_distance: float = 0.0, progress: Optional[Progress] = None) -> "Surface":
         """Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old
         one where its matrix has the same pattern: other stiffness, weights or light pieces.
 
         joints: (vertex_count, influence_count) of a skin: pieces of the same joint link sooner
         weights: (vertex_count, influence_count) of sum 1; where all are 0, a vertex shares no joint
+        joint_parents: (joint_count,) parent of each joint, NO_INDEX for a root. Pieces of parent and child link
+            wherever they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing else
+            joins them
         tags: (vertex_count,): pieces with different tags do not link, as a rider and a horse. The first vertex of a
             piece counts
         links: (link_count,)
@@ -1254,9 +1259,9 @@ class Surface(Object):
         Raises CancelledError.
         """
         c = Call(self)
-        desc = _links_desc(c, joints=joints, weights=weights, tags=tags, links=links, light_vertices=light_vertices,
-                heavy_vertices=heavy_vertices, mode=mode, distance=distance, stiffness=stiffness,
-                overlay_distance=overlay_distance)
+        desc = _links_desc(c, joints=joints, weights=weights, joint_parents=joint_parents, tags=tags, links=links,
+                light_vertices=light_vertices, heavy_vertices=heavy_vertices, mode=mode, distance=distance,
+                stiffness=stiffness, overlay_distance=overlay_distance)
         made = type(self).__new__(type(self))
         c.n.update(self._n)
         made._own('hf_surface_relink', c, self._handle, ref(desc), handle_of(progress, Progress, 'progress'))
@@ -2242,6 +2247,25 @@ class Pose(Recorded):
         handles_ = c.array('handles', handles, 'u4', ('handle_count',))
         call('hf_pose_set_following', self._handle, c.n.setdefault('handle_count', 1), handles_, number(following,
                 'following', ctypes.c_double))
+
+    def set_limb_refine(self, handles: ArrayLike, refine: int = 0) -> None:
+        """Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The limb
+        is the part of the surface where the field of the handle falls a long way over little area. It ends at the
+        trunk, or at the next handle on the limb. The steps move the limb alone. The rest of the surface keeps its
+        bits, and the body does not lean more than without the steps. A limb that is pulled beyond its length is
+        stretched evenly. With the refine of hf_deform_desc the limbs take their steps after it. If several handles
+        have a refine, all their limbs take the largest.
+
+        handles: (handle_count,).
+        refine: 0 to 64 steps of as-rigid-as-possible at every Pose.deform; 0 = none, as in a new handle. 1 keeps
+            bends smooth. 8 and more keep lengths; the limb bends like two bones.
+
+        Raises InvalidArgumentError, NotFoundError, UnsupportedError.
+        """
+        c = Call(self)
+        handles_ = c.array('handles', handles, 'u4', ('handle_count',))
+        call('hf_pose_set_limb_refine', self._handle, c.n.setdefault('handle_count', 1), handles_, number(refine,
+                'refine', ctypes.c_int32))
 
     def set_rigid_pieces(self, vertices: ArrayLike) -> None:
         """Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame

@@ -290,16 +290,20 @@ class hf_links_desc(Struct):
     link_count: int
     light_count: int
     heavy_count: int
+    joint_count: int
+    reserved: int
     joints: int
     weights: int
+    joint_parents: int
     tags: int
     links: int
     light_vertices: int
     heavy_vertices: int
     _fields_ = [("struct_size", c_uint32), ("mode", c_int32), ("distance", c_double), ("stiffness", c_double),
                 ("overlay_distance", c_double), ("influence_count", c_uint32), ("link_count", c_uint32),
-                ("light_count", c_uint32), ("heavy_count", c_uint32), ("joints", c_void_p), ("weights", c_void_p),
-                ("tags", c_void_p), ("links", c_void_p), ("light_vertices", c_void_p), ("heavy_vertices", c_void_p)]
+                ("light_count", c_uint32), ("heavy_count", c_uint32), ("joint_count", c_uint32), ("reserved",
+                c_uint32), ("joints", c_void_p), ("weights", c_void_p), ("joint_parents", c_void_p), ("tags",
+                c_void_p), ("links", c_void_p), ("light_vertices", c_void_p), ("heavy_vertices", c_void_p)]
 
 
 class hf_faces_desc(Struct):
@@ -442,10 +446,11 @@ class hf_links_info(Struct):
     link_count: int
     light_piece_count: int
     lone_piece_count: int
-    reserved: int
+    contact_count: int
     longest_tree_link: float
     _fields_ = [("struct_size", c_uint32), ("piece_count", c_uint32), ("link_count", c_uint32), ("light_piece_count",
-                c_uint32), ("lone_piece_count", c_uint32), ("reserved", c_uint32), ("longest_tree_link", c_double)]
+                c_uint32), ("lone_piece_count", c_uint32), ("contact_count", c_uint32), ("longest_tree_link",
+                c_double)]
 
 
 class hf_gaps_info(Struct):
@@ -455,9 +460,13 @@ class hf_gaps_info(Struct):
     percentile_95: float
     worst: float
     worst_link: int
+    contact_count: int
+    worst_contact: float
+    contact_vertex: int
     reserved: int
     _fields_ = [("struct_size", c_uint32), ("link_count", c_uint32), ("percentile_95", c_double), ("worst", c_double),
-                ("worst_link", c_uint32), ("reserved", c_uint32)]
+                ("worst_link", c_uint32), ("contact_count", c_uint32), ("worst_contact", c_double), ("contact_vertex",
+                c_uint32), ("reserved", c_uint32)]
 
 
 class hf_surface_statistics(Struct):
@@ -844,9 +853,12 @@ class hf_handle_info(Struct):
     layer: int
     free_rotation: int
     following: float
+    limb_refine: int
+    reserved: int
     _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("site_count", c_uint32), ("component",
                 c_uint32), ("centroid", c_double * 3), ("leak", c_double), ("rotation", c_double * 4), ("translation",
-                c_double * 3), ("layer", c_uint32), ("free_rotation", c_int32), ("following", c_double)]
+                c_double * 3), ("layer", c_uint32), ("free_rotation", c_int32), ("following", c_double),
+                ("limb_refine", c_int32), ("reserved", c_uint32)]
 
 
 class hf_deform_info(Struct):
@@ -1607,6 +1619,7 @@ PROTOTYPES = {
     "hf_pose_set_transform": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_set_free_rotations": (c_int32, [c_void_p, c_uint32, c_void_p, c_int32]),
     "hf_pose_set_following": (c_int32, [c_void_p, c_uint32, c_void_p, c_double]),
+    "hf_pose_set_limb_refine": (c_int32, [c_void_p, c_uint32, c_void_p, c_int32]),
     "hf_pose_set_rigid_pieces": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_pose_set_matrices": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_pose_get_handle": (c_int32, [c_void_p, c_uint32, c_void_p]),

@@ -28,6 +28,9 @@ pub struct Links<'a> {
     pub joints: Option<&'a [u16]>,
     /// `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
     pub weights: Option<&'a [f32]>,
+    /// `[joint_count]` parent of each joint, [`raw::HF_NO_INDEX`] for a root. Pieces of parent and child link wherever
+    /// they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing else joins them
+    pub joint_parents: Option<&'a [u32]>,
     /// `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
     /// counts
     pub tags: Option<&'a [u32]>,
@@ -65,6 +68,7 @@ impl<'a> Links<'a> {
             overlay_distance: self.overlay_distance, ..Default::default() };
         desc.joints = c.array(self.joints, "joints", &["vertex_count", &format!("{prefix}influence_count")])?;
         desc.weights = c.array(self.weights, "weights", &["vertex_count", &format!("{prefix}influence_count")])?;
+        desc.joint_parents = c.array(self.joint_parents, "joint_parents", &[&format!("{prefix}joint_count")])?;
         desc.tags = c.array(self.tags, "tags", &["vertex_count"])?;
         desc.links = c.array(self.links, "links", &[&format!("{prefix}link_count")])?;
         desc.light_vertices = c.array(self.light_vertices, "light_vertices", &[&format!("{prefix}light_count")])?;
@@ -73,6 +77,7 @@ impl<'a> Links<'a> {
         desc.link_count = c.count(&format!("{prefix}link_count"), 0)?;
         desc.light_count = c.count(&format!("{prefix}light_count"), 0)?;
         desc.heavy_count = c.count(&format!("{prefix}heavy_count"), 0)?;
+        desc.joint_count = c.count(&format!("{prefix}joint_count"), 0)?;
         Ok(desc)
     }
 }
@@ -2826,6 +2831,26 @@ impl Pose {
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_set_following(self.handle, c.count("handle_count", 1)?, handles_, following) })?;
+        Ok(())
+    }
+
+    /// Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The limb is
+    /// the part of the surface where the field of the handle falls a long way over little area. It ends at the trunk, or
+    /// at the next handle on the limb. The steps move the limb alone. The rest of the surface keeps its bits, and the
+    /// body does not lean more than without the steps. A limb that is pulled beyond its length is stretched evenly. With
+    /// the refine of [`DeformOptions`] the limbs take their steps after it. If several handles have a refine, all their
+    /// limbs take the largest.
+    ///
+    /// handles: `[handle_count]`.
+    /// refine: 0 to 64 steps of as-rigid-as-possible at every Pose.deform; 0 = none, as in a new handle. 1 keeps bends
+    /// smooth. 8 and more keep lengths; the limb bends like two bones.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_UNSUPPORTED`].
+    pub fn set_limb_refine(&mut self, handles: &[u32], refine: i32) -> Result<()> {
+        let mut c = Call::new(&self.counts);
+        let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_set_limb_refine(self.handle, c.count("handle_count", 1)?, handles_, refine) })?;
         Ok(())
     }
 

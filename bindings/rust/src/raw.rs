@@ -327,8 +327,11 @@ pub struct hf_links_desc {
     pub link_count: u32,
     pub light_count: u32,
     pub heavy_count: u32,
+    pub joint_count: u32,
+    pub reserved: u32,
     pub joints: *const u16,
     pub weights: *const f32,
+    pub joint_parents: *const u32,
     pub tags: *const u32,
     pub links: *const hf_link,
     pub light_vertices: *const u32,
@@ -462,7 +465,7 @@ pub struct hf_links_info {
     pub link_count: u32,
     pub light_piece_count: u32,
     pub lone_piece_count: u32,
-    pub reserved: u32,
+    pub contact_count: u32,
     pub longest_tree_link: f64,
 }
 
@@ -475,6 +478,9 @@ pub struct hf_gaps_info {
     pub percentile_95: f64,
     pub worst: f64,
     pub worst_link: u32,
+    pub contact_count: u32,
+    pub worst_contact: f64,
+    pub contact_vertex: u32,
     pub reserved: u32,
 }
 
@@ -850,6 +856,8 @@ pub struct hf_handle_info {
     pub layer: u32,
     pub free_rotation: i32,
     pub following: f64,
+    pub limb_refine: i32,
+    pub reserved: u32,
 }
 
 /// The work of a deform.
@@ -1554,8 +1562,10 @@ figures! {
         bounding_box_diagonal;
     hf_mesh_statistics: struct_size polygon_count non_planar_count largest_face negative_edge_count
         changed_vertex_count first_changed_vertex reserved smallest_angle;
-    hf_links_info: struct_size piece_count link_count light_piece_count lone_piece_count reserved longest_tree_link;
-    hf_gaps_info: struct_size link_count percentile_95 worst worst_link reserved;
+    hf_links_info: struct_size piece_count link_count light_piece_count lone_piece_count contact_count
+        longest_tree_link;
+    hf_gaps_info: struct_size link_count percentile_95 worst worst_link contact_count worst_contact contact_vertex
+        reserved;
     hf_surface_statistics: struct_size unknown_count weld_ms operator_ms ordering_ms symbolic_ms numeric_ms
         factor_entries factor_bytes factor_flops memory_bytes peak_memory_bytes load_ms factor_loaded
         factor_borrowed links_ms;
@@ -1574,7 +1584,8 @@ figures! {
         path_solve_count sweep_count irregular_vertex_count eliminated_count operator_ms numeric_ms factor_entries
         factor_bytes site_memory_bytes;
     hf_pose_info: struct_size band_count iteration_count group_count handle_count vertex_count;
-    hf_handle_info: struct_size vertex_count site_count component leak layer free_rotation following;
+    hf_handle_info: struct_size vertex_count site_count component leak layer free_rotation following limb_refine
+        reserved;
     hf_deform_info: struct_size iteration_count unreached_vertex_count reserved last_change;
     hf_pose_statistics: struct_size cluster_count solve_ms blend_ms normal_ms refine_ms;
     hf_quads_info: struct_size vertex_count face_count euler_characteristic edge_length;
@@ -1684,6 +1695,7 @@ extern "C" {
     pub fn hf_pose_set_transform(pose: hf_pose, handle: u32, transform: *const hf_transform) -> i32;
     pub fn hf_pose_set_free_rotations(pose: hf_pose, handle_count: u32, handles: *const u32, free_rotation: i32) -> i32;
     pub fn hf_pose_set_following(pose: hf_pose, handle_count: u32, handles: *const u32, following: f64) -> i32;
+    pub fn hf_pose_set_limb_refine(pose: hf_pose, handle_count: u32, handles: *const u32, refine: i32) -> i32;
     pub fn hf_pose_set_rigid_pieces(pose: hf_pose, vertex_count: u32, vertices: *const u32) -> i32;
     pub fn hf_pose_set_matrices(pose: hf_pose, handle_count: u32, handles: *const u32, matrices: *const f64) -> i32;
     pub fn hf_pose_get_handle(pose: hf_pose, handle: u32, out_info: *mut hf_handle_info) -> i32;

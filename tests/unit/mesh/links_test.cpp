@@ -313,7 +313,7 @@ TEST(Links, skin_weights_choose_between_neighbours) {
     }
     return count;
   };
-  const std::vector<int> nearest = linked_to({}), alike = linked_to({1, joints.data(), weights.data()});
+  const std::vector<int> nearest = linked_to({}), alike = linked_to({1, joints.data(), weights.data(), {}});
   EXPECT_GT(nearest[0], 0);
   EXPECT_EQ(nearest[1], 0);
   EXPECT_EQ(alike[0], 0);
@@ -333,7 +333,7 @@ TEST(Links, what_moves_with_the_same_joints_is_held_together_firmly) {
     }
     auto options = automatic();
     options.overlay = 0;
-    options.skin = {2, joints.data(), weights.data()};
+    options.skin = {2, joints.data(), weights.data(), {}};
     const auto linked = hf_inner::Geometry::linked(plain_geometry(mesh), options);
     double least = 1e300, most = 0;
     for (const hf_inner::Link& link : linked->links->links) {
@@ -358,7 +358,7 @@ TEST(Links, pieces_of_different_joints_link_near_the_middle_of_their_contact) {
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) joints.push_back(mesh.positions[3 * v] > 1.005 ? 5 : 3);
   const std::vector<float> weights(mesh.vertex_count(), 1);
   auto options = automatic();
-  options.skin = {1, joints.data(), weights.data()};
+  options.skin = {1, joints.data(), weights.data(), {}};
   const auto plain = plain_geometry(mesh);
   const auto shape = hf_inner::Geometry::linked(plain, options);
   ASSERT_TRUE(shape->links);
@@ -380,7 +380,7 @@ TEST(Links, a_sheet_of_another_joint_has_few_links) {
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) joints.push_back(mesh.positions[3 * v + 2] > 1.01 ? 5 : 3);
   const std::vector<float> weights(mesh.vertex_count(), 1);
   auto options = automatic();
-  options.skin = {1, joints.data(), weights.data()};
+  options.skin = {1, joints.data(), weights.data(), {}};
   const auto shape = hf_inner::Geometry::linked(plain_geometry(mesh), options);
   ASSERT_TRUE(shape->links);
   EXPECT_EQ(shape->links->light[1], 1);
@@ -487,7 +487,7 @@ TEST(Links, the_least_skin_cost_is_below_that_of_every_contact) {
       joints.insert(joints.end(), {static_cast<std::uint16_t>(second ? 9 : 2), 4, 4});
       weights.insert(weights.end(), {first, rest, rest});
     }
-    const hf_inner::SkinHint skin{slots, joints.data(), weights.data()};
+    const hf_inner::SkinHint skin{slots, joints.data(), weights.data(), {}};
     const hf_inner::ContactSearch search(mesh, skin, *shape->memory);
     const double least = search.least_skin_cost(0, 1);
     EXPECT_EQ(search.least_skin_cost(1, 0), least);

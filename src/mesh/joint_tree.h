@@ -1,0 +1,27 @@
+// How far apart two joints are in a skeleton: 0 for one joint, 1 for parent and child, 2 for siblings. Joints that own
+// no vertex do not count, so that a helper between a shin and its foot does not part them. Cost of a query: the depth.
+#pragma once
+#include <cstdint>
+
+#include "base/index.h"
+#include "base/memory.h"
+#include "base/span.h"
+
+namespace hf_inner {
+
+class JointTree {
+ public:
+  // parents: by joint, HF_NO_INDEX of a root; without a circle. owns: by joint, whether it owns vertices.
+  JointTree(Span<const std::uint32_t> parents, Span<const std::uint8_t> owns, Memory& memory);
+  Index steps(std::uint32_t a, std::uint32_t b) const noexcept;
+
+ private:
+  Vector<std::uint32_t> parent_;
+  Vector<Index> depth_;   // joints above
+  Vector<Index> owners_;  // joints that own vertices, from the root to this one
+};
+
+// Returns a joint on a circle of parents, or HF_NO_INDEX.
+std::uint32_t joint_in_circle(Span<const std::uint32_t> parents, Memory& memory);
+
+}  // namespace hf_inner

@@ -1,0 +1,215 @@
+// Links of robots whose truth is known: pieces of one joint, and of parent and child, belong together; others only
+// touch.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <set>
+
+#include "base/error.h"
+#include "mesh/joint_tree.h"
+#include "mesh/link_constants.h"
+#include "mesh/links.h"
+#include "support/meshes.h"
+#include "support/parts.h"
+
+namespace {
+
+using namespace hf_inner;
+using hf_test::PlainMesh;
+
+// Boxes with a joint each. Feet, thighs, and hands and thighs touch, as in many rest poses. Helper joints without
+// vertices lie between some parents and children.
+struct Robot {
+  explicit Robot(std::uint32_t seed) : random(seed) {
+    const double near = uniform(0.001, 0.006), knee = uniform(0.013, 0.03), touch = 0.002;
+    const int pelvis = add(-1, {-0.2, 0.9, 0}, {0.2, 1.1, 0.25});
+    const int torso = add(pelvis, {-0.25, 1.1 + near, 0}, {0.25, 1.6, 0.25});
+    add(torso, {-0.1, 1.6 + near, 0.05}, {0.1, 1.85, 0.2});
+    int feet[2], thighs[2], hands[2];
+    for (int side = 0; side < 2; ++side) {
+      mirrored = side == 1;
+      const int upper = add(torso, {0.25 + near, 1.25, 0}, {0.4, 1.6, 0.2});
+      const int lower = add(upper, {0.26, 0.95, 0}, {0.4, 1.25 - knee, 0.2});
+      hands[side] = add(lower, {0.24 + touch, 0.75, 0}, {0.4, 0.95 - near, 0.2});
+      thighs[side] = add(pelvis, {touch / 2, 0.5, 0}, {0.24, 0.9 - near, 0.22});
+      const int shin = add(thighs[side], {0.03, 0.13, 0.02}, {0.2, 0.5 - knee, 0.2});
+      feet[side] = add(shin, {touch / 2, 0, 0}, {0.2, 0.13 - near, 0.35});
+      append_box({0.03, 0.13, 0.2 + near}, {0.2, 0.4, 0.24}, shin);  // a plate; it touches the foot too
+      plate_touches.push_back({parts - 1, feet[side]});
+    }
+    strangers = {{feet[0], feet[1]}, {thighs[0], thighs[1]}, {hands[0], thighs[0]}, {hands[1], thighs[1]}};
+    vertex_weight.assign(mesh.vertex_count(), 1.0f);
+  }
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+  // Returns the part.
+  int add(int part, std::array<double, 3> low, std::array<double, 3> high) {
+    std::uint32_t above = part < 0 ? HF_NO_INDEX : joint_of[part];
+    for (std::uint32_t helpers = random() % 3; helpers > 0; --helpers) {
+      parents.push_back(above);
+      above = static_cast<std::uint32_t>(parents.size()) - 1;
+    }
+    parents.push_back(above);
+    kin.insert({part, parts});
+    return append_box(low, high, -1);
+  }
+  int append_box(std::array<double, 3> low, std::array<double, 3> high, int like) {
+    if (mirrored) {
+      std::swap(low[0], high[0]);
+      low[0] = -low[0];
+      high[0] = -high[0];
+    }
+    const PlainMesh part = hf_test::box(4, {high[0] - low[0], high[1] - low[1], high[2] - low[2]}, low);
+    hf_test::append(mesh, part, 0);
+    const auto joint = like < 0 ? static_cast<std::uint32_t>(parents.size()) - 1 : joint_of[like];
+    joint_of.push_back(joint);
+    vertex_joint.insert(vertex_joint.end(), part.vertex_count(), static_cast<std::uint16_t>(joint));
+    part_of.insert(part_of.end(), part.vertex_count(), parts);
+    return parts++;
+  }
+  // The links of the parts, as pairs of parts.
+  using Pairs = std::set<std::pair<int, int>>;
+  std::shared_ptr<const Links> link(bool skeleton) {
+    MeshInput input;
+    input.vertex_count = mesh.vertex_count();
+    input.triangle_count = mesh.triangle_count();
+    input.positions = ConstRows(mesh.positions.data(), 3 * sizeof(double));
+    input.triangles = IndexRows(mesh.triangles.data(), 3);
+    shape = Geometry::make(input, {}, std::make_shared<Memory>(), std::make_shared<JobRunner>(1u));
+    LinkOptions options;
+    options.mode = LinkMode::pieces;
+    options.distance = default_link_distance;
+    options.skin = {1, vertex_joint.data(), vertex_weight.data(), {}};
+    if (skeleton) options.skin.parents = parents;
+    return make_links(shape->mesh, shape->areas, options, *shape->memory, nullptr);
+  }
+  Pairs pairs_of(const Vector<Link>& links) const {
+    Pairs out;
+    for (const Link& link : links) {
+      for (const Index corner : link.corner) {
+        if (corner == Mesh::none) continue;
+        const int a = part(link.vertex), b = part(corner);
+        out.insert({std::min(a, b), std::max(a, b)});
+      }
+    }
+    return out;
+  }
+  int part(Index inner) const { return part_of[at(shape->mesh.given_of_inner[at(inner)])]; }
+  bool belong(std::pair<int, int> pair) const {
+    const auto same = [&](int a, int b) { return joint_of[a] == joint_of[b]; };
+    if (same(pair.first, pair.second)) return true;
+    for (const auto& [a, b] : kin) {
+      if (a >= 0 && ((same(a, pair.first) && same(b, pair.second)) || (same(a, pair.second) && same(b, pair.first))))
+        return true;
+    }
+    return false;
+  }
+
+  std::mt19937 random;
+  bool mirrored = false;
+  PlainMesh mesh;
+  std::shared_ptr<const Geometry> shape;
+  int parts = 0;
+  std::vector<std::uint32_t> parents, joint_of;
+  std::vector<std::uint16_t> vertex_joint;
+  std::vector<float> vertex_weight;
+  std::vector<int> part_of;
+  std::set<std::pair<int, int>> kin;
+  std::vector<std::pair<int, int>> strangers, plate_touches;
+};
+
+TEST(RobotLinks, no_link_is_false_and_every_joint_holds) {
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    Robot robot(seed);
+    const auto links = robot.link(true);
+    const Robot::Pairs pairs = robot.pairs_of(links->links);
+    for (const auto& pair : pairs)
+      EXPECT_TRUE(robot.belong(pair)) << "seed " << seed << ": parts " << pair.first << " and " << pair.second;
+    for (const auto& pair : robot.kin) {
+      if (pair.first >= 0) {
+        EXPECT_EQ(pairs.count(pair), 1u) << "seed " << seed << ": parts " << pair.first << " and " << pair.second;
+      }
+    }
+    EXPECT_EQ(links->group_count, 1);
+  }
+}
+
+TEST(RobotLinks, every_contact_of_parent_and_child_is_linked_and_not_that_of_the_tree_alone) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    Robot robot(seed);
+    const Robot::Pairs pairs = robot.pairs_of(robot.link(true)->links);
+    for (const auto& [plate, foot] : robot.plate_touches)
+      EXPECT_EQ(pairs.count({std::min(plate, foot), std::max(plate, foot)}), 1u) << "seed " << seed;
+  }
+}
+
+TEST(RobotLinks, contacts_of_strangers_are_noted_and_have_no_spring) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    Robot robot(seed);
+    const auto links = robot.link(true);
+    const Robot::Pairs open = robot.pairs_of(links->open), linked = robot.pairs_of(links->links);
+    for (const auto& [a, b] : robot.strangers) {
+      const std::pair<int, int> pair{std::min(a, b), std::max(a, b)};
+      EXPECT_EQ(open.count(pair), 1u) << "seed " << seed << ": parts " << a << " and " << b;
+      EXPECT_EQ(linked.count(pair), 0u);
+    }
+    for (const auto& pair : open) EXPECT_EQ(linked.count(pair), 0u);
+  }
+}
+
+TEST(RobotLinks, an_open_contact_is_measured) {
+  Robot robot(5);
+  const auto links = robot.link(true);
+  const auto [left, right] = robot.strangers[0];
+  std::vector<double> posed = robot.mesh.positions;
+  for (std::size_t v = 0; v < robot.part_of.size(); ++v) {
+    if (robot.part_of[v] == left) posed[3 * v] += 0.125;
+  }
+  Vector<double> gaps(links->open.size(), 0.0, robot.shape->memory.get());
+  measure_gaps(robot.shape->mesh, links->open, ConstRows(posed.data(), 3 * sizeof(double)), gaps);
+  double widest = 0;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const int a = robot.part(links->open[i].vertex);
+    if (a != left && a != right) {
+      EXPECT_LT(gaps[i], 1e-12);
+    }
+    widest = std::max(widest, gaps[i]);
+  }
+  EXPECT_NEAR(widest, 0.125, 1e-6);
+}
+
+// What the skeleton is for: without it, feet that touch are nearer than a knee.
+TEST(RobotLinks, without_a_skeleton_strangers_take_the_place_of_a_knee) {
+  Robot robot(3);
+  const auto links = robot.link(false);
+  bool wrong = false;
+  for (const auto& pair : robot.pairs_of(links->links)) wrong = wrong || !robot.belong(pair);
+  EXPECT_TRUE(wrong);
+  EXPECT_TRUE(links->open.empty());
+}
+
+TEST(RobotLinks, a_piece_that_only_strangers_touch_is_linked_to_them) {
+  Robot robot(0);
+  robot.parents[robot.joint_of[2]] = HF_NO_INDEX;  // the head has a skeleton of its own
+  EXPECT_EQ(robot.link(true)->group_count, 1);
+}
+
+TEST(JointTree, steps_count_joints_that_own_vertices) {
+  Memory memory;
+  // 0 - 1 (helper) - 2 - 3, 1 - 4, 5 is a root
+  const std::vector<std::uint32_t> parents = {HF_NO_INDEX, 0, 1, 2, 1, HF_NO_INDEX};
+  const std::vector<std::uint8_t> owns = {1, 0, 1, 1, 1, 1};
+  const JointTree tree(parents, owns, memory);
+  EXPECT_EQ(tree.steps(3, 3), 0);
+  EXPECT_EQ(tree.steps(0, 2), 1);
+  EXPECT_EQ(tree.steps(3, 2), 1);
+  EXPECT_EQ(tree.steps(2, 4), 2);
+  EXPECT_EQ(tree.steps(3, 4), 3);
+  EXPECT_EQ(tree.steps(0, 5), 2);
+  EXPECT_EQ(joint_in_circle(parents, memory), HF_NO_INDEX);
+  const std::vector<std::uint32_t> circle = {HF_NO_INDEX, 3, 1, 2};
+  EXPECT_NE(joint_in_circle(circle, memory), HF_NO_INDEX);
+  EXPECT_NE(joint_in_circle(circle, memory), 0u);
+}
+
+}  // namespace
