@@ -61,6 +61,21 @@ glm::dquat rotation_of(const glm::dmat4& matrix) {
   return glm::normalize(glm::quat_cast(m));
 }
 
+// How far the model's own clips move a node from a place, in the frame of its parent.
+double farthest_shift(const Model& model, int node, const glm::dvec3& from) {
+  double out = 0;
+  for (const Animation& animation : model.animations) {
+    for (const Channel& channel : animation.channels) {
+      if (channel.node != node || channel.path != Path::translation) continue;
+      for (const double time : channel.times) {
+        const std::vector<double> t = sample_channel(channel, time);
+        out = std::max(out, glm::distance(glm::dvec3(t[0], t[1], t[2]), from));
+      }
+    }
+  }
+  return out;
+}
+
 glm::dvec3 rotation_vector(glm::dquat q) {
   if (q.w < 0) q = -q;
   const glm::dvec3 v(q.x, q.y, q.z);
@@ -228,9 +243,10 @@ RigFit::RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTi
   evenness_ = keep_even * mean;
 }
 
-// Joints at or above an influence, parents first; which of them shift.
+// Joints at or above an influence, parents first; which of them shift. The path of a body goes into one joint: where
+// two move the same vertices, only the upper one of those that the model's own clips move shifts.
 void RigFit::find_joints() {
-  std::vector<char> used(model_.nodes.size(), 0), is_joint(model_.nodes.size(), 0);
+  std::vector<char> used(model_.nodes.size(), 0), is_joint(model_.nodes.size(), 0), carries(model_.nodes.size(), 0);
   for (const Skin& skin : model_.skins)
     for (const int node : skin.joints) is_joint[static_cast<size_t>(node)] = 1;
   for (const Node& node : model_.nodes) {
@@ -240,6 +256,7 @@ void RigFit::find_joints() {
       for (const Influences& influences : primitive.influences) {
         for (size_t k = 0; k < influences.weights.size(); ++k) {
           if (!(influences.weights[k] > 0)) continue;
+          carries[static_cast<size_t>(skin.joints[influences.joints[k]])] = 1;
           for (int n = skin.joints[influences.joints[k]]; n >= 0 && !used[static_cast<size_t>(n)];
                n = model_.nodes[static_cast<size_t>(n)].parent)
             used[static_cast<size_t>(n)] = is_joint[static_cast<size_t>(n)];
@@ -259,33 +276,54 @@ void RigFit::find_joints() {
     if (!used[n] || rest[n].fixed) continue;
     Joint joint;
     joint.node = node;
-    for (int up = model_.nodes[n].parent; up >= 0 && joint.parent < 0;
-         up = model_.nodes[static_cast<size_t>(up)].parent)
-      joint.parent = joint_of_node_[static_cast<size_t>(up)];
-    joint.rotation = static_cast<int>(unknowns_);
-    unknowns_ += 3;
-    // in world units: the clip's path under the parent's rest transform
-    const int up = model_.nodes[n].parent;
-    const double unit = up < 0 ? 1.0 : glm::length(glm::dvec3(globals[static_cast<size_t>(up)][0]));
-    bool shifts = joint.parent < 0;
-    for (const Animation& animation : model_.animations) {
-      for (const Channel& channel : animation.channels) {
-        if (channel.node != node || channel.path != Path::translation) continue;
-        for (const double time : channel.times) {
-          const std::vector<double> t = sample_channel(channel, time);
-          shifts =
-              shifts || unit * glm::distance(glm::dvec3(t[0], t[1], t[2]), rest[n].translation) > moved * diagonal_;
-        }
-      }
-    }
-    if (shifts) {
-      joint.translation = static_cast<int>(unknowns_);
-      unknowns_ += 3;
-      ++shifting_;
-    }
+    joint.parent = joint_above(model_.nodes[n].parent);
     joint_of_node_[n] = static_cast<int>(joints_.size());
     joints_.push_back(joint);
   }
+  // By joint: its only child where it moves no vertex but those of that child.
+  std::vector<int> children(joints_.size(), 0), only(joints_.size(), -1);
+  for (size_t j = 0; j < joints_.size(); ++j) {
+    const int up = joints_[j].parent;
+    if (up >= 0 && ++children[static_cast<size_t>(up)] == 1) only[static_cast<size_t>(up)] = static_cast<int>(j);
+  }
+  for (size_t n = 0; n < model_.nodes.size(); ++n) {
+    const bool holds = carries[n] || (model_.nodes[n].mesh >= 0 && model_.nodes[n].skin < 0);
+    const int above = holds ? joint_above(static_cast<int>(n)) : -1;
+    if (above >= 0) children[static_cast<size_t>(above)] = 2;
+  }
+  std::vector<char> moving(joints_.size(), 0), done(joints_.size(), 0);  // done: one above shifts the same vertices
+  for (size_t j = 0; j < joints_.size(); ++j) {
+    const auto n = static_cast<size_t>(joints_[j].node);
+    // in world units: the clip's path under the parent's rest transform
+    const int up = model_.nodes[n].parent;
+    const double unit = up < 0 ? 1.0 : glm::length(glm::dvec3(globals[static_cast<size_t>(up)][0]));
+    moving[j] = farthest_shift(model_, joints_[j].node, rest[n].translation) * unit > moved * diagonal_;
+  }
+  for (size_t j = 0; j < joints_.size(); ++j) {
+    Joint& joint = joints_[j];
+    joint.rotation = static_cast<int>(unknowns_);
+    unknowns_ += 3;
+    bool shifts = moving[j] != 0;
+    if (joint.parent < 0 && !shifts) {
+      shifts = true;
+      for (size_t below = j; children[below] == 1 && shifts;) {
+        below = static_cast<size_t>(only[below]);
+        shifts = !moving[below];
+      }
+    }
+    shifts = shifts && !done[j];
+    if (children[j] == 1) done[static_cast<size_t>(only[j])] = shifts || done[j];
+    if (!shifts) continue;
+    joint.translation = static_cast<int>(unknowns_);
+    unknowns_ += 3;
+    ++shifting_;
+  }
+}
+
+int RigFit::joint_above(int node) const {
+  for (; node >= 0; node = model_.nodes[static_cast<size_t>(node)].parent)
+    if (joint_of_node_[static_cast<size_t>(node)] >= 0) return joint_of_node_[static_cast<size_t>(node)];
+  return -1;
 }
 
 // The nodes of joints and slots, and all above them. Until here, joints and slots name nodes of the model.

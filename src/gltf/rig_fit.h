@@ -5,8 +5,9 @@
 // back and damped. Let x_j = G_j B_j p_v, and o_a be the origin of joint a. A small world turn w of a moves v by
 // w x (sum_{j below a} w_vj (x_j - o_a)). The sums over vertices are quadratic in the matrices G_j B_j. So they are
 // added up once for each pair of joints, and a step costs O(J^3), whatever the number of vertices.
-// Joints that the model's own clips move (roots, and feet that a rig places by inverse kinematics) may shift too. All
-// others keep the lengths of their bones. Positions are in world space, in double.
+// Joints that the model's own clips move (roots, and feet that a rig places by inverse kinematics) may shift too, but
+// only one of those that move the same vertices. All others keep the lengths of their bones. Positions are in world
+// space, in double.
 // A ground (RigGround) adds k_g sum_v a_v d_v^2, where v lies d_v under it. It comes in without a step: neither the sum
 // nor its slope jumps where a vertex touches the ground. A vertex under it adds a row to the system.
 // Over a clip, misses change evenly. Let r_f be what the fit of frame f misses: place minus goal, of each vertex. The
@@ -113,6 +114,8 @@ class RigFit {
     int of_model = -1, parent = -1;  // parent: in nodes_, -1 at the top
   };
   void find_joints(), find_vertices(const FlatMesh&mesh), keep_moving_nodes();
+  // The joint of a node, or of the nearest above it; -1 for none.
+  int joint_above(int node) const;
   void find_ties(const FlatMesh& mesh, const std::vector<RigTie>& ties);
   size_t slot_of(int node, const glm::dmat4& bind, int key);
   std::vector<glm::dmat4x3> slot_matrices(const std::vector<glm::dmat4>& globals, const glm::dvec3& centre) const;

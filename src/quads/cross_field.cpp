@@ -24,6 +24,13 @@ Vec3 triangle_normal(const Mesh& mesh, Index t) noexcept {
   return unit_vector(cross(mesh.positions[at(c[1])] - a, mesh.positions[at(c[2])] - a));
 }
 
+// An entry of a matrix, 0 where none is stored.
+double entry(const SymmetricMatrix& matrix, Index row, Index column) {
+  const auto begin = matrix.row.begin() + matrix.column_start[at(column)],
+             end = matrix.row.begin() + matrix.column_start[at(column) + 1], found = std::lower_bound(begin, end, row);
+  return found != end && *found == row ? matrix.value[static_cast<std::size_t>(found - matrix.row.begin())] : 0.0;
+}
+
 }  // namespace
 
 Vector<Complex> curvature_crosses(const Core& core, const Connection& connection, Index passes) {
@@ -110,7 +117,8 @@ CrossSmoother::CrossSmoother(const DirectionMatrix& system, double radius)
   solver_.emplace(matrix_, system.factorise(matrix_), *core.memory, *core.jobs);
 }
 
-Vector<Complex> CrossSmoother::smooth(Span<const Complex> wish, Span<const HardCross> hard) {
+Vector<Complex> CrossSmoother::smooth(Span<const Complex> wish, Span<const HardCross> hard,
+                                      Span<const SeenCross> seen) {
   const DirectionMatrix& system = system_;
   const Core& core = *system.core;
   Memory& memory = *core.memory;
@@ -145,6 +153,12 @@ Vector<Complex> CrossSmoother::smooth(Span<const Complex> wish, Span<const HardC
       const Complex w = t * core.areas[at(v)] * target[at(v)];
       right[at(system.unknown(v, 0))] = w.real();
       right[at(system.unknown(v, 1))] = w.imag();
+    }
+    for (const SeenCross& s : seen) {
+      for (Index k = 0; k < 4; ++k) {
+        const Index row = system.unknown(s.neighbour, k / 2), column = system.unknown(s.vertex, k % 2);
+        right[at(row)] -= entry(matrix_, row, column) * (k % 2 == 0 ? s.change.real() : s.change.imag());
+      }
     }
     solver.set_right(right);
     solver.solve(x.data());

@@ -26,6 +26,12 @@ struct HardCross {
   std::complex<double> cross;  // to the fourth degree, length 1, in the frame of the vertex
 };
 
+// What a neighbour sees of a hard cross, besides the cross: the change to that of its own side (side_crosses.h).
+struct SeenCross {
+  std::int32_t vertex, neighbour;
+  std::complex<double> change;
+};
+
 // The factor of K + t M for one radius.
 class CrossSmoother {
  public:
@@ -33,7 +39,8 @@ class CrossSmoother {
   CrossSmoother(const DirectionMatrix& system, double radius);
   double radius() const noexcept { return radius_; }
   // Returns the crosses by inner vertex, to the fourth degree. wish: by inner vertex.
-  Vector<std::complex<double>> smooth(Span<const std::complex<double>> wish, Span<const HardCross> hard);
+  Vector<std::complex<double>> smooth(Span<const std::complex<double>> wish, Span<const HardCross> hard,
+                                      Span<const SeenCross> seen = {});
 
  private:
   const DirectionMatrix& system_;

@@ -4,7 +4,6 @@
 
 #include "base/progress.h"
 #include "quads/numbers.h"
-#include "quads/sharp_corners.h"
 
 namespace hf_inner {
 namespace {
@@ -53,14 +52,14 @@ void keep_edges(const FluxSurface& surface, const Topology& topology, Span<const
 }
 
 FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connection, Span<const Complex> crosses,
-                          const Table<std::uint8_t>& features, Memory& memory) {
+                          const Table<std::uint8_t>& features, const SharpCorners& corners,
+                          const Table<Complex>& of_corner, Memory& memory) {
   FaceCross out(memory);
   const std::int32_t triangles = surface.real_triangles, halves = surface.half_count();
   out.edge.assign(halves, Complex(0, 0));
   out.direction.assign(triangles, Complex(1, 0));
   out.turn.assign(halves, 0);
   out.index.assign(surface.vertex_count(), 0);
-  const SharpCorners corners = SharpCorners::find(surface, features, memory);
   Poller poller;
   for (std::int32_t t = 0; t < triangles; ++t) {
     poller.due();
@@ -74,9 +73,10 @@ FaceCross FaceCross::make(const FluxSurface& surface, const Connection& connecti
       out.edge[3 * t + k] = Complex(dot(side, x), dot(side, y));
       const std::int32_t v = surface.mesh_vertex[surface.tail[3 * t + k]];
       const std::size_t i = static_cast<std::size_t>(v);
-      const double size = length_of(crosses[i]);
+      const Complex own = of_corner.empty() || of_corner[3 * t + k] == 0.0 ? crosses[i] : of_corner[3 * t + k];
+      const double size = length_of(own);
       if (!(size > 0)) continue;
-      const Vec3 space = connection.to_space(v, at_angle(1.0, angle_of(crosses[i]) / 4));
+      const Vec3 space = connection.to_space(v, at_angle(1.0, angle_of(own) / 4));
       // A triangle may be turned over against the mesh.
       const Vec3 facing = dot(connection.normal[i], normal) < 0 ? -1.0 * normal : normal;
       const Vec3 carried = carry(space, connection.normal[i], facing);

@@ -1,7 +1,6 @@
 #include "quads/feature_crosses.h"
 
 #include "quads/numbers.h"
-#include "quads/sharp_corners.h"
 
 namespace hf_inner {
 namespace {
@@ -15,18 +14,17 @@ constexpr double border_neighbour = 0.5, border_scale = 1 / (1 + 2 * border_neig
 }  // namespace
 
 Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, const Connection& connection,
-                                  const Table<std::uint8_t>& features, Index passes) {
+                                  const Table<std::uint8_t>& features, const SharpCorners& corners, Index passes) {
   Memory& memory = *core.memory;
   Vector<Complex> sum(at(core.size()), Complex(0, 0), &memory);
   Vector<double> count(at(core.size()), 0.0, &memory);
   Vector<HardCross> out(&memory);
-  const SharpCorners corners = SharpCorners::find(surface, features, memory);
   for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
     const std::int32_t g = surface.twin[h];
     if (!features[h] || (surface.is_real(g) && g < h)) continue;
     const Vec3 edge = surface.position[surface.head(h)] - surface.position[surface.tail[h]];
     // Crosses of sharp corners are turned from the edge: on the left, or on the right by the other half-edge. Between
-    // two corners a crease takes the mean of its sides.
+    // two corners a crease takes the mean of its sides; the crease of a tooth has both (side_crosses.h).
     const double left = corners.empty() ? 0 : corners.turn[h], right = corners.empty() ? 0 : corners.turn[g];
     const double mean = surface.is_real(g) ? (left + right) / 2 : left;
     for (const std::int32_t end : {surface.tail[h], surface.head(h)}) {

@@ -2,6 +2,7 @@
 #pragma once
 #include "quads/cross_field.h"
 #include "quads/face_cross.h"
+#include "quads/sharp_corners.h"
 
 namespace hf_inner {
 
@@ -13,6 +14,7 @@ constexpr double agreement = 0.5;
 // Crosses at feature edges lie along them. Along borders they are evened out over `passes` edges: the fourth degree
 // keeps right angles, and ragged borders get their mean direction. features: by half-edge.
 Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, const Connection& connection,
-                                  const Table<std::uint8_t>& features, std::int32_t passes);
+                                  const Table<std::uint8_t>& features, const SharpCorners& corners,
+                                  std::int32_t passes);
 
 }  // namespace hf_inner

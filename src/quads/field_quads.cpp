@@ -12,6 +12,7 @@
 #include "quads/numbers.h"
 #include "quads/other_core.h"
 #include "quads/poles.h"
+#include "quads/side_crosses.h"
 #include "quads/symmetric.h"
 #include "remesh/fit.h"
 #include "remesh/relax.h"
@@ -257,23 +258,28 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
   base.prepare(edge_length, options.facet);
   const Connection& connection = base.system->connection;
   part.reset();
+  Table<std::uint8_t> features = find_features(surface, options.crease > 0 ? options.crease : HUGE_VAL, memory);
+  keep_edges(surface, core.topology, options.crease_edges, features, memory);
+  const SharpCorners corners = SharpCorners::find(surface, features, edge_length, memory);
+  Vector<HardCross> hard = feature_crosses(core, surface, connection, features, corners, base.passes);
+  const SideCrosses sides = SideCrosses::find(surface, connection, features, corners, hard, memory);
   Vector<Complex> wish(base.curvature.begin(), base.curvature.end(), &memory);
+  leave_out_near(core.mesh, core.topology, sides.turned, edge_length, wish);  // two lie between two turned creases
   const Guided guided = read_guides(options.guides, connection, core.size(), memory);
   Vector<QuadPole> poles(options.poles.begin(), options.poles.end(), &memory);
   for (QuadPole& pole : poles) pole.place = base.apart.moved(surface, pole.place);
   for (std::size_t v = 0; v < guided.weight.size(); ++v)
     wish[v] = (1 - guided.weight[v]) * wish[v] + guided.weight[v] * guided.cross[v];
-  Table<std::uint8_t> features =
-      find_features(surface, options.crease > 0 ? options.crease : HUGE_VAL, memory);
-  keep_edges(surface, core.topology, options.crease_edges, features, memory);
-  const auto smooth = [&] {
-    const ProgressRange range(field_progress.factored, field_progress.smoothed);
-    Vector<HardCross> hard = feature_crosses(core, surface, connection, features, base.passes);
-    add_held(guided, hard);
-    return base.smoother->smooth(wish, hard);
+  add_held(guided, hard);
+  Vector<Complex> crosses(&memory);
+  const auto face_crosses = [&](float from) {
+    const ProgressRange range(from, field_progress.smoothed);
+    crosses = base.smoother->smooth(wish, hard, sides.seen);
+    return FaceCross::make(surface, connection, crosses, features, corners, sides.of_corner, memory);
   };
-  const Vector<Complex> crosses = smooth();
-  FaceCross faces = FaceCross::make(surface, connection, crosses, features, memory);
+  FaceCross faces = face_crosses(field_progress.factored);
+  if (!sides.turned.empty() && part_turns(surface, core.topology, connection, wish, crosses, faces.index, hard, memory))
+    faces = face_crosses(field_progress.smoothed);
   if (!guided.weight.empty()) {
     // The map cannot turn everywhere as the crosses do. Where there are guides, it does.
     for (std::int32_t t = 0; t < surface.real_triangles; ++t) {

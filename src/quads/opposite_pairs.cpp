@@ -94,14 +94,15 @@ Vector<Pair> find_pairs(const Core& core, const Nearest& nearest, const Table<st
 }  // namespace
 
 void leave_out_pairs(const FluxSurface& surface, const DirectionMatrix& system, CrossSmoother& smoother,
-                     Span<const HardCross> hard, const Table<std::uint8_t>& features, double edge_length,
-                     Vector<Complex>& wish) {
+                     Span<const HardCross> hard, const Table<std::uint8_t>& features, const SharpCorners& corners,
+                     double edge_length, Vector<Complex>& wish) {
   const Core& core = *system.core;
   Memory& memory = *core.memory;
   const auto find_index = [&](float from, float to) {
     const ProgressRange range(from, to);
     const Vector<Complex> crosses = smoother.smooth(wish, hard);
-    const FaceCross faces = FaceCross::make(surface, system.connection, crosses, features, memory);
+    const FaceCross faces =
+        FaceCross::make(surface, system.connection, crosses, features, corners, Table<Complex>(memory), memory);
     Table<std::int32_t> out(core.size(), 0, memory);  // a vertex of the mesh can be several of the surface
     for (std::int32_t v = 0; v < surface.first_apex; ++v) out[surface.mesh_vertex[v]] += faces.index[v];
     return out;

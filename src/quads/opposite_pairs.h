@@ -12,7 +12,7 @@ namespace hf_inner {
 // edge_length: of the quads, or of the surface where its edges are longer. wish, hard: as CrossSmoother has them.
 // features: by half-edge.
 void leave_out_pairs(const FluxSurface& surface, const DirectionMatrix& system, CrossSmoother& smoother,
-                     Span<const HardCross> hard, const Table<std::uint8_t>& features, double edge_length,
-                     Vector<std::complex<double>>& wish);
+                     Span<const HardCross> hard, const Table<std::uint8_t>& features, const SharpCorners& corners,
+                     double edge_length, Vector<std::complex<double>>& wish);
 
 }  // namespace hf_inner

@@ -61,8 +61,9 @@ void QuadBase::prepare(double edge_length, double facet) {
   curvature = curvature_crosses(*core, system->connection, wanted);
   if (fine) {
     const Table<std::uint8_t> borders = find_features(surface, HUGE_VAL, *core->memory);
-    const Vector<HardCross> hard = feature_crosses(*core, surface, system->connection, borders, wanted);
-    leave_out_pairs(surface, *system, *smoother, hard, borders, length, curvature);
+    const SharpCorners corners = SharpCorners::find(surface, borders, edge_length, *core->memory);
+    const Vector<HardCross> hard = feature_crosses(*core, surface, system->connection, borders, corners, wanted);
+    leave_out_pairs(surface, *system, *smoother, hard, borders, corners, length, curvature);
   }
   passes = wanted;
 }

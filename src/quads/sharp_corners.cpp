@@ -13,6 +13,10 @@ constexpr double right_angle = half_turn / 2;
 // straight on.
 constexpr double sharp = right_angle / 2, straight_from = 1.5 * right_angle, straight_to = 2.5 * right_angle;
 
+// Two quads side by side need so many edge lengths between two edges. The vertices behind them need as many before the
+// next corner.
+constexpr double two_quads = 2;
+
 // A corner between two feature edges: the triangles on the left of `first`, which leaves the vertex, up to `last`,
 // which comes in.
 struct Corner {
@@ -22,14 +26,27 @@ struct Corner {
 
 class Opener {
  public:
-  Opener(const FluxSurface& surface, const Table<std::uint8_t>& features, SharpCorners& out, Memory& memory)
-      : surface_(surface), features_(features), out_(out), run_(&memory), ends_(&memory) {}
+  Opener(const FluxSurface& surface, const Table<std::uint8_t>& features, double edge_length, SharpCorners& out,
+         Memory& memory)
+      : surface_(surface),
+        features_(features),
+        room_(two_quads * edge_length),
+        out_(out),
+        run_(&memory),
+        ends_(&memory) {}
 
   void open(const Corner& corner) {
     const double turn = sharp - corner.angle / 2;
     set_inside(corner, -turn, -turn);
-    run(corner.first, -turn, [&](std::int32_t h) { return corner_before(FluxSurface::next(h)); });
-    run(corner.last, turn, [&](std::int32_t h) { return corner_from(h); });
+    const auto right = [&](std::int32_t h) { return corner_before(FluxSurface::next(h)); };
+    const auto left = [&](std::int32_t h) { return corner_from(h); };
+    // Nothing on the other side of a border asks for more quads along it.
+    const bool crease = surface_.is_real(surface_.twin[corner.first]) && surface_.is_real(surface_.twin[corner.last]);
+    const bool tooth =
+        crease && walk(corner.first, true, right).length >= room_ && walk(corner.last, false, left).length >= room_;
+    const double narrow = tooth ? room_ / 2 / std::sin(corner.angle / 2) : HUGE_VAL;
+    turn_run(walk(corner.first, true, right), -turn, narrow, tooth);
+    turn_run(walk(corner.last, false, left), turn, narrow, tooth);
   }
   // The corner that begins with feature half-edge `first`. Walks no farther than `most` radians.
   Corner corner_from(std::int32_t first, double most = HUGE_VAL) const {
@@ -58,24 +75,47 @@ class Opener {
     for (; !features_[h]; angle += corner_angle(surface_, h)) h = surface_.turn_right(h);
     return {h, none, angle};
   }
-  // Turns the crosses along a feature edge, and along those that continue it, away from it.
+  struct Run {
+    double length = 0;      // up to the next corner
+    std::int32_t end = -1;  // the feature half-edge that this corner begins with; -1 if it is sharp too
+  };
+  // Follows a feature edge, and those that continue it, to the next corner: on the right, or on the left. Keeps them in
+  // run_.
   template <class Next>
-  void run(std::int32_t h, double turn, Next&& next) {
+  Run walk(std::int32_t h, bool to_right, Next&& next) {
+    Run out;
     run_.clear();
     for (;;) {
       run_.push_back(h);
+      out.length += length(h);
       const Corner corner = next(h);
-      if (corner.angle < sharp) return set_turn(run_.front(), turn);
+      if (corner.angle < sharp) return out;
       if (corner.angle < straight_from || corner.angle > straight_to) {
-        ends_.push_back(corner.first);
-        break;
+        out.end = corner.first;
+        return out;
       }
-      h = turn < 0 ? corner.first : corner.last;
-      out_.passed[surface_.tail[corner.first]] = 1;
+      h = to_right ? corner.first : corner.last;
     }
-    for (const std::int32_t own : run_) set_turn(own, turn);
   }
-  void set_turn(std::int32_t h, double turn) { out_.turn[h] = turn; }
+  // Turns the crosses along the edges in run_ away from them: up to the length `narrow`, or up to the next corner where
+  // that is not far behind.
+  void turn_run(const Run& run, double turn, double narrow, bool tooth) {
+    for (std::size_t i = 1; i < run_.size(); ++i)
+      out_.passed[surface_.tail[turn < 0 ? run_[i] : FluxSurface::next(run_[i])]] = 1;
+    if (run.end < 0) run_.resize(1);
+    const bool all = run.length < narrow + room_;
+    if (all && run.end >= 0) ends_.push_back(run.end);
+    double from = 0;
+    for (std::size_t i = 0; i < run_.size() && (all || from < narrow); ++i) {
+      const std::int32_t h = run_[i];
+      out_.turn[h] = turn;
+      out_.tooth[h] = tooth;
+      from += length(h);
+    }
+  }
+  double length(std::int32_t h) const {
+    return norm(surface_.position[surface_.head(h)] - surface_.position[surface_.tail[h]]);
+  }
   // The triangles of a corner without a feature edge. The turn from `first` goes evenly from `begin` to `end`.
   void set_inside(const Corner& corner, double begin, double end) {
     double angle = 0;
@@ -90,6 +130,7 @@ class Opener {
 
   const FluxSurface& surface_;
   const Table<std::uint8_t>& features_;
+  const double room_;
   SharpCorners& out_;
   Vector<std::int32_t> run_, ends_;
 };
@@ -102,10 +143,11 @@ double corner_angle(const FluxSurface& s, std::int32_t h) noexcept {
   return arc_tangent(norm(cross(a, b)), dot(a, b));
 }
 
-SharpCorners SharpCorners::find(const FluxSurface& surface, const Table<std::uint8_t>& features, Memory& memory) {
+SharpCorners SharpCorners::find(const FluxSurface& surface, const Table<std::uint8_t>& features, double edge_length,
+                                Memory& memory) {
   SharpCorners out(memory);
   Vector<Corner> corners(&memory);
-  Opener opener(surface, features, out, memory);
+  Opener opener(surface, features, edge_length, out, memory);
   for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
     if (!features[h]) continue;
     const Corner corner = opener.corner_from(h, sharp);
@@ -114,6 +156,7 @@ SharpCorners SharpCorners::find(const FluxSurface& surface, const Table<std::uin
   out.count = static_cast<std::int32_t>(corners.size());
   if (out.empty()) return out;
   out.turn.assign(surface.half_count(), 0.0);
+  out.tooth.assign(surface.half_count(), 0);
   out.passed.assign(surface.vertex_count(), 0);
   out.inside.assign(surface.real_triangles, {});
   for (const Corner& corner : corners) opener.open(corner);

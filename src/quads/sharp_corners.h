@@ -5,6 +5,10 @@
 // like this. So the crosses in such a corner stand as if it were a right angle: turned away from both edges. They stay
 // turned along the edges up to the next corners, such as the valleys of the saw. There the angle counts without the
 // turns, so that the sum of all corners stays that of the shape.
+//
+// Two creases of at least two edges of quads are a tooth. There crosses stay turned as far as the two creases have no
+// room for two quads between them. Behind that, crosses follow the creases again, and a vertex of three quads lies
+// between them; but where the next corners are not far behind, crosses stay turned up to these.
 #pragma once
 #include <complex>
 
@@ -13,13 +17,15 @@
 namespace hf_inner {
 
 struct SharpCorners {
-  explicit SharpCorners(Memory& memory) : turn(memory), inside(memory), passed(memory) {}
-  // features: by half-edge.
-  static SharpCorners find(const FluxSurface& surface, const Table<std::uint8_t>& features, Memory& memory);
+  explicit SharpCorners(Memory& memory) : turn(memory), tooth(memory), inside(memory), passed(memory) {}
+  // features: by half-edge. edge_length: of the quads.
+  static SharpCorners find(const FluxSurface& surface, const Table<std::uint8_t>& features, double edge_length,
+                           Memory& memory);
   bool empty() const noexcept { return count == 0; }
 
   std::int32_t count = 0;
-  Table<double> turn;  // by half-edge: how far the crosses on its left are turned from it, counter-clockwise
+  Table<double> turn;         // by half-edge: how far the crosses on its left are turned from it, counter-clockwise
+  Table<std::uint8_t> tooth;  // by half-edge: it is turned by the corner of a tooth
   // By triangle: the same, of its half-edge that leaves the corner; only in corners and where that is no feature.
   struct Inside {
     std::int32_t half = -1;

@@ -36,6 +36,7 @@ struct Stages {
         faces([&] {
           const Vector<Complex> wish = curvature_crosses(*core, system.connection, 2);
           return FaceCross::make(surface, system.connection, CrossSmoother(system, radius).smooth(wish, {}), features,
+                                 SharpCorners(*core->memory), Table<std::complex<double>>(*core->memory),
                                  *core->memory);
         }()),
         seams(Seams::make(surface, faces, *core->memory)) {}

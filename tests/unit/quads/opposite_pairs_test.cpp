@@ -46,7 +46,8 @@ struct BumpedRing {
 
   std::vector<std::int32_t> index() {
     const FaceCross faces =
-        FaceCross::make(surface, system.connection, smoother.smooth(wish, {}), features, *core->memory);
+        FaceCross::make(surface, system.connection, smoother.smooth(wish, {}), features, SharpCorners(*core->memory),
+                        Table<std::complex<double>>(*core->memory), *core->memory);
     return {faces.index.begin(), faces.index.end()};
   }
   std::shared_ptr<const Core> core;
@@ -71,7 +72,8 @@ TEST(OppositePairs, CancelWhereTheCrossesCanDoWithoutThem) {
   const std::int32_t before = count(ring.index());
   ASSERT_GT(before, 0);
   const Vector<Complex> old(ring.wish.begin(), ring.wish.end(), ring.core->memory.get());
-  leave_out_pairs(ring.surface, ring.system, ring.smoother, {}, ring.features, edge_length, ring.wish);
+  leave_out_pairs(ring.surface, ring.system, ring.smoother, {}, ring.features, SharpCorners(*ring.core->memory),
+                  edge_length, ring.wish);
   EXPECT_LT(count(ring.index()), before);
   std::size_t left_out = 0;
   for (std::size_t v = 0; v < old.size(); ++v) {
@@ -85,7 +87,8 @@ TEST(OppositePairs, CancelWhereTheCrossesCanDoWithoutThem) {
 TEST(OppositePairs, WithoutSingularitiesNothingChanges) {
   BumpedRing ring(0);
   const Vector<Complex> old(ring.wish.begin(), ring.wish.end(), ring.core->memory.get());
-  leave_out_pairs(ring.surface, ring.system, ring.smoother, {}, ring.features, edge_length, ring.wish);
+  leave_out_pairs(ring.surface, ring.system, ring.smoother, {}, ring.features, SharpCorners(*ring.core->memory),
+                  edge_length, ring.wish);
   for (std::size_t v = 0; v < old.size(); ++v) EXPECT_EQ(ring.wish[v], old[v]);
 }
 

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quads/feature_crosses.h"
 #include "quads/field_quads.h"
+#include "quads/side_crosses.h"
+#include "remesh/quad_faults.h"
 #include "support/meshes.h"
 #include "support/quad_oracle.h"
 
@@ -15,6 +18,8 @@ namespace {
 using namespace hf_inner;
 
 constexpr double turn = 6.283185307179586476925286766559;
+// Edges of quads that have no room beside another in any tooth.
+constexpr double coarse = 10;
 
 // A blade of radius 1 with n teeth: a rim of three layers, and two fans. flat: one fan.
 hf_test::PlainMesh saw(std::uint32_t n, bool flat = false) {
@@ -39,6 +44,19 @@ hf_test::PlainMesh saw(std::uint32_t n, bool flat = false) {
     }
     mesh.triangles.insert(mesh.triangles.end(), {centre, last * around + i, last * around + j});
     if (!flat) mesh.triangles.insert(mesh.triangles.end(), {centre + 1, j, i});
+  }
+  return mesh;
+}
+
+// A mesh turned off the axes: its flat faces are flat but for rounding.
+hf_test::PlainMesh leaning(hf_test::PlainMesh mesh) {
+  constexpr double c = 0.8, s = 0.6;
+  for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
+    double* p = &mesh.positions[i];
+    const Vec3 about_z{c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]};
+    p[0] = about_z.x;
+    p[1] = c * about_z.y - s * about_z.z;
+    p[2] = s * about_z.y + c * about_z.z;
   }
   return mesh;
 }
@@ -96,13 +114,123 @@ TEST(SharpCorners, a_blade_of_many_teeth_gets_quads_as_good_as_one_of_twelve) {
   }
 }
 
+TEST(SharpCorners, thin_teeth_keep_their_creases_from_quads_as_wide_as_a_tooth_to_quads_of_a_quarter_of_it) {
+  Memory memory;
+  const auto core = hf_test::make_core(saw(40));
+  for (const std::int32_t faces : {1500, 2000, 2600, 2900, 4000, 9000}) {
+    FieldQuadReport report;
+    const QuadMesh mesh = quads_of(core, faces, report);
+    const Figures found = figures_of(mesh);
+    EXPECT_EQ(report.substitutes, 0) << faces;
+    EXPECT_EQ(found.turned_over, 0) << faces;
+    EXPECT_LE(found.most_valence, 6) << faces;
+    EXPECT_EQ(faults_near(mesh, Vec3{}, 1, memory).crossing, 0) << faces;
+    for (const int tooth : {0, 7, 13, 39}) {
+      const Vec3 tip{std::cos(turn * tooth / 40), std::sin(turn * tooth / 40), 0.25};
+      double nearest = HUGE_VAL;
+      for (const Vec3& p : mesh.position) nearest = std::min(nearest, norm(core->mesh.to_given(p) - tip));
+      EXPECT_LT(nearest, 1e-6) << faces << ", tooth " << tooth;
+    }
+  }
+}
+
+TEST(SharpCorners, a_blade_that_leans_has_no_vertex_of_many_quads) {
+  const auto core = hf_test::make_core(leaning(saw(40)));
+  for (const std::int32_t faces : {1000, 4000}) {
+    FieldQuadReport report;
+    const Figures found = figures_of(quads_of(core, faces, report));
+    EXPECT_EQ(report.substitutes, 0) << faces;
+    EXPECT_LE(found.most_valence, 8) << faces;
+    EXPECT_EQ(found.turned_over, 0) << faces;
+  }
+}
+
+TEST(SharpCorners, crosses_stay_turned_only_where_two_quads_have_no_room) {
+  // A wedge of 24 degrees between two walls: its two edges have a vertex at every whole distance from the tip.
+  constexpr std::uint32_t steps = 10;
+  const double half = turn / 30;
+  hf_test::PlainMesh wedge;
+  wedge.positions = {0, 0, 0};
+  for (std::uint32_t i = 1; i <= steps; ++i) {
+    const double x = i * std::cos(half), y = i * std::sin(half);
+    wedge.positions.insert(wedge.positions.end(), {x, -y, 0, x, y, 0});
+    const std::uint32_t low = 2 * i - 1, high = 2 * i;
+    if (i == 1) wedge.triangles = {0, low, high};
+    if (i > 1) wedge.triangles.insert(wedge.triangles.end(), {low - 2, low, high, low - 2, high, high - 2});
+  }
+  const std::uint32_t below = 2 * steps + 1;
+  for (std::uint32_t v = 0; v < below; ++v) {
+    const double x = wedge.positions[3 * v], y = wedge.positions[3 * v + 1];
+    wedge.positions.insert(wedge.positions.end(), {x, y, -1});
+  }
+  for (std::uint32_t v = 0; v + 2 < below; ++v) {
+    const std::uint32_t a = v, b = v + 2, c = a + below, d = b + below;
+    if (v % 2 == 1) wedge.triangles.insert(wedge.triangles.end(), {a, d, b, a, c, d});
+    if (v % 2 == 0) wedge.triangles.insert(wedge.triangles.end(), {a, b, d, a, d, c});
+  }
+  wedge.triangles.insert(wedge.triangles.end(), {0, below, below + 1, 0, below + 1, 1});
+  Memory memory;
+  const auto core = hf_test::make_core(wedge);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+  const Table<std::uint8_t> features = find_features(surface, turn / 12, memory);
+  for (const double length : {0.5, 3.0}) {
+    const SharpCorners corners = SharpCorners::find(surface, features, length / core->mesh.scale, memory);
+    ASSERT_EQ(corners.count, 1);
+    for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
+      const auto distance = [&](std::int32_t v) {
+        const Vec3 p = core->mesh.to_given(surface.position[v]);
+        return std::round(std::hypot(p.x, p.y));
+      };
+      const double begin = std::min(distance(surface.tail[h]), distance(surface.head(h)));
+      // Two quads of 0.5 have room from 0.5 / sin(12 degrees) = 2.4 on, and two of 3 nowhere in the wedge.
+      bool on_top = true;
+      for (const std::int32_t k : {h, FluxSurface::next(h), FluxSurface::previous(h)})
+        on_top &= core->mesh.to_given(surface.position[surface.tail[k]]).z > -0.5;
+      const bool turned = on_top && features[h] && surface.is_real(surface.twin[h]) && begin < (length < 1 ? 3 : 10);
+      EXPECT_EQ(corners.turn[h] != 0, turned) << length << ", from " << begin;
+    }
+  }
+}
+
+TEST(SharpCorners, each_side_of_a_crease_at_a_tip_has_its_own_cross) {
+  Memory memory;
+  const auto core = hf_test::make_core(saw(40));
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+  const Connection connection = Connection::make(core->mesh, core->topology, memory);
+  const Table<std::uint8_t> features = find_features(surface, turn / 12, memory);
+  const SharpCorners corners = SharpCorners::find(surface, features, 0.05, memory);
+  Vector<HardCross> hard = feature_crosses(*core, surface, connection, features, corners, 2);
+  const SideCrosses sides = SideCrosses::find(surface, connection, features, corners, hard, memory);
+  std::int32_t turned = 0;
+  for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {
+    const Vec3 tail = core->mesh.to_given(surface.position[surface.tail[h]]);
+    const bool at_tip = std::hypot(tail.x, tail.y) > 0.99 && (tail.z < 1e-6 || tail.z > 0.25 - 1e-6);
+    if (!features[h] || !at_tip) continue;
+    ASSERT_NE(sides.of_corner[h], std::complex<double>(0, 0));
+    // In the plane of the triangle, the cross at the tail stands as far from the edge as the corner says.
+    const Vec3 a = surface.position[surface.tail[h]], edge = unit_vector(surface.position[surface.head(h)] - a),
+               normal = unit_vector(cross(edge, surface.position[surface.tail[FluxSurface::previous(h)]] - a));
+    const Index v = surface.mesh_vertex[surface.tail[h]];
+    const std::complex<double> arm = std::polar(1.0, std::arg(sides.of_corner[h]) / 4);
+    // A triangle may face away from the normal of a vertex as sharp as this.
+    const Vec3 own = connection.normal[static_cast<std::size_t>(v)];
+    const Vec3 seen = carry(connection.to_space(v, arm), own, dot(own, normal) < 0 ? -1.0 * normal : normal);
+    const double angle = std::atan2(dot(seen, cross(normal, edge)), dot(seen, edge)) - corners.turn[h];
+    EXPECT_NEAR(std::remainder(angle, turn / 4), 0, 1e-9) << h;
+    turned += corners.turn[h] != 0;
+  }
+  EXPECT_EQ(turned, 80);  // one on the left of which lies a tooth, above and below
+  EXPECT_TRUE(std::is_sorted(hard.begin(), hard.end(),
+                             [](const HardCross& x, const HardCross& y) { return x.vertex < y.vertex; }));
+}
+
 TEST(SharpCorners, a_corner_below_45_degrees_is_opened_to_a_right_angle) {
   Memory memory;
   for (const std::uint32_t teeth : {12u, 40u}) {
     const auto core = hf_test::make_core(saw(teeth, true));
     const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
     const Table<std::uint8_t> features = find_features(surface, HUGE_VAL, memory);
-    const SharpCorners corners = SharpCorners::find(surface, features, memory);
+    const SharpCorners corners = SharpCorners::find(surface, features, coarse, memory);
     EXPECT_EQ(corners.count, teeth == 12 ? 0 : static_cast<std::int32_t>(teeth));
     if (corners.empty()) continue;
     // The crosses along the two edges of a tip, each turned from its edge, are a quarter turn apart.

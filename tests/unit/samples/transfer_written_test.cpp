@@ -64,6 +64,45 @@ TEST(TransferWritten, AFitDoesNotDependOnTheUnit) {
   }
 }
 
+// Root and hips of a horse can both carry it along. The path goes into the upper one that its own clips move.
+TEST(TransferWritten, ThePathOfABodyIsInOneJoint) {
+  const Model horse = read_gltf(creature("horse"));
+  const auto node_of = [&](const std::string& name) {
+    for (size_t n = 0; n < horse.nodes.size(); ++n)
+      if (horse.nodes[n].name == name) return static_cast<int>(n);
+    throw std::runtime_error("no joint " + name);
+  };
+  const int root = node_of("root"), hips = node_of("hips");
+  const FlatMesh mesh = flatten(horse);
+  std::vector<double> frame;
+  for (const glm::dvec3& p : posed_positions(horse, mesh, rest_pose(horse)))
+    for (const double x : {p.x, p.y, p.z + 3}) frame.push_back(x);
+  struct Case {
+    std::vector<int> moving;
+    int carrier;
+  };
+  for (const Case& c : {Case{{root, hips}, root}, Case{{root}, root}, Case{{hips}, hips}, Case{{}, root}}) {
+    Model model = horse;
+    model.animations.assign(1, Animation{});
+    for (const int node : c.moving) {
+      const glm::dvec3 at = model.nodes[static_cast<size_t>(node)].translation;
+      Channel channel;
+      channel.node = node;
+      channel.path = Path::translation;
+      channel.times = {0, 1};
+      for (const double z : {at.z, at.z + 1})
+        for (const double x : {at.x, at.y, z}) channel.values.push_back(static_cast<float>(x));
+      model.animations[0].channels.push_back(channel);
+    }
+    const RigFit rig(model, mesh);
+    const Pose pose = rig.whole(rig.fit(frame, rig.rest(), {}, {})), rest = rig.whole(rig.rest());
+    for (size_t n = 0; n < pose.size(); ++n) {
+      const double wanted = static_cast<int>(n) == c.carrier ? 3 : 0;
+      EXPECT_NEAR(glm::distance(pose[n].translation, rest[n].translation), wanted, 1e-3) << model.nodes[n].name;
+    }
+  }
+}
+
 // A file of a chain of 1,001 joints, each with a vertex: its system would take gigabytes.
 TEST(TransferWritten, AModelOfTooManyJointsIsRefused) {
   constexpr uint16_t joints = 1001;
