@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
+#include <fstream>
 #include <new>
 #endif
 #include <stdexcept>
@@ -48,11 +48,8 @@ constexpr char made = 'm', refused = 'r', out_of_memory = 'o';
 
 // Bytes of address space this process has; 0 where the system does not say.
 uint64_t own_space() {
-  unsigned long long pages = 0;
-  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(file, "%llu", &pages) != 1) pages = 0;
-    std::fclose(file);
-  }
+  uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
