@@ -19,7 +19,7 @@ namespace hf_gltf {
 
 struct JointSide {
   const Model& model;
-  const FlatMesh& mesh;        // may be empty
+  const FlatMesh& mesh;        // in the pose of rest; may be empty
   const Axes* axes = nullptr;  // given by the caller, or null
   const Pose* rest = nullptr;  // a pose in which both bodies stand alike; null: the pose of the file
 };
