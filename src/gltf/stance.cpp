@@ -94,23 +94,38 @@ double apart(const Skin& skin, const std::vector<glm::dmat4>& globals, const glm
   return sum;
 }
 
-// From where a skin was bound to the world: the transform of a node that brings the bound joints nearest to where they
-// are.
+double size_of(const glm::dmat4& m) { return std::cbrt(std::abs(glm::determinant(glm::dmat3(m)))); }
+
+// From where a skin was bound to the world. A frame of the file says it: the node of the mesh or what carries the
+// joints. Where no frame fits, joints without a parent in the skin are taken to rest where they were bound.
 glm::dmat4 world_of(const Model& model, size_t index, const std::vector<glm::dmat4>& globals) {
+  constexpr double same_size = 0.01, near = 3;  // a frame is off by axes or units if the joints come much farther away
   const Skin& skin = model.skins[index];
-  std::vector<glm::dmat4> candidates{glm::dmat4(1)};
+  std::vector<glm::dmat4> frames{glm::dmat4(1)}, roots;
   for (size_t n = 0; n < model.nodes.size(); ++n)
-    if (model.nodes[n].skin == static_cast<int>(index)) candidates.push_back(globals[n]);
+    if (model.nodes[n].skin == static_cast<int>(index)) frames.push_back(globals[n]);
   for (size_t k = 0; k < skin.joints.size(); ++k) {
     const auto joint = static_cast<size_t>(skin.joints[k]);
     const int parent = model.nodes[joint].parent;
     if (parent >= 0 && std::find(skin.joints.begin(), skin.joints.end(), parent) != skin.joints.end()) continue;
-    candidates.push_back(globals[joint] * glm::dmat4(skin.inverse_bind[k]));
-    if (parent >= 0) candidates.push_back(globals[static_cast<size_t>(parent)]);
+    roots.push_back(globals[joint] * glm::dmat4(skin.inverse_bind[k]));
+    if (parent >= 0) frames.push_back(globals[static_cast<size_t>(parent)]);
   }
-  const auto by = [&](const glm::dmat4& m) { return apart(skin, globals, m); };
-  return *std::min_element(candidates.begin(), candidates.end(),
-                           [&](const glm::dmat4& a, const glm::dmat4& b) { return by(a) < by(b); });
+  const auto nearest = [&](const std::vector<glm::dmat4>& list) {
+    return *std::min_element(list.begin(), list.end(), [&](const glm::dmat4& a, const glm::dmat4& b) {
+      return apart(skin, globals, a) < apart(skin, globals, b);
+    });
+  };
+  if (roots.empty()) return nearest(frames);
+  const glm::dmat4 root = nearest(roots);
+  frames.erase(std::remove_if(frames.begin(), frames.end(),
+                              [&](const glm::dmat4& m) {
+                                return std::abs(size_of(m) - size_of(root)) > same_size * size_of(root);
+                              }),
+               frames.end());
+  if (frames.empty()) return root;
+  const glm::dmat4 frame = nearest(frames);
+  return apart(skin, globals, frame) <= near * apart(skin, globals, root) ? frame : root;
 }
 
 // The joints turn to where their skins were bound; bones keep the lengths that they have.

@@ -49,14 +49,15 @@ struct Facts {
   }
 };
 
-// The middle of the sole against the ankle, and the joint after the ankle.
+// The middle of the sole against the ankle, and the joint after the ankle. A leg without an ankle has its sole below the
+// knee.
 void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
   for (int side = 0; side < 2; ++side) {
     const auto& path = limb.paths[side];
     const std::size_t ankle = ankle_of(body, path);
-    if (ankle == 0) continue;
-    const Vec3 joint = body.pivots[at(path[ankle])];
-    if (ankle + 1 < path.size()) {
+    if (path.size() < 2) continue;
+    const Vec3 joint = body.pivots[at(ankle > 0 ? path[ankle] : path.back())];
+    if (ankle > 0 && ankle + 1 < path.size()) {
       const Vec3 d = body.pivots[at(path[ankle + 1])] - joint;
       if (norm(d) > 0) facts.toe_joints.add(dot(d, body.forward) / norm(d));
     }
@@ -237,11 +238,13 @@ Vector<const Limb*> standing_limbs(const Body& body) {
 }
 
 std::size_t ankle_of(const Body& body, const Vector<Index>& path) {
-  const double hip = body.height_of(body.pivots[at(path[0])]);
+  // The second of two joints is a knee unless it is far down: blocks have no foot.
+  const double share = path.size() > 2 ? ankle_height : 0.5 * ankle_height;
+  const double highest = share * body.height_of(body.pivots[at(path[0])]);
   std::size_t first = 0, last = 0;
   for (std::size_t k = 1; k < path.size(); ++k) {
     const double height = body.height_of(body.pivots[at(path[k])]);
-    if (height >= ankle_height * hip) continue;
+    if (height >= highest) continue;
     if (first == 0) first = k;
     if (height > 0.5 * standing * body.height) last = k;
   }
