@@ -81,6 +81,16 @@ void number_chains(const Body& body, Character& out) {
         counts[static_cast<std::size_t>(out.chains[c].role)][static_cast<std::size_t>(out.chains[c].side)]++;
 }
 
+// The middle of the lowest vertices of a joint: a leg without a foot ends there, not at the toes of a boot.
+Vec3 sole_of(const Body& body, Index joint) {
+  const double low = body.lowest_below(joint, body.up) + 0.5 * standing * body.height;
+  Box box;
+  for (const std::uint32_t v : body.owned_by(joint)) {
+    if (dot(body.points[v], body.up) <= low) box.add(body.points[v]);
+  }
+  return box.empty() ? body.pivots[at(joint)] : box.middle();
+}
+
 // Along the joints, and on to the chain that goes on from the tip.
 void measure_chains(const Body& body, Character& out) {
   for (std::size_t c = 0; c < out.chains.size(); ++c) {
@@ -95,7 +105,8 @@ void measure_chains(const Body& body, Character& out) {
       if (next && body.sides[at(child)] == chain.side && on == 0)
         on = norm(body.pivots[at(child)] - pivot(chain.count - 1));
     }
-    if (on == 0 && body.children_of(tip).empty()) on = body.reaches[at(tip)];
+    if (on == 0 && body.children_of(tip).empty())
+      on = chain.role == Role::leg ? norm(sole_of(body, tip) - body.pivots[at(tip)]) : body.reaches[at(tip)];
     chain.length = body.scale * (chain.length + on);
   }
 }
