@@ -165,7 +165,8 @@ JointModels::JointModels(const Model& source_model, const Model& target_model, c
       source_known(know_body(source, source_mesh, given(command.source_axes), &source_stance.pose)),
       target_known(know_body(target, target_mesh, given(command.target_axes), &target_stance.pose)) {}
 
-ChosenWay choose_way(const TransferCommand& command, const SkeletonPair& pair) {
+ChosenWay choose_way(const TransferCommand& command, const JointModels& models) {
+  const SkeletonPair& pair = models.pair;
   const std::string surface = needs_surface(command);
   if (command.way == "surface") return {false, "as asked"};
   if (command.way == "skeleton") {
@@ -176,7 +177,8 @@ ChosenWay choose_way(const TransferCommand& command, const SkeletonPair& pair) {
   }
   if (!surface.empty()) return {false, surface};
   if (!pair.refusal().empty()) return {false, pair.refusal()};
-  if (!pair.two_legged())
+  // The surface has the pose of the file: where that is no stance, joints lead.
+  if (pair.four_legged() && models.source_stance.from.empty() && models.target_stance.from.empty())
     return {false, "between bodies on four legs surfaces give the smoother motion; --way skeleton turns joints"};
   return {true, "both skeletons are understood, and " + pair.limbs_text() + " have partners"};
 }

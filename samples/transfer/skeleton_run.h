@@ -31,7 +31,7 @@ struct ChosenWay {
   bool joints = false;
   std::string why;
 };
-ChosenWay choose_way(const TransferCommand& command, const SkeletonPair& pair);
+ChosenWay choose_way(const TransferCommand& command, const JointModels& models);
 
 // Plays the clips, writes file and sheet, reads the file again.
 RunReport run_by_joints(const JointModels& models, const std::vector<const Animation*>& clips,

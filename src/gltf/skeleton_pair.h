@@ -69,6 +69,8 @@ class SkeletonPair {
   bool understood() const;
   // Whether both bodies have one pair of legs or none.
   bool two_legged() const;
+  // Whether both have two pairs.
+  bool four_legged() const;
   // "2 legs and 2 arms"
   std::string limbs_text() const;
   // The node over all joints of the target that could carry the travel.

@@ -183,8 +183,14 @@ std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, cons
     best = Stance{pose, from};
   };
   if (const std::optional<Pose> bound = bound_pose(model, rest); bound && !same(*bound, rest)) offer(*bound, "as bound");
-  for (size_t k = 0; k < std::min(model.animations.size(), most_clips) && !(best && uneven <= even); ++k)
-    offer(sample(model, model.animations[k], 0), "in the clip \"" + model.animations[k].name + "\"");
+  // A clip that gets up ends standing.
+  const size_t clips = std::min(model.animations.size(), most_clips);
+  for (size_t k = 0; k < 2 * clips && !(best && uneven <= even); ++k) {
+    const Animation& clip = model.animations[k % clips];
+    const bool end = k >= clips;
+    offer(sample(model, clip, end ? clip_duration(clip) : 0),
+          std::string(end ? "as at the end of" : "as at the start of") + " the clip \"" + clip.name + "\"");
+  }
   return best;
 }
 

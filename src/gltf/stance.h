@@ -13,11 +13,11 @@ namespace hf_gltf {
 
 struct Stance {
   Pose pose;
-  std::string from;  // "as bound", "in the clip \"idle\""
+  std::string from;  // "as bound", "as at the start of the clip \"idle\""
 };
 
 // A pose of the file in which the body stands better: its joints mirror each other, its parts are understood. It is the
-// pose in which the skin was bound, else the first frame of a clip. None: the pose of the nodes does. axes: given by
+// pose in which the skin was bound, else that at the start or the end of a clip. None: the pose of the nodes does. axes: given by
 // the caller, or null.
 std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, const Axes* axes);
 

@@ -147,11 +147,22 @@ void measure_limbs(const Body& body, Character& out) {
   if (arm_count > 0) out.arm_length = arms / arm_count;
 }
 
-// Names and shape that agree make it sure; a body without head or legs is not understood.
+// Legs that count are among the longest limbs, without a pair of wings. Where a spider lies flat they stretch aside, and
+// what stands is small.
+bool has_legs(const Character& out) {
+  double legs = 0, longest = 0;
+  for (const Chain& chain : out.chains) {
+    if (chain.role == Role::leg && chain.side == Side::left) legs = std::max(legs, chain.length);
+    const bool limb = chain.role == Role::arm || (chain.role == Role::wing && chain.number > 0);
+    if (limb) longest = std::max(longest, chain.length);
+  }
+  return legs > 0 && 4 * legs >= longest;
+}
+
+// Names and shape that agree make it sure, names of sides alone less so; a body without head or legs is not understood.
 double role_confidence(const Body& body, const Character& out) {
-  double sure = body.named ? 0.95 : 0.6;
-  const bool has_legs = find_chain(out, Role::leg, Side::left, false) != nullptr;
-  if (!has_legs) sure -= 0.2;
+  double sure = body.named ? 0.95 : body.sides_named ? 0.75 : 0.6;
+  if (!has_legs(out)) sure -= 0.2;
   if (body.head < 0) sure -= 0.2;
   if (!body.sides_named && (body.mirror_margin < unsure || body.mirror_score < 0)) sure = std::min(sure, 0.4);
   return std::min(sure, body.tree.size() < 3 ? 0.1 : 1.0);
