@@ -30,10 +30,10 @@ const Axes* given(const std::optional<Axes>& axes) { return axes ? &*axes : null
 Stance stand(const Model& model, FlatMesh& mesh, const Axes* axes, const std::optional<Pose>& chosen) {
   if (chosen) {
     mesh = standing(std::move(mesh), model, *chosen);
-    return {*chosen, ""};
+    return {*chosen, false, ""};
   }
   std::optional<Stance> found = find_stance(model, mesh, axes);
-  if (!found) return {rest_pose(model), ""};
+  if (!found) return {rest_pose(model), false, ""};
   mesh = standing(std::move(mesh), model, found->pose);
   return std::move(*found);
 }
@@ -177,8 +177,8 @@ ChosenWay choose_way(const TransferCommand& command, const JointModels& models) 
   }
   if (!surface.empty()) return {false, surface};
   if (!pair.refusal().empty()) return {false, pair.refusal()};
-  // The surface has the pose of the file: where that is no stance, joints lead.
-  if (pair.four_legged() && models.source_stance.from.empty() && models.target_stance.from.empty())
+  // The surface has the pose of the file: where a body is not understood in it, joints lead.
+  if (pair.four_legged() && !models.source_stance.needed && !models.target_stance.needed)
     return {false, "between bodies on four legs surfaces give the smoother motion; --way skeleton turns joints"};
   return {true, "both skeletons are understood, and " + pair.limbs_text() + " have partners"};
 }

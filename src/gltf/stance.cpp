@@ -180,7 +180,7 @@ std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, cons
     const Look look = look_at(model, standing(mesh, model, pose), pose, axes);
     if (!look.understood || !(look.uneven < uneven)) return;
     uneven = look.uneven;
-    best = Stance{pose, from};
+    best = Stance{pose, !own.understood, from};
   };
   if (const std::optional<Pose> bound = bound_pose(model, rest); bound && !same(*bound, rest)) offer(*bound, "as bound");
   // A clip that gets up ends standing.

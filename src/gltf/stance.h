@@ -13,7 +13,8 @@ namespace hf_gltf {
 
 struct Stance {
   Pose pose;
-  std::string from;  // "as bound", "as at the start of the clip \"idle\""
+  bool needed = false;  // in the pose of the file the body is not understood
+  std::string from;     // "as bound", "as at the start of the clip \"idle\""
 };
 
 // A pose of the file in which the body stands better: its joints mirror each other, its parts are understood. It is the

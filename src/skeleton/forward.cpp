@@ -49,14 +49,15 @@ struct Facts {
   }
 };
 
-// The middle of the sole against the ankle, and the joint after the ankle. A leg without an ankle has its sole below the
-// knee.
+// The middle of the sole against the ankle, and the joint after the ankle. Without an ankle the knee counts, if it is as
+// good as under the hip.
 void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
   for (int side = 0; side < 2; ++side) {
     const auto& path = limb.paths[side];
     const std::size_t ankle = ankle_of(body, path);
     if (path.size() < 2) continue;
-    const Vec3 joint = body.pivots[at(ankle > 0 ? path[ankle] : path.back())];
+    const Vec3 joint = body.pivots[at(ankle > 0 ? path[ankle] : path.back())],
+               upper = body.pivots[at(ankle > 0 ? path[ankle] : path[0])];
     if (ankle > 0 && ankle + 1 < path.size()) {
       const Vec3 d = body.pivots[at(path[ankle + 1])] - joint;
       if (norm(d) > 0) facts.toe_joints.add(dot(d, body.forward) / norm(d));
@@ -68,7 +69,9 @@ void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
       front = std::max(front, dot(p, body.forward));
       back = std::min(back, dot(p, body.forward));
     });
-    if (front > back) facts.toes.add((front + back - 2 * dot(joint, body.forward)) / (front - back));
+    if (!(front > back)) continue;
+    const auto ahead = [&](Vec3 p) { return (front + back - 2 * dot(p, body.forward)) / (front - back); };
+    if (std::fabs(ahead(joint) - ahead(upper)) < 0.5) facts.toes.add(ahead(joint));
   }
 }
 

@@ -37,18 +37,19 @@ std::size_t find_foot(const Body& body, const Vector<Index>& path, std::size_t f
   return ankle > first ? ankle : path.size();
 }
 
-// A bone from the middle of the body to where a limb begins: both sides start in one place.
-bool leads_out(const Body& body, const Vector<Index>& path) {
-  return path.size() > 1 && std::fabs(body.lateral(body.pivots[at(path[0])])) < central &&
-         std::fabs(body.lateral(body.pivots[at(path[1])])) > central;
+// A bone from the middle of the body to where a limb begins: those of both sides start in one place.
+bool leads_out(const Body& body, const Limb& limb) {
+  const auto place = [&](int side, std::size_t k) { return body.pivots[at(limb.paths[side][k])]; };
+  return limb.paths[0].size() > 1 && limb.paths[1].size() > 1 && norm(place(0, 0) - place(1, 0)) < one_place &&
+         norm(place(0, 1) - place(1, 1)) > 2 * central;
 }
 
 // A collar bone: by its name, else the first of three bones before the hand, or of more if it is below .6 of the
 // second.
-bool has_collar(const Body& body, const Vector<Index>& path, std::size_t hand) {
+bool has_collar(const Body& body, const Limb& limb, const Vector<Index>& path, std::size_t hand) {
   const JointName& first = body.names[at(path[0])];
   if (body.named && path.size() > 2 && (first.named == NameClass::trunk || first.collar)) return true;
-  if (hand > 1 && leads_out(body, path)) return true;
+  if (hand > 1 && leads_out(body, limb)) return true;
   const bool says_nothing = first.named == NameClass::none || first.named == NameClass::loose;  // a sleeve carries it
   if (!says_nothing || hand < 3) return false;
   return hand == 3 || bone(body, path, 0) < 0.6 * bone(body, path, 1);
@@ -79,7 +80,7 @@ void assign_leg(Body& body, const Limb& limb, int side) {
   const JointName& first_name = body.names[at(path[0])];
   // A joint of the pelvis or a shoulder blade above the leg.
   const bool named = path.size() > 2 && (first_name.named == NameClass::trunk || (first_name.collar && body.named));
-  const std::size_t first = named || leads_out(body, path) ? 1 : 0;
+  const std::size_t first = named || leads_out(body, limb) ? 1 : 0;
   const std::size_t foot = find_foot(body, path, first);
   set_digits(body, limb, side, Role::toe);
   set_from(body, path, 0, first, Role::shoulder);
@@ -90,7 +91,7 @@ void assign_leg(Body& body, const Limb& limb, int side) {
 
 void assign_arm(Body& body, const Limb& limb, int side) {
   const auto& path = limb.paths[side];
-  const std::size_t hand = find_hand(body, path), first = has_collar(body, path, hand) ? 1 : 0;
+  const std::size_t hand = find_hand(body, path), first = has_collar(body, limb, path, hand) ? 1 : 0;
   set_digits(body, limb, side, Role::finger);
   set_from(body, path, 0, first, Role::shoulder);
   set_from(body, path, first, hand, Role::arm);
