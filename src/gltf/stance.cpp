@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "gltf/character_arrays.h"
+#include "gltf/pose_numbers.h"
 #include "skeleton/character.h"
 
 namespace hf_gltf {
@@ -72,12 +73,6 @@ Look look_at(const Model& model, const FlatMesh& mesh, const Pose& pose, const A
   return out;
 }
 
-bool same(const Pose& a, const Pose& b) {
-  for (size_t n = 0; n < a.size(); ++n)
-    if (std::abs(glm::dot(a[n].rotation, b[n].rotation)) < 1 - 1e-6) return false;
-  return true;
-}
-
 glm::dquat rotation_of(const glm::dmat4& m) {
   glm::dmat3 axes(m);
   for (int c = 0; c < 3; ++c) axes[c] = glm::normalize(axes[c]);
@@ -128,7 +123,8 @@ glm::dmat4 world_of(const Model& model, size_t index, const std::vector<glm::dma
   return apart(skin, globals, frame) <= near * apart(skin, globals, root) ? frame : root;
 }
 
-// The joints turn to where their skins were bound; bones keep the lengths that they have.
+// The joints turn to where their skins were bound; bones keep the lengths that they have. None: they are there, or the
+// file does not say where that is.
 std::optional<Pose> bound_pose(const Model& model, const Pose& rest) {
   const std::vector<glm::dmat4> globals = global_matrices(model, rest);
   std::vector<std::optional<glm::dquat>> wanted(model.nodes.size());
@@ -143,7 +139,11 @@ std::optional<Pose> bound_pose(const Model& model, const Pose& rest) {
       if (!turn) turn = rotation_of(world * glm::inverse(bind));
     }
   }
+  std::vector<double> numbers;
+  append_trs(rest, numbers);
+  const Pose parts = pose_of(rest, numbers);  // matrices are split
   Pose out = rest;
+  bool turned = false;
   std::vector<int> all(model.nodes.size());
   for (size_t n = 0; n < all.size(); ++n) all[n] = static_cast<int>(n);
   std::vector<glm::dmat4> now(globals);
@@ -151,13 +151,16 @@ std::optional<Pose> bound_pose(const Model& model, const Pose& rest) {
     const auto n = static_cast<size_t>(node);
     const int parent = model.nodes[n].parent;
     const glm::dmat4 above = parent < 0 ? glm::dmat4(1) : now[static_cast<size_t>(parent)];
-    if (wanted[n] && !out[n].fixed) {
+    if (wanted[n]) {
       // A mirrored parent turns the other way; such rigs keep the pose of their nodes.
       if (glm::determinant(glm::dmat3(above)) < 0) return {};
+      out[n] = parts[n];
       out[n].rotation = glm::normalize(glm::inverse(rotation_of(above)) * *wanted[n]);
+      turned |= std::abs(glm::dot(out[n].rotation, parts[n].rotation)) < 1 - 1e-6;
     }
     now[n] = above * local_matrix(out[n]);
   }
+  if (!turned) return {};
   return out;
 }
 
@@ -182,7 +185,7 @@ std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, cons
     uneven = look.uneven;
     best = Stance{pose, !own.understood, from};
   };
-  if (const std::optional<Pose> bound = bound_pose(model, rest); bound && !same(*bound, rest)) offer(*bound, "as bound");
+  if (const std::optional<Pose> bound = bound_pose(model, rest)) offer(*bound, "as bound");
   // A clip that gets up ends standing.
   const size_t clips = std::min(model.animations.size(), most_clips);
   for (size_t k = 0; k < 2 * clips && !(best && uneven <= even); ++k) {

@@ -33,15 +33,8 @@ std::size_t find_foot(const Body& body, const Vector<Index>& path, std::size_t f
       if (is_foot(path[k])) return k;
     }
   }
-  const std::size_t ankle = ankle_of(body, path);
+  const std::size_t ankle = ankle_of(body, path, first);
   return ankle > first ? ankle : path.size();
-}
-
-// A bone from the middle of the body to where a limb begins: those of both sides start in one place.
-bool leads_out(const Body& body, const Limb& limb) {
-  const auto place = [&](int side, std::size_t k) { return body.pivots[at(limb.paths[side][k])]; };
-  return limb.paths[0].size() > 1 && limb.paths[1].size() > 1 && norm(place(0, 0) - place(1, 0)) < one_place &&
-         norm(place(0, 1) - place(1, 1)) > 2 * central;
 }
 
 // A collar bone: by its name, else the first of three bones before the hand, or of more if it is below .6 of the
