@@ -19,8 +19,9 @@ constexpr double enough = 0.5;
 // A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half as much
 // leaves bodies that shift their weight to one leg; twice as much takes a stride for a stance.
 constexpr double even = 0.08;
-// A file may hold hundreds of clips; those of one body begin alike.
-constexpr size_t most_clips = 24;
+// A file may hold hundreds of clips, and thousands of loose joints. Clips of one body begin alike, and joints of one
+// skin are bound alike. More cost time.
+constexpr size_t most_clips = 8, most_roots = 8;
 
 struct Look {
   bool understood = false;
@@ -65,8 +66,7 @@ Look look_at(const Model& model, const FlatMesh& mesh, const Pose& pose, const A
   try {
     hf_inner::Memory memory;
     const Character c = know_character(input, memory);
-    out.understood =
-        c.role_confidence >= enough && c.up_confidence >= enough && c.forward_confidence >= enough;
+    out.understood = c.role_confidence >= enough && c.up_confidence >= enough && c.forward_confidence >= enough;
     out.uneven = unevenness(c);
   } catch (const hf_inner::Error&) {  // more joints than any character has
   }
@@ -98,11 +98,13 @@ glm::dmat4 world_of(const Model& model, size_t index, const std::vector<glm::dma
   const Skin& skin = model.skins[index];
   std::vector<glm::dmat4> frames{glm::dmat4(1)}, roots;
   for (size_t n = 0; n < model.nodes.size(); ++n)
-    if (model.nodes[n].skin == static_cast<int>(index)) frames.push_back(globals[n]);
-  for (size_t k = 0; k < skin.joints.size(); ++k) {
+    if (model.nodes[n].skin == static_cast<int>(index) && frames.size() < most_roots) frames.push_back(globals[n]);
+  std::vector<uint8_t> bound(model.nodes.size(), 0);
+  for (const int joint : skin.joints) bound[static_cast<size_t>(joint)] = 1;
+  for (size_t k = 0; k < skin.joints.size() && roots.size() < most_roots; ++k) {
     const auto joint = static_cast<size_t>(skin.joints[k]);
     const int parent = model.nodes[joint].parent;
-    if (parent >= 0 && std::find(skin.joints.begin(), skin.joints.end(), parent) != skin.joints.end()) continue;
+    if (parent >= 0 && bound[static_cast<size_t>(parent)]) continue;
     roots.push_back(globals[joint] * glm::dmat4(skin.inverse_bind[k]));
     if (parent >= 0) frames.push_back(globals[static_cast<size_t>(parent)]);
   }

@@ -18,8 +18,8 @@ struct Stance {
 };
 
 // A pose of the file in which the body stands better: its joints mirror each other, its parts are understood. It is the
-// pose in which the skin was bound, else that at the start or the end of a clip. None: the pose of the nodes does. axes: given by
-// the caller, or null.
+// pose in which the skin was bound, else that at the start or the end of a clip. None: the pose of the nodes does.
+// axes: given by the caller, or null.
 std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, const Axes* axes);
 
 // The mesh with its positions in a pose.

@@ -147,8 +147,8 @@ void measure_limbs(const Body& body, Character& out) {
   if (arm_count > 0) out.arm_length = arms / arm_count;
 }
 
-// Legs that count are among the longest limbs, without a pair of wings. Where a spider lies flat they stretch aside, and
-// what stands is small.
+// Legs that count are among the longest limbs, without a pair of wings. Where a spider lies flat they stretch aside,
+// and what stands is small.
 bool has_legs(const Character& out) {
   double legs = 0, longest = 0;
   for (const Chain& chain : out.chains) {

@@ -1,5 +1,5 @@
-// A body of blocks as hobby rigs have it: joints without names, collars and hips that start in the middle, legs that hang
-// on no joint of the trunk, a spine that owns nothing.
+// A body of blocks as hobby rigs have it: joints without names, collars and hips that start in the middle, legs that
+// hang on no joint of the trunk, a spine that owns nothing.
 #pragma once
 #include "rig_family.h"
 
