@@ -47,6 +47,49 @@ TEST(BlockRig, ALegHangsAsItsMateWhereABoneAboveOwnsNothing) {
   EXPECT_EQ(placed.faults(known_in(placed)), "");
 }
 
+// Eight legs of three bones that lie level, or stand, and two fangs below. Names say the sides alone. lifted: the pair
+// that is in the air.
+Rig make_spider(bool stands, int lifted) {
+  Rig rig;
+  const double high = stands ? 0.4 : 0.05;
+  const int body = rig.add("Bone.000", -1, {0, high, 0}, Role::spine);
+  rig.add_block(body, {-0.15, high - 0.04, -0.3}, {0.15, high + 0.2, 0.3});
+  for (const double s : {1.0, -1.0}) {
+    const Side side = s > 0 ? Side::left : Side::right;
+    const std::string end = s > 0 ? ".L" : ".R";
+    const int fang = rig.add("Bone.501" + end, body, {s * 0.05, high, 0.3}, Role::other, side);
+    rig.joints.back().judged = false;
+    rig.add_box(fang, {s * 0.05, high, 0.3}, {s * 0.05, high - 0.1, 0.32}, 0.02);
+    for (int leg = 0; leg < 4; ++leg) {
+      const double z = 0.24 - 0.16 * leg, up = leg == lifted ? 0.3 : 0;
+      const Vec3 p[] = {{s * 0.15, high, z},
+                        {s * 0.5, stands ? 0.7 : high, 2 * z},
+                        {s * 0.9, stands ? 0.35 + up : high, 3 * z},
+                        {s * 1.1, stands ? up : high, 3.5 * z}};
+      int parent = body;
+      for (int k = 0; k < 3; ++k) {
+        const std::string name = "Bone." + std::to_string(100 * leg + 101 + k) + end;
+        parent = rig.add(name, parent, p[k], Role::leg, side);
+        rig.joints.back().judged = stands && k < 2;  // the last may be a foot
+        rig.add_box(parent, p[k], p[k + 1], 0.02);
+      }
+    }
+  }
+  return rig;
+}
+
+TEST(Spider, IsUnderstoodWhereItStandsAndNotWhereItLiesFlat) {
+  for (const int lifted : {-1, 1, 2}) {
+    const Rig standing = make_spider(true, lifted);
+    const PlacedRig placed(standing, {});
+    const hf_inner::Character found = known_in(placed);
+    EXPECT_EQ(placed.faults(found), "") << lifted;
+    EXPECT_GE(found.role_confidence, 0.5) << lifted;
+  }
+  const Rig flat = make_spider(false, -1);
+  EXPECT_LT(known_in(PlacedRig(flat, {})).role_confidence, 0.5);
+}
+
 // Turns a node about an axis of the world.
 void turn_node(Model& model, const std::string& name, const glm::dvec3& axis, double degrees) {
   const std::vector<glm::dmat4> globals = global_matrices(model, rest_pose(model));
