@@ -32,7 +32,8 @@ inline Rig make_block_rig(bool half_owned) {
     rig.joints.back().judged = !half_owned;
     if (!bare) rig.add_block(hip, {s * 0.2 - 0.12, 0.98, -0.12}, {s * 0.2 + 0.12, 1.02, 0.12});
     const int thigh = joint(hip, {s * 0.2, 1, 0}, Role::leg, side);
-    rig.add_block(thigh, {s * 0.2 - 0.12, 0.5, -0.12}, {s * 0.2 + 0.12, 1, 0.12});
+    // It touches the skin of the collar on its side.
+    rig.add_block(thigh, {s > 0 ? 0.08 : -0.4, 0.5, -0.2}, {s > 0 ? 0.4 : -0.08, 1, 0.2});
     const int shin = joint(thigh, {s * 0.2, 0.48, 0}, Role::leg, side);
     rig.add_block(shin, {s * 0.2 - 0.12, 0.12, -0.12}, {s * 0.2 + 0.12, 0.5, 0.12});
     rig.add_block(shin, {s * 0.2 - 0.12, 0, -0.12}, {s * 0.2 + 0.12, 0.12, 0.35});
