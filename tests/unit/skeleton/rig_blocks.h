@@ -15,7 +15,7 @@ inline Rig make_block_rig(bool half_owned) {
   for (const double s : {1.0, -1.0}) {
     const Side side = s > 0 ? Side::left : Side::right;
     const int collar = joint(spine, {0, 1.8, 0}, Role::shoulder, side);
-    rig.add_block(collar, {s > 0 ? 0 : -0.4, 1, -0.2}, {s > 0 ? 0.4 : 0, 1.8, 0.2});
+    rig.add_block(collar, {s > 0 ? 0 : -0.4, 1.02, -0.2}, {s > 0 ? 0.4 : 0, 1.8, 0.2});
     const int arm = joint(collar, {s * 0.5, 1.75, 0}, Role::arm, side);
     rig.add_block(arm, {s * 0.5 - 0.09, 1.4, -0.1}, {s * 0.5 + 0.09, 1.8, 0.1});
     const int fore = joint(arm, {s * 0.5, 1.4, 0}, Role::arm, side);
@@ -33,7 +33,7 @@ inline Rig make_block_rig(bool half_owned) {
     if (!bare) rig.add_block(hip, {s * 0.2 - 0.12, 0.98, -0.12}, {s * 0.2 + 0.12, 1.02, 0.12});
     const int thigh = joint(hip, {s * 0.2, 1, 0}, Role::leg, side);
     // It touches the skin of the collar on its side.
-    rig.add_block(thigh, {s > 0 ? 0.08 : -0.4, 0.5, -0.2}, {s > 0 ? 0.4 : -0.08, 1, 0.2});
+    rig.add_block(thigh, {s > 0 ? 0.08 : -0.4, 0.5, -0.2}, {s > 0 ? 0.4 : -0.08, 1.02, 0.2});
     const int shin = joint(thigh, {s * 0.2, 0.48, 0}, Role::leg, side);
     rig.add_block(shin, {s * 0.2 - 0.12, 0.12, -0.12}, {s * 0.2 + 0.12, 0.5, 0.12});
     rig.add_block(shin, {s * 0.2 - 0.12, 0, -0.12}, {s * 0.2 + 0.12, 0.12, 0.35});
