@@ -83,10 +83,11 @@ void number_chains(const Body& body, Character& out) {
 
 // The middle of the lowest vertices of a joint: a leg without a foot ends there, not at the toes of a boot.
 Vec3 sole_of(const Body& body, Index joint) {
-  const double low = body.lowest_below(joint, body.up) + 0.5 * standing * body.height;
+  const double low = body.lowest_below(joint, body.up);
   Box box;
   for (const std::uint32_t v : body.owned_by(joint)) {
-    if (dot(body.points[v], body.up) <= low) box.add(body.points[v]);
+    const double over = dot(body.points[v], body.up) - low;
+    if (over <= 0.5 * standing * body.height) box.add(body.points[v] - over * body.up);
   }
   return box.empty() ? body.pivots[at(joint)] : box.middle();
 }
