@@ -264,7 +264,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
       json = put_clips(rested(own_source, source_rest), rested(own_target, target_rest), command);
     } catch (const std::runtime_error&) {  // another skeleton
       const JointModels models(own_source, own_target, command, source_rest, target_rest);
-      if (!models.pair.refusal().empty() || !choose_way(command, models.pair).joints) throw;
+      if (!models.pair.refusal().empty() || !choose_way(command, models).joints) throw;
       return transfer_joints(models, "SOURCE has no surface, and " + models.pair.limbs_text() + " have partners",
                              command, bar, json);
     }
@@ -289,7 +289,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   bar.begin("looking at the skeletons");
   const JointModels models(own_source, own_target, command, source_rest, target_rest);
   bar.end();
-  const ChosenWay way = choose_way(command, models.pair);
+  const ChosenWay way = choose_way(command, models);
   if (way.joints) return transfer_joints(models, way.why, command, bar, json);
   std::string source_axes, target_axes;  // how they were found
   if (command.pairs.empty()) {

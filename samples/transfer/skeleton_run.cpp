@@ -25,7 +25,18 @@ namespace {
 constexpr double unseen_confidence = 0.8;
 
 const Axes* given(const std::optional<Axes>& axes) { return axes ? &*axes : nullptr; }
-const Pose* given(const std::optional<Pose>& pose) { return pose ? &*pose : nullptr; }
+
+// The pose that is given, else the one in which the body stands. Moves the mesh there.
+Stance stand(const Model& model, FlatMesh& mesh, const Axes* axes, const std::optional<Pose>& chosen) {
+  if (chosen) {
+    mesh = standing(std::move(mesh), model, *chosen);
+    return {*chosen, false, ""};
+  }
+  std::optional<Stance> found = find_stance(model, mesh, axes);
+  if (!found) return {rest_pose(model), false, ""};
+  mesh = standing(std::move(mesh), model, found->pose);
+  return std::move(*found);
+}
 
 // What asks for places of a surface.
 std::string needs_surface(const TransferCommand& command) {
@@ -75,12 +86,13 @@ std::optional<Animation> copied_channels(const JointModels& models, const Animat
   return out;
 }
 
-BodyReport body_of(const KnownBody& known, const Axes* axes) {
+BodyReport body_of(const KnownBody& known, const Axes* axes, const Stance& stance) {
   BodyReport out;
   out.up = axis_name(known.axes.up);
   out.forward = axis_name(known.axes.forward);
   out.said = "up " + out.up + " (" + (axes ? "as given" : known.up_why) + "), faces " + out.forward + " (" +
              (axes ? "as given" : known.forward_why) + ")";
+  if (!stance.from.empty()) out.said += ", stands " + stance.from;
   out.up_confidence = known.up_confidence;
   out.forward_confidence = known.forward_confidence;
   out.part_confidence = known.part_confidence;
@@ -146,14 +158,15 @@ JointModels::JointModels(const Model& source_model, const Model& target_model, c
       target(target_model),
       source_mesh(flatten(source_model)),
       target_mesh(flatten(target_model)),
-      source_rest(given_source_rest),
-      target_rest(given_target_rest),
-      pair({source, source_mesh, given(command.source_axes), given(source_rest)},
-           {target, target_mesh, given(command.target_axes), given(target_rest)}),
-      source_known(know_body(source, source_mesh, given(command.source_axes))),
-      target_known(know_body(target, target_mesh, given(command.target_axes))) {}
+      source_stance(stand(source, source_mesh, given(command.source_axes), given_source_rest)),
+      target_stance(stand(target, target_mesh, given(command.target_axes), given_target_rest)),
+      pair({source, source_mesh, given(command.source_axes), &source_stance.pose},
+           {target, target_mesh, given(command.target_axes), &target_stance.pose}),
+      source_known(know_body(source, source_mesh, given(command.source_axes), &source_stance.pose)),
+      target_known(know_body(target, target_mesh, given(command.target_axes), &target_stance.pose)) {}
 
-ChosenWay choose_way(const TransferCommand& command, const SkeletonPair& pair) {
+ChosenWay choose_way(const TransferCommand& command, const JointModels& models) {
+  const SkeletonPair& pair = models.pair;
   const std::string surface = needs_surface(command);
   if (command.way == "surface") return {false, "as asked"};
   if (command.way == "skeleton") {
@@ -164,7 +177,8 @@ ChosenWay choose_way(const TransferCommand& command, const SkeletonPair& pair) {
   }
   if (!surface.empty()) return {false, surface};
   if (!pair.refusal().empty()) return {false, pair.refusal()};
-  if (!pair.two_legged())
+  // The surface has the pose of the file: where a body is not understood in it, joints lead.
+  if (pair.four_legged() && !models.source_stance.needed && !models.target_stance.needed)
     return {false, "between bodies on four legs surfaces give the smoother motion; --way skeleton turns joints"};
   return {true, "both skeletons are understood, and " + pair.limbs_text() + " have partners"};
 }
@@ -254,8 +268,8 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
   report.joints = last.joints;
   report.unmatched = last.unmatched;
   report.drop = last.drop / box;
-  report.source = body_of(models.source_known, given(command.source_axes));
-  report.target = body_of(models.target_known, given(command.target_axes));
+  report.source = body_of(models.source_known, given(command.source_axes), models.source_stance);
+  report.target = body_of(models.target_known, given(command.target_axes), models.target_stance);
   report.output = (command.kind == "frames" ? command.frames : command.output).string();
   for (const Model* model : {&models.source, &models.target})
     for (const std::string& warning : model->warnings) report.warnings.push_back(model->name + ": " + warning);

@@ -9,18 +9,19 @@
 #include "common/progress_bar.h"
 #include "gltf/known_body.h"
 #include "gltf/skeleton_pair.h"
+#include "gltf/stance.h"
 #include "transfer/transfer_options.h"
 #include "transfer/transfer_report.h"
 
 namespace samples {
 
-// Two models as their files have them, and what their skeletons say.
+// Two models as their files have them, and what their skeletons say in the poses in which they stand.
 struct JointModels {
   JointModels(const Model& source_model, const Model& target_model, const TransferCommand& command,
               const std::optional<Pose>& given_source_rest, const std::optional<Pose>& given_target_rest);
   const Model &source, &target;
-  FlatMesh source_mesh, target_mesh;
-  std::optional<Pose> source_rest, target_rest;
+  FlatMesh source_mesh, target_mesh;  // in these poses
+  Stance source_stance, target_stance;
   SkeletonPair pair;
   KnownBody source_known, target_known;
 };
@@ -30,7 +31,7 @@ struct ChosenWay {
   bool joints = false;
   std::string why;
 };
-ChosenWay choose_way(const TransferCommand& command, const SkeletonPair& pair);
+ChosenWay choose_way(const TransferCommand& command, const JointModels& models);
 
 // Plays the clips, writes file and sheet, reads the file again.
 RunReport run_by_joints(const JointModels& models, const std::vector<const Animation*>& clips,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "gltf/animate.h"
 #include "skeleton/character.h"
 
 namespace hf_gltf {
@@ -44,22 +43,21 @@ glm::dvec3 middle_of_joints(const Model& model, const Pose& pose) {
 
 }  // namespace
 
-CharacterArrays::CharacterArrays(const Model& model, const FlatMesh& mesh) {
-  add_nodes(model);
+CharacterArrays::CharacterArrays(const Model& model, const FlatMesh& mesh, const Pose& pose) {
+  add_nodes(model, pose);
   add_surface(model, mesh);
   add_declared(model);
   add_travels(model);
 }
 
-void CharacterArrays::add_nodes(const Model& model) {
+void CharacterArrays::add_nodes(const Model& model, const Pose& pose) {
   const size_t n = model.nodes.size();
   bound.assign(n, model.skins.empty());
   inverse_binds.assign(16 * n, 0.0);
-  const Pose rest = rest_pose(model);
   for (size_t k = 0; k < n; ++k) {
     texts.push_back(model.nodes[k].name);
     parents.push_back(model.nodes[k].parent);
-    append(local_matrix(rest[k]), matrices);
+    append(local_matrix(pose[k]), matrices);
   }
   for (const std::string& text : texts) names.push_back(text.c_str());
   for (const Skin& skin : model.skins) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf/flat_mesh.h"
+#include "gltf/animate.h"
 #include "gltf/model.h"
 
 namespace hf_gltf {
@@ -22,8 +22,9 @@ struct CharacterArrays {
   double forward[3] = {0, 0, 1};
   bool declared = false;  // the file says which node is which bone of a humanoid, and where forward is
 
-  // Vertices that are loose in the mesh are left out.
-  CharacterArrays(const Model& model, const FlatMesh& mesh);
+  // Vertices that are loose in the mesh are left out. pose: that of the mesh's positions.
+  CharacterArrays(const Model& model, const FlatMesh& mesh, const Pose& pose);
+  CharacterArrays(const Model& model, const FlatMesh& mesh) : CharacterArrays(model, mesh, rest_pose(model)) {}
   CharacterArrays(const CharacterArrays&) = delete;
   CharacterArrays& operator=(const CharacterArrays&) = delete;
 
@@ -57,7 +58,7 @@ struct CharacterArrays {
   }
 
  private:
-  void add_nodes(const Model& model);
+  void add_nodes(const Model& model, const Pose& pose);
   void add_surface(const Model& model, const FlatMesh& mesh);
   void add_declared(const Model& model);
   void add_travels(const Model& model);

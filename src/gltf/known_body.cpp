@@ -142,10 +142,10 @@ bool KnownBody::knows_axes() const { return knows_parts() && up_confidence >= en
 
 bool KnownBody::knows_parts() const { return !nodes.empty() && part_confidence >= enough; }
 
-KnownBody know_body(const Model& model, const FlatMesh& mesh, const Axes* given) {
+KnownBody know_body(const Model& model, const FlatMesh& mesh, const Axes* given, const Pose* pose) {
   KnownBody out;
   if (model.nodes.empty()) return out;
-  const CharacterArrays arrays(model, mesh);
+  const CharacterArrays arrays(model, mesh, pose ? *pose : rest_pose(model));
   auto input = arrays.input<hf_inner::CharacterInput>();
   if (given) {
     input.up = &given->up.x;

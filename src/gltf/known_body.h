@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/animate.h"
 #include "gltf/regions.h"
 
 namespace hf_gltf {
@@ -31,8 +32,8 @@ struct KnownBody {
   bool knows_parts() const;
 };
 
-// given: axes that the caller knows, or null.
-KnownBody know_body(const Model& model, const FlatMesh& mesh, const Axes* given = nullptr);
+// given: axes that the caller knows, or null. pose: that of the mesh's positions; null: that of the file.
+KnownBody know_body(const Model& model, const FlatMesh& mesh, const Axes* given = nullptr, const Pose* pose = nullptr);
 
 // How far the target's body goes for one length of the source's: the ratio of the lengths of their legs. 0: one of them
 // has no legs that are known, or neither is upright. Each rig of a four-legged body puts its shoulders and hips at

@@ -17,12 +17,11 @@ constexpr double upright_trunk = 0.6;
 }  // namespace
 
 SkeletonBody::SkeletonBody(const JointSide& given, hf_inner::Memory& memory)
-    : side(given), arrays(given.model, given.mesh), input(arrays.input<CharacterInput>()) {
+    : side(given), arrays(given.model, given.mesh, rest_of(given)), input(arrays.input<CharacterInput>()) {
   if (given.axes) {
     input.up = &given.axes->up.x;
     input.forward = &given.axes->forward.x;
   }
-  if (given.rest) append_trs(*given.rest, rest);
   try {
     character.emplace(know_character(input, memory));
   } catch (const hf_inner::Error& error) {

@@ -41,14 +41,14 @@ struct SkeletonBody {
   CharacterInput input;
   std::optional<Character> character;
   std::vector<BodyLimb> limbs;
-  std::vector<double> rest;  // 10 numbers a node, or empty
   size_t leg_pairs = 0;
   bool upright = false;
   std::string doubt;  // why it is not understood
 
   SkeletonBody(const JointSide& given, hf_inner::Memory& memory);
-  hf_inner::RetargetSide retarget_side() const { return {input, *character, rest.empty() ? nullptr : rest.data()}; }
-  Pose rest_of() const { return side.rest ? *side.rest : rest_pose(side.model); }
+  hf_inner::RetargetSide retarget_side() const { return {input, *character, nullptr}; }
+  Pose rest_of() const { return rest_of(side); }
+  static Pose rest_of(const JointSide& side) { return side.rest ? *side.rest : rest_pose(side.model); }
 
   void look();
   BodyLimb limb_of(const Chain& chain, const std::vector<glm::dmat4>& globals) const;

@@ -77,6 +77,7 @@ SkeletonPair::~SkeletonPair() = default;
 bool SkeletonPair::understood() const { return in_->understood(); }
 const std::string& SkeletonPair::refusal() const { return in_->refusal; }
 bool SkeletonPair::two_legged() const { return in_->source.leg_pairs <= 1 && in_->target.leg_pairs <= 1; }
+bool SkeletonPair::four_legged() const { return in_->source.leg_pairs == 2 && in_->target.leg_pairs == 2; }
 
 std::string SkeletonPair::limbs_text() const {
   size_t legs = 0, arms = 0;

@@ -19,7 +19,7 @@ namespace hf_gltf {
 
 struct JointSide {
   const Model& model;
-  const FlatMesh& mesh;        // may be empty
+  const FlatMesh& mesh;        // in the pose of rest; may be empty
   const Axes* axes = nullptr;  // given by the caller, or null
   const Pose* rest = nullptr;  // a pose in which both bodies stand alike; null: the pose of the file
 };
@@ -69,6 +69,8 @@ class SkeletonPair {
   bool understood() const;
   // Whether both bodies have one pair of legs or none.
   bool two_legged() const;
+  // Whether both have two pairs.
+  bool four_legged() const;
   // "2 legs and 2 arms"
   std::string limbs_text() const;
   // The node over all joints of the target that could carry the travel.

@@ -29,7 +29,7 @@ Index first_joint(const Character& character, const Chain& chain) {
 }
 
 // A limb ends at the hand or foot. Other chains end in the middle of what hangs on their last joint, and limbs on
-// which nothing hangs where their vertices end. The end of a leg of one bone says little about a stride.
+// which nothing hangs where their vertices end.
 Tip find_tip(const Rig& rig, const Character& character, const Chain& chain, Index last) {
   const Role next = chain.role == Role::arm ? Role::hand : chain.role == Role::leg ? Role::foot : Role::other;
   if (next != Role::other) {
@@ -46,7 +46,7 @@ Tip find_tip(const Rig& rig, const Character& character, const Chain& chain, Ind
   const bool far = found > 0 && norm(offset) > same_rest * rig.height;
   if (far) return {last, offset};
   const Vec3 end = rig.ends[at(last)];
-  const bool limb = chain.role == Role::arm || (chain.role == Role::leg && chain.count > 1);
+  const bool limb = chain.role == Role::arm || chain.role == Role::leg;
   return limb && norm(end) > same_rest * rig.height ? Tip{last, end} : Tip{};
 }
 
@@ -158,9 +158,9 @@ void find_trunk(Rig& rig, const Character& character, Memory& memory) {
     const Index by = rig.linked[at(j)] ? rig.carriers[at(j)] : rig.parents[at(j)];
     rig.moves[at(j)] = j == rig.mover || (by >= 0 && rig.moves[at(by)]);
   }
-  Vec3 trunk;
-  if (rig.head >= 0) trunk = rig.rest.place[at(rig.head)] - rig.hip_place(rig.rest);
-  rig.upright = rig.legs.size() == 2 && dot(unit_vector(trunk), rig.up) > 0.6;
+  double rise = character.trunk;
+  if (rig.head >= 0) rise = dot(unit_vector(rig.rest.place[at(rig.head)] - rig.hip_place(rig.rest)), rig.up);
+  rig.upright = rig.legs.size() == 2 && rise > 0.6;
   (void)memory;
 }
 

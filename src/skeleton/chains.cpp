@@ -81,6 +81,17 @@ void number_chains(const Body& body, Character& out) {
         counts[static_cast<std::size_t>(out.chains[c].role)][static_cast<std::size_t>(out.chains[c].side)]++;
 }
 
+// The middle of the lowest vertices of a joint: a leg without a foot ends there, not at the toes of a boot.
+Vec3 sole_of(const Body& body, Index joint) {
+  const double low = body.lowest_below(joint, body.up);
+  Box box;
+  for (const std::uint32_t v : body.owned_by(joint)) {
+    const double over = dot(body.points[v], body.up) - low;
+    if (over <= 0.5 * standing * body.height) box.add(body.points[v] - over * body.up);
+  }
+  return box.empty() ? body.pivots[at(joint)] : box.middle();
+}
+
 // Along the joints, and on to the chain that goes on from the tip.
 void measure_chains(const Body& body, Character& out) {
   for (std::size_t c = 0; c < out.chains.size(); ++c) {
@@ -95,7 +106,8 @@ void measure_chains(const Body& body, Character& out) {
       if (next && body.sides[at(child)] == chain.side && on == 0)
         on = norm(body.pivots[at(child)] - pivot(chain.count - 1));
     }
-    if (on == 0 && body.children_of(tip).empty()) on = body.reaches[at(tip)];
+    if (on == 0 && body.children_of(tip).empty())
+      on = chain.role == Role::leg ? norm(sole_of(body, tip) - body.pivots[at(tip)]) : body.reaches[at(tip)];
     chain.length = body.scale * (chain.length + on);
   }
 }
@@ -136,11 +148,22 @@ void measure_limbs(const Body& body, Character& out) {
   if (arm_count > 0) out.arm_length = arms / arm_count;
 }
 
-// Names and shape that agree make it sure; a body without head or legs is not understood.
+// Legs that count are among the longest limbs, without a pair of wings. Where a spider lies flat they stretch aside,
+// and what stands is small.
+bool has_legs(const Character& out) {
+  double legs = 0, longest = 0;
+  for (const Chain& chain : out.chains) {
+    if (chain.role == Role::leg && chain.side == Side::left) legs = std::max(legs, chain.length);
+    const bool limb = chain.role == Role::arm || (chain.role == Role::wing && chain.number > 0);
+    if (limb) longest = std::max(longest, chain.length);
+  }
+  return legs > 0 && 4 * legs >= longest;
+}
+
+// Names and shape that agree make it sure, names of sides alone less so; a body without head or legs is not understood.
 double role_confidence(const Body& body, const Character& out) {
-  double sure = body.named ? 0.95 : 0.6;
-  const bool has_legs = find_chain(out, Role::leg, Side::left, false) != nullptr;
-  if (!has_legs) sure -= 0.2;
+  double sure = body.named ? 0.95 : body.sides_named ? 0.75 : 0.6;
+  if (!has_legs(out)) sure -= 0.2;
   if (body.head < 0) sure -= 0.2;
   if (!body.sides_named && (body.mirror_margin < unsure || body.mirror_score < 0)) sure = std::min(sure, 0.4);
   return std::min(sure, body.tree.size() < 3 ? 0.1 : 1.0);

@@ -49,14 +49,16 @@ struct Facts {
   }
 };
 
-// The middle of the sole against the ankle, and the joint after the ankle.
+// The middle of the sole against the ankle, and the joint after the ankle. Without an ankle the knee counts, if it is
+// as good as under the hip.
 void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
   for (int side = 0; side < 2; ++side) {
     const auto& path = limb.paths[side];
-    const std::size_t ankle = ankle_of(body, path);
-    if (ankle == 0) continue;
-    const Vec3 joint = body.pivots[at(path[ankle])];
-    if (ankle + 1 < path.size()) {
+    const std::size_t thigh = leads_out(body, limb) ? 1 : 0, ankle = ankle_of(body, path, thigh);
+    if (path.size() < thigh + 2) continue;
+    const Vec3 joint = body.pivots[at(ankle > 0 ? path[ankle] : path.back())],
+               upper = body.pivots[at(ankle > 0 ? path[ankle] : path[thigh])];
+    if (ankle > 0 && ankle + 1 < path.size()) {
       const Vec3 d = body.pivots[at(path[ankle + 1])] - joint;
       if (norm(d) > 0) facts.toe_joints.add(dot(d, body.forward) / norm(d));
     }
@@ -67,15 +69,19 @@ void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
       front = std::max(front, dot(p, body.forward));
       back = std::min(back, dot(p, body.forward));
     });
-    if (front > back) facts.toes.add((front + back - 2 * dot(joint, body.forward)) / (front - back));
+    if (!(front > back)) continue;
+    const auto ahead = [&](Vec3 p) { return (front + back - 2 * dot(p, body.forward)) / (front - back); };
+    if (std::fabs(ahead(joint) - ahead(upper)) < 0.5) facts.toes.add(ahead(joint));
   }
 }
 
 // The knee against the line from hip to ankle: a tenth of the leg's length is a full vote.
 void look_at_knees(const Body& body, const Limb& limb, Facts& facts) {
   for (const auto& path : limb.paths) {
-    if (path.size() < 3) continue;
-    const Vec3 a = body.pivots[at(path[0])], b = body.pivots[at(path[2])], knee = body.pivots[at(path[1])], d = b - a;
+    const std::size_t thigh = leads_out(body, limb) ? 1 : 0;
+    if (path.size() < thigh + 3) continue;
+    const Vec3 a = body.pivots[at(path[thigh])], b = body.pivots[at(path[thigh + 2])],
+               knee = body.pivots[at(path[thigh + 1])], d = b - a;
     const double length = norm(d);
     if (length > 0)
       facts.knees.add(10 * dot(knee - a - (dot(knee - a, d) / (length * length)) * d, body.forward) / length);
@@ -236,12 +242,20 @@ Vector<const Limb*> standing_limbs(const Body& body) {
   return legs;
 }
 
-std::size_t ankle_of(const Body& body, const Vector<Index>& path) {
-  const double hip = body.height_of(body.pivots[at(path[0])]);
+bool leads_out(const Body& body, const Limb& limb) {
+  const auto place = [&](int side, std::size_t k) { return body.pivots[at(limb.paths[side][k])]; };
+  return limb.paths[0].size() > 1 && limb.paths[1].size() > 1 && norm(place(0, 0) - place(1, 0)) < one_place &&
+         norm(place(0, 1) - place(1, 1)) > 2 * central;
+}
+
+std::size_t ankle_of(const Body& body, const Vector<Index>& path, std::size_t thigh) {
+  // The second of two joints is a knee unless it is far down: blocks have no foot.
+  const double share = path.size() - thigh > 2 ? ankle_height : 0.5 * ankle_height;
+  const double highest = share * body.height_of(body.pivots[at(path[thigh])]);
   std::size_t first = 0, last = 0;
-  for (std::size_t k = 1; k < path.size(); ++k) {
+  for (std::size_t k = thigh + 1; k < path.size(); ++k) {
     const double height = body.height_of(body.pivots[at(path[k])]);
-    if (height >= ankle_height * hip) continue;
+    if (height >= highest) continue;
     if (first == 0) first = k;
     if (height > 0.5 * standing * body.height) last = k;
   }

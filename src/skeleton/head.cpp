@@ -17,6 +17,7 @@ bool is_end(const Body& body, Index joint) {
 }
 
 bool may_be_head(const Body& body, Index joint) {
+  if (std::fabs(body.lateral(joint)) > 2 * central) return false;
   const NameClass c = body.names[at(joint)].named;
   return c == NameClass::none || c == NameClass::head || c == NameClass::trunk || c == NameClass::neck ||
          c == NameClass::jaw;

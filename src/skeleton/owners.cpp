@@ -72,15 +72,33 @@ Vector<std::uint8_t> find_doubles(const Body& body) {
   return doubles;
 }
 
+// Whether a joint is a bone that ends where several parts of the body begin, such as a spine between two arms and a
+// head. Parts below a control begin each in its own place.
+Vector<std::uint8_t> find_branchings(const Body& body, const Vector<std::uint8_t>& below) {
+  const std::size_t n = at(body.count);
+  Vector<Index> first(n, -1, &body.memory);
+  Vector<std::uint8_t> parts(n, 0, &body.memory), apart(n, 0, &body.memory);
+  for (Index j = 0; j < body.count; ++j) {
+    const Index p = body.parents[at(j)];
+    if (p < 0 || !below[at(j)]) continue;
+    if (first[at(p)] < 0) first[at(p)] = j;
+    parts[at(p)] = first[at(p)] != j;
+    apart[at(p)] |= norm(body.pivots[at(j)] - body.pivots[at(first[at(p)])]) >= one_place;
+    apart[at(p)] |= norm(body.pivots[at(j)] - body.pivots[at(p)]) < one_place;
+  }
+  for (std::size_t j = 0; j < n; ++j) parts[j] = parts[j] && !apart[j];
+  return parts;
+}
+
 // Joints that own nothing and stand above all owners: a spine that other joints deform for is inside, a root on the
 // ground is not.
 void keep_inner_joints(Body& body, const Vector<std::uint8_t>& below) {
-  const Vector<std::uint8_t> doubles = find_doubles(body);
+  const Vector<std::uint8_t> doubles = find_doubles(body), branchings = find_branchings(body, below);
   std::size_t tests = 0;
   for (std::size_t k = body.order.size(); k-- > 0 && tests < inside_tests;) {
     const Index j = body.order[k];
     if (body.kept[at(j)] || !below[at(j)] || !is_bound(body, j)) continue;
-    if (doubles[at(j)]) {
+    if (doubles[at(j)] || branchings[at(j)]) {
       body.kept[at(j)] = 1;
       continue;
     }

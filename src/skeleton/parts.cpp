@@ -33,15 +33,16 @@ std::size_t find_foot(const Body& body, const Vector<Index>& path, std::size_t f
       if (is_foot(path[k])) return k;
     }
   }
-  const std::size_t ankle = ankle_of(body, path);
+  const std::size_t ankle = ankle_of(body, path, first);
   return ankle > first ? ankle : path.size();
 }
 
 // A collar bone: by its name, else the first of three bones before the hand, or of more if it is below .6 of the
 // second.
-bool has_collar(const Body& body, const Vector<Index>& path, std::size_t hand) {
+bool has_collar(const Body& body, const Limb& limb, const Vector<Index>& path, std::size_t hand) {
   const JointName& first = body.names[at(path[0])];
   if (body.named && path.size() > 2 && (first.named == NameClass::trunk || first.collar)) return true;
+  if (hand > 1 && leads_out(body, limb)) return true;
   const bool says_nothing = first.named == NameClass::none || first.named == NameClass::loose;  // a sleeve carries it
   if (!says_nothing || hand < 3) return false;
   return hand == 3 || bone(body, path, 0) < 0.6 * bone(body, path, 1);
@@ -71,8 +72,8 @@ void assign_leg(Body& body, const Limb& limb, int side) {
   const auto& path = limb.paths[side];
   const JointName& first_name = body.names[at(path[0])];
   // A joint of the pelvis or a shoulder blade above the leg.
-  const std::size_t first =
-      path.size() > 2 && (first_name.named == NameClass::trunk || (first_name.collar && body.named)) ? 1 : 0;
+  const bool named = path.size() > 2 && (first_name.named == NameClass::trunk || (first_name.collar && body.named));
+  const std::size_t first = named || leads_out(body, limb) ? 1 : 0;
   const std::size_t foot = find_foot(body, path, first);
   set_digits(body, limb, side, Role::toe);
   set_from(body, path, 0, first, Role::shoulder);
@@ -83,7 +84,7 @@ void assign_leg(Body& body, const Limb& limb, int side) {
 
 void assign_arm(Body& body, const Limb& limb, int side) {
   const auto& path = limb.paths[side];
-  const std::size_t hand = find_hand(body, path), first = has_collar(body, path, hand) ? 1 : 0;
+  const std::size_t hand = find_hand(body, path), first = has_collar(body, limb, path, hand) ? 1 : 0;
   set_digits(body, limb, side, Role::finger);
   set_from(body, path, 0, first, Role::shoulder);
   set_from(body, path, first, hand, Role::arm);

@@ -55,7 +55,8 @@ Vector<Touch> find_touches(const Body& body) {
   return touches;
 }
 
-// A way to hang a piece: better ones touch, hang on the middle, are near.
+// A way to hang a piece: better ones touch, hang on the middle, are near. A chain that begins in the place of a joint
+// hangs on it: it touches twice.
 struct Offer {
   int touches = -1, on_middle = 0;
   double distance = 1e300;
@@ -96,6 +97,7 @@ class Adoption {
   std::size_t run() {
     const std::size_t pieces = todo_.size();
     join(body_.root);
+    hang_mates(body_.root);
     while (!todo_.empty()) {
       poll();
       Index best = todo_[0];
@@ -105,7 +107,7 @@ class Adoption {
       const Offer offer = offers_[at(best)];
       hang(best, offer.carrier < 0 ? body_.root : offer.carrier);
       hang_brothers(best, offer.carrier);
-      hang_mate(best, offer.carrier);
+      hang_mates(best);
     }
     return pieces;
   }
@@ -142,10 +144,17 @@ class Adoption {
       const Index *const touching = touching_.data(), *const next = next_.data();
       for (const Index root : todo_) {
         for (Index i = root; i >= 0; i = next[at(i)]) {
-          if (touching[at(i)] == j || box.square_distance(pivots[at(i)]) <= bounds[at(root)]) offer(root, i, j);
+          if (touching[at(i)] == j || begins_at(root, i, j) || box.square_distance(pivots[at(i)]) <= bounds[at(root)])
+            offer(root, i, j);
         }
       }
     }
+  }
+
+  // Single pieces keep their pivots anywhere, often all in one place.
+  bool begins_at(Index root, Index i, Index j) const {
+    const Vec3 apart = body_.pivots[at(i)] - body_.pivots[at(j)];
+    return i == root && dot(apart, apart) < one_place * one_place && next_[at(root)] >= 0;
   }
 
   void mark_touching(Index joint) {
@@ -155,7 +164,7 @@ class Adoption {
 
   void offer(Index root, Index i, Index j) {
     Offer made;
-    made.touches = touching_[at(i)] == j;
+    made.touches = begins_at(root, i, j) ? 2 : touching_[at(i)] == j;
     Offer& best = offers_[at(root)];
     if (made.touches < best.touches) return;
     made.on_middle = made.touches && body_.is_central(j);
@@ -184,11 +193,14 @@ class Adoption {
     for (const Index other : brothers) hang(other, carrier);
   }
 
-  // A pair goes to a pair.
-  void hang_mate(Index root, Index carrier) {
-    if (carrier < 0) return;
-    const Index mate = body_.mates[at(root)], other = body_.is_central(carrier) ? carrier : body_.mates[at(carrier)];
-    if (is_todo(mate) && other >= 0 && done_[at(other)]) hang(mate, other);
+  // A pair goes to a pair: also where the bone above is part of the body on one side alone.
+  void hang_mates(Index piece) {
+    for (Index j = piece; j >= 0; j = next_[at(j)]) {
+      const Index mate = body_.mates[at(j)], carrier = body_.carriers[at(j)];
+      if (!is_todo(mate) || carrier < 0) continue;
+      const Index other = body_.is_central(carrier) ? carrier : body_.mates[at(carrier)];
+      if (other >= 0 && done_[at(other)]) hang(mate, other);
+    }
   }
 
   Body& body_;

@@ -96,12 +96,27 @@ bool is_raised_leg(const Body& body, const Limb& limb) {
   return limb.length < 0.8 * longest;
 }
 
+// A limb between legs that is made like them is a leg that an insect lifts.
+bool is_lifted_leg(const Body& body, const Limb& limb) {
+  if (limb.role != Role::arm || limb.named != NameClass::none) return false;
+  bool before = false, behind = false;
+  for (const Limb& other : body.limbs) {
+    if (other.role != Role::leg || other.paths[0].size() != limb.paths[0].size()) continue;
+    before |= other.place > limb.place;
+    behind |= other.place < limb.place;
+  }
+  return before && behind;
+}
+
 void assign_limb_roles(Body& body) {
   const std::size_t standing_count = static_cast<std::size_t>(
       std::count_if(body.limbs.begin(), body.limbs.end(), [](const Limb& l) { return l.stands; }));
   for (Limb& limb : body.limbs) limb.role = role_of_limb(body, limb, standing_count);
   for (Limb& limb : body.limbs) {
     if (is_raised_leg(body, limb)) limb.role = Role::arm;
+  }
+  for (Limb& limb : body.limbs) {
+    if (is_lifted_leg(body, limb)) limb.role = Role::leg;
   }
   double longest_arm = 0;
   for (const Limb& limb : body.limbs) {

@@ -149,7 +149,8 @@ inline constexpr Word words[] = {{"leg", NameClass::leg},
                                  {"sleeve", NameClass::loose},
                                  {"hood", NameClass::loose},
                                  {"horn", NameClass::loose},
-                                 {"prop", NameClass::loose, Part::none, true}};
+                                 {"prop", NameClass::loose, Part::none, true},
+                                 {"neutral", NameClass::loose}};  // Blender's joint of vertices that no bone moves
 
 inline constexpr const char* left_words[] = {"l",        "left", "lf",        "lft",       "esquerda",
                                              "esquerdo", "esq",  "izquierda", "izquierdo", "links"};

@@ -21,7 +21,7 @@ using hf_inner::Turn;
 constexpr double degree = 3.14159265358979323846 / 180;
 
 // A box with a head, two arms and two legs. The arms hang by so many degrees; reach: how far the legs
-// reach forward and back. spread: of legs of two bones without feet; 0: legs are one bone.
+// reach forward and back. spread: of legs of two bones without feet; 0 and below: legs are one bone.
 struct Blocks {
   Rig rig;
   std::unique_ptr<PlacedRig> placed;
@@ -53,6 +53,7 @@ struct Blocks {
         rig.turn(leg, {0, 0, 1}, side * spread);
       } else {
         rig.add_block(leg, {side * 0.15 - 0.08, 0, -reach}, {side * 0.15 + 0.08, 0.4, reach});
+        rig.turn(leg, {0, 0, 1}, -side * spread);
       }
       rig.turn(arm, {0, 0, 1}, -side * hang);
     }
@@ -122,6 +123,20 @@ TEST(Blocks, LegsWithoutFeetMeetByTheirVertices) {
   for (const char* bone : {"leg.l", "leg.r", "shin.l", "shin.r"}) {
     const Vec3 a = source.bone(bone, pose), b = target.bone(bone, out);
     EXPECT_LT(std::atan2(norm(cross(a, b)), dot(a, b)) / degree, 0.5) << bone;
+  }
+}
+
+TEST(Blocks, LegsOfOneBoneMeetByTheirVertices) {
+  const Blocks source(0), target(0, 0.1, -15);
+  Memory memory;
+  hf_inner::RetargetOptions options;
+  options.copy_same = false;  // the joints are equal
+  Retarget retarget(source.side(), target.side(), options, memory);
+  std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
+  retarget.frame(pose.data(), 0, out.data());
+  for (const char* leg : {"leg.l", "leg.r"}) {
+    const Vec3 a = source.bone(leg, pose), b = target.bone(leg, out);
+    EXPECT_LT(std::atan2(norm(cross(a, b)), dot(a, b)) / degree, 0.5) << leg;
   }
 }
 

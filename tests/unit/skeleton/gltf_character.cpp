@@ -1,8 +1,13 @@
 #include "gltf_character.h"
 
+#include "gltf/stance.h"
+
 namespace hf_test {
 
 GltfCharacter::GltfCharacter(const hf_gltf::Model& model) : CharacterArrays(model, hf_gltf::flatten(model)) {}
+
+GltfCharacter::GltfCharacter(const hf_gltf::Model& model, const hf_gltf::Pose& pose)
+    : CharacterArrays(model, hf_gltf::standing(hf_gltf::flatten(model), model, pose), pose) {}
 
 hf_inner::CharacterInput GltfCharacter::input(bool with_names, bool with_up, bool with_declared) const {
   auto in = CharacterArrays::input<hf_inner::CharacterInput>();

@@ -7,6 +7,7 @@ namespace hf_test {
 
 struct GltfCharacter : hf_gltf::CharacterArrays {
   explicit GltfCharacter(const hf_gltf::Model& model);
+  GltfCharacter(const hf_gltf::Model& model, const hf_gltf::Pose& pose);
   // Pointers into this object.
   hf_inner::CharacterInput input(bool with_names = true, bool with_up = true, bool with_declared = true) const;
 };

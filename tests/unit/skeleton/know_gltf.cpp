@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "gltf/gltf_read.h"
+#include "gltf/stance.h"
 #include "gltf_character.h"
 
 namespace {
@@ -41,7 +42,9 @@ void print_chains(const Character& c, const hf_test::GltfCharacter& g) {
 
 void print_file(const char* file, bool names, bool up, bool declared, bool why) {
   const hf_gltf::Model model = hf_gltf::read_gltf(file);
-  const hf_test::GltfCharacter g(model);
+  const auto stance = hf_gltf::find_stance(model, hf_gltf::flatten(model), nullptr);
+  if (stance) std::printf("stands %s: ", stance->from.c_str());
+  const hf_test::GltfCharacter g(model, stance ? stance->pose : hf_gltf::rest_pose(model));
   Memory memory;
   const auto start = std::chrono::steady_clock::now();
   const Character c = know_character(g.input(names, up, declared), memory);

@@ -1,0 +1,202 @@
+// See stance.h.
+#include "gltf/stance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "gltf/character_arrays.h"
+#include "gltf/pose_numbers.h"
+#include "skeleton/character.h"
+
+namespace hf_gltf {
+namespace {
+
+using hf_inner::Character;
+
+// What the skeleton says is taken from here on. Below, it is a guess.
+constexpr double enough = 0.5;
+// A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half as much
+// leaves bodies that shift their weight to one leg; twice as much takes a stride for a stance.
+constexpr double even = 0.08;
+// A file may hold hundreds of clips, and thousands of loose joints. Clips of one body begin alike, and joints of one
+// skin are bound alike. More cost time.
+constexpr size_t most_clips = 8, most_roots = 8;
+
+struct Look {
+  bool understood = false;
+  double uneven = 1e300;
+};
+
+glm::dvec3 vector_of(const hf_inner::Vec3& v) { return {v.x, v.y, v.z}; }
+
+// How far arms and legs are from mirroring each other: the mean over their joints, a share of the height.
+double unevenness(const Character& c) {
+  const glm::dvec3 left = vector_of(c.left);
+  glm::dvec3 middle(0);
+  double count = 0, sum = 0;
+  const auto each_pair = [&](auto&& visit) {
+    for (size_t j = 0; j < c.mates.size(); ++j) {
+      const bool limb = c.roles[j] == hf_inner::Role::arm || c.roles[j] == hf_inner::Role::leg ||
+                        c.roles[j] == hf_inner::Role::hand || c.roles[j] == hf_inner::Role::foot;
+      if (limb && c.mates[j] > static_cast<std::int32_t>(j))
+        visit(vector_of(c.frames[j].origin), vector_of(c.frames[static_cast<size_t>(c.mates[j])].origin));
+    }
+  };
+  each_pair([&](const glm::dvec3& a, const glm::dvec3& b) {
+    middle += 0.5 * (a + b);
+    count += 1;
+  });
+  if (!(count > 0) || !(c.height > 0)) return 1e300;
+  const double offset = glm::dot(middle / count, left);
+  each_pair([&](const glm::dvec3& a, const glm::dvec3& b) {
+    sum += glm::distance(a - 2 * (glm::dot(a, left) - offset) * left, b);
+  });
+  return sum / count / c.height;
+}
+
+Look look_at(const Model& model, const FlatMesh& mesh, const Pose& pose, const Axes* axes) {
+  const CharacterArrays arrays(model, mesh, pose);
+  auto input = arrays.input<hf_inner::CharacterInput>();
+  if (axes) {
+    input.up = &axes->up.x;
+    input.forward = &axes->forward.x;
+  }
+  Look out;
+  try {
+    hf_inner::Memory memory;
+    const Character c = know_character(input, memory);
+    out.understood = c.role_confidence >= enough && c.up_confidence >= enough && c.forward_confidence >= enough;
+    out.uneven = unevenness(c);
+  } catch (const hf_inner::Error&) {  // more joints than any character has
+  }
+  return out;
+}
+
+glm::dquat rotation_of(const glm::dmat4& m) {
+  glm::dmat3 axes(m);
+  for (int c = 0; c < 3; ++c) axes[c] = glm::normalize(axes[c]);
+  if (glm::determinant(axes) < 0) axes = -axes;
+  return glm::normalize(glm::quat_cast(axes));
+}
+
+// How far the joints of a skin are from where it was bound, once a transform moves these.
+double apart(const Skin& skin, const std::vector<glm::dmat4>& globals, const glm::dmat4& moved) {
+  double sum = 0;
+  for (size_t k = 0; k < skin.joints.size(); ++k)
+    sum += glm::distance(glm::dvec3(globals[static_cast<size_t>(skin.joints[k])][3]),
+                         glm::dvec3((moved * glm::inverse(glm::dmat4(skin.inverse_bind[k])))[3]));
+  return sum;
+}
+
+double size_of(const glm::dmat4& m) { return std::cbrt(std::abs(glm::determinant(glm::dmat3(m)))); }
+
+// From where a skin was bound to the world. A frame of the file says it: the node of the mesh or what carries the
+// joints. Where no frame fits, joints without a parent in the skin are taken to rest where they were bound.
+glm::dmat4 world_of(const Model& model, size_t index, const std::vector<glm::dmat4>& globals) {
+  constexpr double same_size = 0.01, near = 3;  // a frame is off by axes or units if the joints come much farther away
+  const Skin& skin = model.skins[index];
+  std::vector<glm::dmat4> frames{glm::dmat4(1)}, roots;
+  for (size_t n = 0; n < model.nodes.size(); ++n)
+    if (model.nodes[n].skin == static_cast<int>(index) && frames.size() < most_roots) frames.push_back(globals[n]);
+  std::vector<uint8_t> bound(model.nodes.size(), 0);
+  for (const int joint : skin.joints) bound[static_cast<size_t>(joint)] = 1;
+  for (size_t k = 0; k < skin.joints.size() && roots.size() < most_roots; ++k) {
+    const auto joint = static_cast<size_t>(skin.joints[k]);
+    const int parent = model.nodes[joint].parent;
+    if (parent >= 0 && bound[static_cast<size_t>(parent)]) continue;
+    roots.push_back(globals[joint] * glm::dmat4(skin.inverse_bind[k]));
+    if (parent >= 0) frames.push_back(globals[static_cast<size_t>(parent)]);
+  }
+  const auto nearest = [&](const std::vector<glm::dmat4>& list) {
+    return *std::min_element(list.begin(), list.end(), [&](const glm::dmat4& a, const glm::dmat4& b) {
+      return apart(skin, globals, a) < apart(skin, globals, b);
+    });
+  };
+  if (roots.empty()) return nearest(frames);
+  const glm::dmat4 root = nearest(roots);
+  frames.erase(std::remove_if(frames.begin(), frames.end(),
+                              [&](const glm::dmat4& m) {
+                                return std::abs(size_of(m) - size_of(root)) > same_size * size_of(root);
+                              }),
+               frames.end());
+  if (frames.empty()) return root;
+  const glm::dmat4 frame = nearest(frames);
+  return apart(skin, globals, frame) <= near * apart(skin, globals, root) ? frame : root;
+}
+
+// The joints turn to where their skins were bound; bones keep the lengths that they have. None: they are there, or the
+// file does not say where that is.
+std::optional<Pose> bound_pose(const Model& model, const Pose& rest) {
+  const std::vector<glm::dmat4> globals = global_matrices(model, rest);
+  std::vector<std::optional<glm::dquat>> wanted(model.nodes.size());
+  for (size_t s = 0; s < model.skins.size(); ++s) {
+    const Skin& skin = model.skins[s];
+    const glm::dmat4 world = world_of(model, s, globals);
+    for (size_t k = 0; k < skin.joints.size(); ++k) {
+      const glm::dmat4 bind(skin.inverse_bind[k]);
+      const double volume = glm::determinant(glm::dmat3(bind));
+      if (!(std::abs(volume) > 0) || !std::isfinite(volume)) return {};
+      auto& turn = wanted[static_cast<size_t>(skin.joints[k])];
+      if (!turn) turn = rotation_of(world * glm::inverse(bind));
+    }
+  }
+  std::vector<double> numbers;
+  append_trs(rest, numbers);
+  const Pose parts = pose_of(rest, numbers);  // matrices are split
+  Pose out = rest;
+  bool turned = false;
+  std::vector<int> all(model.nodes.size());
+  for (size_t n = 0; n < all.size(); ++n) all[n] = static_cast<int>(n);
+  std::vector<glm::dmat4> now(globals);
+  for (const int node : with_parents(model, all)) {
+    const auto n = static_cast<size_t>(node);
+    const int parent = model.nodes[n].parent;
+    const glm::dmat4 above = parent < 0 ? glm::dmat4(1) : now[static_cast<size_t>(parent)];
+    if (wanted[n]) {
+      // A mirrored parent turns the other way; such rigs keep the pose of their nodes.
+      if (glm::determinant(glm::dmat3(above)) < 0) return {};
+      out[n] = parts[n];
+      out[n].rotation = glm::normalize(glm::inverse(rotation_of(above)) * *wanted[n]);
+      turned |= std::abs(glm::dot(out[n].rotation, parts[n].rotation)) < 1 - 1e-6;
+    }
+    now[n] = above * local_matrix(out[n]);
+  }
+  if (!turned) return {};
+  return out;
+}
+
+}  // namespace
+
+FlatMesh standing(FlatMesh mesh, const Model& model, const Pose& pose) {
+  mesh.positions = posed_positions(model, mesh, pose);
+  return mesh;
+}
+
+std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, const Axes* axes) {
+  if (model.skins.empty()) return {};
+  const Pose rest = rest_pose(model);
+  const Look own = look_at(model, mesh, rest, axes);
+  if (own.understood && own.uneven <= even) return {};
+  std::optional<Stance> best;
+  // A pose that is understood and more than twice as even is better; so is any that is understood where none was.
+  double uneven = own.understood ? 0.5 * own.uneven : 1e300;
+  const auto offer = [&](const Pose& pose, const std::string& from) {
+    const Look look = look_at(model, standing(mesh, model, pose), pose, axes);
+    if (!look.understood || !(look.uneven < uneven)) return;
+    uneven = look.uneven;
+    best = Stance{pose, !own.understood, from};
+  };
+  if (const std::optional<Pose> bound = bound_pose(model, rest)) offer(*bound, "as bound");
+  // A clip that gets up ends standing.
+  const size_t clips = std::min(model.animations.size(), most_clips);
+  for (size_t k = 0; k < 2 * clips && !(best && uneven <= even); ++k) {
+    const Animation& clip = model.animations[k % clips];
+    const bool end = k >= clips;
+    offer(sample(model, clip, end ? clip_duration(clip) : 0),
+          std::string(end ? "as at the end of" : "as at the start of") + " the clip \"" + clip.name + "\"");
+  }
+  return best;
+}
+
+}  // namespace hf_gltf

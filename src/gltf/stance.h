@@ -1,0 +1,30 @@
+// The pose in which a body stands. Most files store it as the pose of the nodes. Some store the middle of a clip, or a
+// pose that no clip uses: the skeleton is then hard to understand, and motion counts from the wrong pose.
+#ifndef HF_GLTF_STANCE_H
+#define HF_GLTF_STANCE_H
+
+#include <optional>
+#include <string>
+
+#include "gltf/animate.h"
+#include "gltf/regions.h"
+
+namespace hf_gltf {
+
+struct Stance {
+  Pose pose;
+  bool needed = false;  // in the pose of the file the body is not understood
+  std::string from;     // "as bound", "as at the start of the clip \"idle\""
+};
+
+// A pose of the file in which the body stands better: its joints mirror each other, its parts are understood. It is the
+// pose in which the skin was bound, else that at the start or the end of a clip. None: the pose of the nodes does.
+// axes: given by the caller, or null.
+std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, const Axes* axes);
+
+// The mesh with its positions in a pose.
+FlatMesh standing(FlatMesh mesh, const Model& model, const Pose& pose);
+
+}  // namespace hf_gltf
+
+#endif

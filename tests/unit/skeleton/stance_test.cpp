@@ -1,0 +1,209 @@
+// Bodies whose file pose is no stance: the middle of a stride, limbs stretched flat. And rigs of blocks.
+#include "gltf/stance.h"
+
+#include <gtest/gtest.h>
+
+#include "gltf/clip_binding.h"
+#include "gltf/pose_numbers.h"
+#include "gltf/skeleton_pair.h"
+#include "rig_blocks.h"
+#include "rig_model.h"
+
+namespace hf_test {
+namespace {
+
+using hf_gltf::find_stance;
+using hf_gltf::flatten;
+using hf_gltf::global_matrices;
+using hf_gltf::Model;
+using hf_gltf::Pose;
+using hf_gltf::rest_pose;
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+hf_inner::Character known_in(const PlacedRig& placed) {
+  static hf_inner::Memory memory;
+  auto input = placed.input();
+  static const double up[] = {0, 1, 0};
+  input.up = up;
+  return know_character(input, memory);
+}
+
+TEST(BlockRig, CollarsStartInTheMiddleAndLegsHangWhereTheyBegin) {
+  for (const double yaw : {0.0, 90.0, 200.0}) {
+    const Rig rig = make_block_rig(false);
+    const PlacedRig placed(rig, Placing{1, yaw, false, false, {}});
+    const hf_inner::Character found = known_in(placed);
+    EXPECT_EQ(placed.faults(found), "") << yaw;
+    EXPECT_GE(found.role_confidence, 0.5);
+    EXPECT_GE(found.forward_confidence, 0.5);
+    EXPECT_NEAR(found.leg_length, 1, 0.03);  // from the hip to the middle of the sole, not to the toes
+  }
+}
+
+TEST(BlockRig, ALegHangsAsItsMateWhereABoneAboveOwnsNothing) {
+  const Rig rig = make_block_rig(true);
+  const PlacedRig placed(rig, {});
+  EXPECT_EQ(placed.faults(known_in(placed)), "");
+}
+
+// Eight legs of three bones that lie level, or stand, and two fangs below. Names say the sides alone. lifted: the pair
+// that is in the air.
+Rig make_spider(bool stands, int lifted) {
+  Rig rig;
+  const double high = stands ? 0.4 : 0.05;
+  const int body = rig.add("Bone.000", -1, {0, high, 0}, Role::spine);
+  rig.add_block(body, {-0.15, high - 0.04, -0.3}, {0.15, high + 0.2, 0.3});
+  for (const double s : {1.0, -1.0}) {
+    const Side side = s > 0 ? Side::left : Side::right;
+    const std::string end = s > 0 ? ".L" : ".R";
+    const int fang = rig.add("Bone.501" + end, body, {s * 0.05, high, 0.3}, Role::other, side);
+    rig.joints.back().judged = false;
+    rig.add_box(fang, {s * 0.05, high, 0.3}, {s * 0.05, high - 0.1, 0.32}, 0.02);
+    for (int leg = 0; leg < 4; ++leg) {
+      const double z = 0.24 - 0.16 * leg, up = leg == lifted ? 0.3 : 0;
+      const Vec3 p[] = {{s * 0.15, high, z},
+                        {s * 0.5, stands ? 0.7 : high, 2 * z},
+                        {s * 0.9, stands ? 0.35 + up : high, 3 * z},
+                        {s * 1.1, stands ? up : high, 3.5 * z}};
+      int parent = body;
+      for (int k = 0; k < 3; ++k) {
+        const std::string name = "Bone." + std::to_string(100 * leg + 101 + k) + end;
+        parent = rig.add(name, parent, p[k], Role::leg, side);
+        rig.joints.back().judged = stands && k < 2;  // the last may be a foot
+        rig.add_box(parent, p[k], p[k + 1], 0.02);
+      }
+    }
+  }
+  return rig;
+}
+
+TEST(Spider, IsUnderstoodWhereItStandsAndNotWhereItLiesFlat) {
+  for (const int lifted : {-1, 1, 2}) {
+    const Rig standing = make_spider(true, lifted);
+    const PlacedRig placed(standing, {});
+    const hf_inner::Character found = known_in(placed);
+    EXPECT_EQ(placed.faults(found), "") << lifted;
+    EXPECT_GE(found.role_confidence, 0.5) << lifted;
+  }
+  const Rig flat = make_spider(false, -1);
+  EXPECT_LT(known_in(PlacedRig(flat, {})).role_confidence, 0.5);
+}
+
+// Turns a node about an axis of the world.
+void turn_node(Model& model, const std::string& name, const glm::dvec3& axis, double degrees) {
+  const std::vector<glm::dmat4> globals = global_matrices(model, rest_pose(model));
+  const int n = hf_gltf::find_node(model, name);
+  auto& node = model.nodes[static_cast<size_t>(n)];
+  const glm::dmat3 world(globals[static_cast<size_t>(n)]);
+  const glm::dvec3 own = glm::normalize(glm::inverse(world) * axis);
+  node.matrix = *node.matrix * glm::dmat4(glm::mat4_cast(glm::angleAxis(degrees * degree, own)));
+}
+
+std::string bone(int number) { return "Bone." + std::to_string(number); }
+
+// Left arm 1 to 4, right arm 5 to 8, head 9, left leg 10 to 12, right leg 13 to 15.
+void stride(Model& model) {
+  turn_node(model, bone(0), {1, 0, 0}, 25);
+  turn_node(model, bone(2), {1, 0, 0}, 50);
+  turn_node(model, bone(6), {1, 0, 0}, -60);
+  turn_node(model, bone(10), {1, 0, 0}, -50);
+  turn_node(model, bone(13), {1, 0, 0}, 40);
+  turn_node(model, bone(14), {1, 0, 0}, 60);
+}
+
+double apart(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+  double most = 0;
+  for (size_t v = 0; v < a.size(); ++v) most = std::max(most, glm::distance(a[v], b[v]));
+  return most;
+}
+
+TEST(Stance, ABodyStoredInMidStrideStandsAsItsSkinWasBound) {
+  for (const double yaw : {0.0, 90.0}) {
+    const Rig rig = make_block_rig(false);
+    const Model even = make_rig_model(PlacedRig(rig, Placing{1, yaw, false, false, {}}), "body.glb");
+    EXPECT_FALSE(find_stance(even, flatten(even), nullptr)) << "an even body stands as it is";
+    Model model = even;
+    const glm::dmat4 turned(glm::mat4_cast(glm::angleAxis(yaw * degree, glm::dvec3(0, 1, 0))));
+    const auto across = [&](double x) { return glm::dvec3(turned * glm::dvec4(x, 0, 0, 0)); };
+    for (const auto& [joint, angle] : {std::pair{0, 25.0}, {2, 50.0}, {6, -60.0}, {10, -50.0}, {13, 40.0}, {14, 60.0}})
+      turn_node(model, bone(joint), across(1), angle);
+    const auto found = find_stance(model, flatten(model), nullptr);
+    ASSERT_TRUE(found) << yaw;
+    EXPECT_EQ(found->from, "as bound");
+    EXPECT_LT(apart(hf_gltf::posed_positions(model, flatten(model), found->pose), flatten(even).positions), 1e-4);
+  }
+}
+
+TEST(Stance, AClipThatBeginsEvenlyStandsForAPoseThatIsNot) {
+  const Rig rig = make_block_rig(false);
+  const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
+  Model model = even;
+  stride(model);
+  // Bound in the stride as well: only the clip says how the body stands.
+  const std::vector<glm::dvec3> placed = flatten(model).positions;
+  auto& stored = model.meshes[0].primitives[0].positions;
+  ASSERT_EQ(stored.size(), placed.size());
+  for (size_t v = 0; v < placed.size(); ++v) stored[v] = glm::vec3(placed[v]);
+  const std::vector<glm::dmat4> globals = global_matrices(model, rest_pose(model));
+  for (size_t k = 0; k < model.skins[0].joints.size(); ++k)
+    model.skins[0].inverse_bind[k] = glm::mat4(glm::inverse(globals[static_cast<size_t>(model.skins[0].joints[k])]));
+  ASSERT_LT(apart(flatten(model).positions, placed), 1e-4);
+  EXPECT_FALSE(find_stance(model, flatten(model), nullptr)) << "there is no other pose";
+  hf_gltf::Animation clip;
+  clip.name = "idle";
+  for (size_t n = 0; n < model.nodes.size(); ++n) {
+    const glm::dquat q = glm::normalize(glm::quat_cast(glm::dmat3(even.nodes[n].matrix.value_or(glm::dmat4(1)))));
+    hf_gltf::Channel channel;
+    channel.node = static_cast<int>(n);
+    channel.path = hf_gltf::Path::rotation;
+    channel.width = 4;
+    channel.times = {0};
+    channel.values = {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z),
+                      static_cast<float>(q.w)};
+    auto& node = model.nodes[n];
+    if (!node.matrix) continue;
+    const glm::dquat own = glm::normalize(glm::quat_cast(glm::dmat3(*node.matrix)));
+    node.translation = glm::dvec3((*node.matrix)[3]);
+    node.rotation = glm::quat(own);
+    node.matrix.reset();
+    clip.channels.push_back(channel);
+  }
+  model.animations.push_back(clip);
+  ASSERT_LT(apart(flatten(model).positions, placed), 1e-4);
+  const auto found = find_stance(model, flatten(model), nullptr);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->from, "as at the start of the clip \"idle\"");
+}
+
+TEST(Stance, MotionCountsFromTheStanceNotFromThePoseOfTheFile) {
+  const Rig rig = make_block_rig(false);
+  const Model even = make_rig_model(PlacedRig(rig, {}), "even.glb");
+  Model moving = even, stored = even;
+  stride(stored);
+  // A clip of one pose: an arm and a leg are raised.
+  turn_node(moving, bone(2), {1, 0, 0}, -70);
+  turn_node(moving, bone(14), {1, 0, 0}, -40);
+  hf_gltf::Animation clip;
+  clip.name = "raise";
+  std::vector<double> numbers;
+  hf_gltf::append_trs(rest_pose(moving), numbers);
+  Model source = even;
+  for (auto& node : source.nodes)
+    if (node.matrix) hf_gltf::split_matrix(node);
+  clip = hf_gltf::clip_of_poses(source, "raise", {0}, {hf_gltf::pose_of(rest_pose(source), numbers)});
+  const auto source_mesh = flatten(source);
+  const auto stance = find_stance(stored, flatten(stored), nullptr);
+  ASSERT_TRUE(stance);
+  const auto stored_mesh = hf_gltf::standing(flatten(stored), stored, stance->pose);
+  const hf_gltf::SkeletonPair pair({source, source_mesh}, {stored, stored_mesh, nullptr, &stance->pose});
+  ASSERT_EQ(pair.refusal(), "");
+  const hf_gltf::JointClip played = pair.play(clip, {0}, {});
+  ASSERT_EQ(played.target.size(), 1u);
+  EXPECT_LT(apart(hf_gltf::posed_positions(stored, stored_mesh, played.target[0]),
+                  hf_gltf::posed_positions(source, source_mesh, played.source[0])),
+            2e-3);
+}
+
+}  // namespace
+}  // namespace hf_test
