@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "quads/numbers.h"
 
 namespace hf_inner {
@@ -44,7 +45,7 @@ class Opener {
     const bool crease = surface_.is_real(surface_.twin[corner.first]) && surface_.is_real(surface_.twin[corner.last]);
     const bool tooth =
         crease && walk(corner.first, true, right).length >= room_ && walk(corner.last, false, left).length >= room_;
-    const double narrow = tooth ? room_ / 2 / std::sin(corner.angle / 2) : HUGE_VAL;
+    const double narrow = tooth ? room_ / 2 / sine(corner.angle / 2) : HUGE_VAL;
     turn_run(walk(corner.first, true, right), -turn, narrow, tooth);
     turn_run(walk(corner.last, false, left), turn, narrow, tooth);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/elementary.h"
 #include "quads/numbers.h"
 
 namespace hf_inner {
@@ -18,7 +19,7 @@ constexpr double no_wish = 1e-3;
 Complex cross_along(const FluxSurface& s, const Connection& connection, std::int32_t h, double turn, Index vertex) {
   const Vec3 a = s.position[s.tail[h]], along = unit_vector(s.position[s.head(h)] - a),
              normal = unit_vector(cross(along, s.position[s.tail[FluxSurface::previous(h)]] - a));
-  const Vec3 direction = std::cos(turn) * along + std::sin(turn) * cross(normal, along);
+  const Vec3 direction = cosine(turn) * along + sine(turn) * cross(normal, along);
   // A triangle may be turned over against the mesh.
   const Vec3 own = connection.normal[at(vertex)], facing = dot(own, normal) < 0 ? -1.0 * normal : normal;
   Complex z = unit_of(connection.to_frame(vertex, carry(direction, facing, own)), 0);
