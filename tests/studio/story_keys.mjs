@@ -45,14 +45,14 @@ export default async function story(host) {
     await scrub(0.5);
     const middle = await last();
     middle.forEach((x, k) => assert.ok(Math.abs(x - (first[k] + second[k]) / 2) < 1e-6, `${middle}`));
-    const away = await page.evaluate(() => {
+    // the vertex under the handle turns about the middle of its region
+    const { away, radius } = await page.evaluate(() => {
       const { skin, body, state } = window.hfStudio;
-      const { vertex, translation } = state.handles.at(-1);
-      return Math.hypot(
-        ...[0, 1, 2].map((k) => skin.positions[3 * vertex + k] - body.positions[3 * vertex + k] - translation[k]),
-      );
+      const { vertex, translation, radius } = state.handles.at(-1);
+      const off = (k) => skin.positions[3 * vertex + k] - body.positions[3 * vertex + k] - translation[k];
+      return { away: Math.hypot(off(0), off(1), off(2)), radius };
     });
-    assert.ok(away < 0.02, `the vertex under the handle is off by ${away}`);
+    assert.ok(away < radius, `the vertex under the handle is off by ${away}, its region by ${radius}`);
   });
   await check('it plays, and the start is the first key', async () => {
     await page.click('#play');

@@ -161,7 +161,8 @@ function unit(values) {
 
 /** The rest shape rigged by the handles, with a clip from rest to the pose. */
 export async function riggedGlb(app) {
-  const skin = await app.client.ask('skin', { handles: app.state.handles });
+  // from the pose that is shown: with free rotations the way there counts
+  const skin = await app.client.ask('skin', { handles: app.state.handles, way: 'rest' });
   const rotations = new Float64Array(4 * skin.jointCount).map((_, i) => Number(i % 4 === 3));
   return skinnedGlb(app, skin, [{ rotations, translations: skin.pivots }, skin], [0, 1], 'pose');
 }

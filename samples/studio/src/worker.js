@@ -127,8 +127,8 @@ const tasks = {
   weights({ bones, influenceCount, pins }) {
     return [weightsOf(body, bones, influenceCount, pins), []];
   },
-  skin({ handles }) {
-    body.pose.deform(handles, 'exact');
+  skin({ handles, way = 'exact' }) {
+    body.pose.deform(handles, way);
     return [body.pose.skin(), []];
   },
   factor() {

@@ -26,6 +26,7 @@ export function fieldOf(body) {
       solver.moveSites(
         travelled.map(({ id }) => held.get(id).number),
         null,
+        null,
         { places: travelled },
       );
     const changed = kept.filter((site) => site.value !== held.get(site.id).value);
