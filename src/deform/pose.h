@@ -221,6 +221,8 @@ class Pose {
   void prepare_holds(const Layout& layout, State& state) const;
   void prepare_limbs(const Layout& layout, State& state) const;
   bool pull_to_others(State& state, const DeformRequest& request) const;
+  Vec3 carried(const State& state, std::size_t k) const noexcept;
+  void approach(State& state) noexcept;
   void start_turns(State& state) const noexcept;
   void take_turns(State& state) const noexcept;
   void follow_turns(State& state, Span<Vec3> turns, bool whole) const noexcept;

@@ -291,6 +291,7 @@ DeformReport Pose::deform(const DeformRequest& request) {
   const std::uint32_t idle_limit = options_.scheme ? options_.scheme->idle_limit : pose_idle_limit;
   if (state.changed || pulled || (state.last_change >= settled_change && state.idle_iterations < idle_limit)) {
     const std::uint32_t iterations = request.iteration_count ? request.iteration_count : options_.iteration_count;
+    if (!state.started && state.smooth.turns) approach(state);
     place_handles(*layout_, state);
     if (layout_->smooth) {
       solve_smooth(iterations);

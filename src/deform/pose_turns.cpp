@@ -69,6 +69,41 @@ void Pose::follow_turns(State& state, Span<Vec3> turns, bool whole) const noexce
   }
 }
 
+// The displacement of free handle k if it goes rigidly with the handles about it.
+Vec3 Pose::carried(const State& state, std::size_t k) const noexcept {
+  const FreeTurns& free = *state.smooth.turns;
+  const std::size_t count = state.handles.size();
+  Vec3 sum;
+  double shares = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = free.follow[k * count + i];
+    const Vec3 to = free.centroid[k] - layout_->handles[i].region->centroid;
+    sum = sum + share * (state.handles[i].rotation.toRotationMatrix() * to - to + state.handles[i].translation);
+    shares += share;
+  }
+  return shares > 0 ? 1 / shares * sum : state.handles[free.handle[k]].translation;
+}
+
+// A pose that starts anew takes the way of a drag: its free handles go to their places in steps. At once, the tail of a
+// horse that is pulled up by its length ends in a fold, half a turn off.
+void Pose::approach(State& state) noexcept {
+  constexpr std::uint32_t steps = 8, iterations = 4;  // those of a quick drag
+  const FreeTurns& free = *state.smooth.turns;
+  const Span<const RigidMotion> wanted = placed(state);
+  for (std::uint32_t step = 1; step < steps; ++step) {
+    const double way = static_cast<double>(step) / steps;
+    for (std::size_t k = 0; k < free.count(); ++k) {
+      const Vec3 to = wanted[free.handle[k]].translation, from = carried(state, k);
+      state.handles[free.handle[k]].translation = from + way * (to - from);
+    }
+    place_handles(*layout_, state);
+    solve_smooth(iterations);
+    state.started = true;
+  }
+  for (std::size_t k = 0; k < free.count(); ++k)
+    state.handles[free.handle[k]].translation = wanted[free.handle[k]].translation;
+}
+
 void Pose::start_turns(State& state) const noexcept {
   if (!state.smooth.turns) return;
   const FreeTurns& free = *state.smooth.turns;

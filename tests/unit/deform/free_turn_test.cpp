@@ -290,6 +290,37 @@ TEST(FreeTurn, FreeHandlesFollowARigidMotionOfTheOthersExactly) {
   }
 }
 
+// A hanging tail whose tip is pulled up by its length: at once, it folds.
+TEST(FreeTurn, ARestartEndsWhereADragDoes) {
+  const auto core = hf_test::make_core(hf_test::box(12, {0.25, 2, 0.25}, {0, 0, 0}));
+  for (const Vec3 way : {Vec3{0.3, 1.9, 0.25}, Vec3{1.2, 1.6, -0.4}, Vec3{0.1, 2.6, 0.3}}) {
+    const auto pose = PoseStack::make(core, {});
+    const Region top = select(*core, [](Vec3 p) { return p.y > 1.8; }),
+                 tip = select(*core, [](Vec3 p) { return p.y < 0.2; });
+    Region regions = top;
+    regions.insert(regions.end(), tip.begin(), tip.end());
+    const std::uint32_t start[] = {0, static_cast<std::uint32_t>(top.size())},
+                        end[] = {0, static_cast<std::uint32_t>(tip.size())};
+    std::uint32_t held = 0, pulled_tip = 0;
+    pose->add_handles({start, 2}, top, 0, {&held, 1}, {});
+    pose->add_handles({end, 2}, tip, 0, {&pulled_tip, 1}, free_kind);
+    const auto settled = [&](bool restart) {
+      DeformRequest request;
+      request.iteration_count = 1000;
+      request.restart = restart;
+      const DeformReport report = pose->deform(request);
+      return Surface(report.positions.begin(), report.positions.end());
+    };
+    for (int step = 1; step <= 20; ++step) {
+      const HandleTransform t{{}, step / 20.0 * way};
+      pose->set_transforms({&pulled_tip, 1}, {&t, 1});
+      pose->deform({});
+    }
+    const Surface dragged = settled(false);
+    EXPECT_LT(largest_distance(settled(true), dragged), 1e-6 * core->mesh.scale) << way.x;
+  }
+}
+
 TEST(FreeTurn, TurningTheSceneTurnsTheResult) {
   const Quaternion turn = about({1, 2, 3}, 1.1);
   hf_test::PlainMesh mesh = scene().mesh;
