@@ -1,10 +1,13 @@
 // A generated creature with a pose on it, whose handles are at the places of its joints.
 #pragma once
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstring>
 #include <map>
 
 #include "assets/creature.h"
+#include "base/error.h"
 #include "cases.h"
 #include "deform/pose_stack.h"
 
@@ -85,6 +88,23 @@ struct Body {
   }
 };
 constexpr HandleKind free_kind{false, true};
+
+// A setter for handles of layer 0 refuses the second of two handles, which is on a layer.
+template <class Setter>
+void expect_layers_refuse(Body& body, const Setter& set) {
+  body.add("foot_L");
+  const Region region = body.region_at("hand_L");
+  const std::uint32_t start[2] = {0, static_cast<std::uint32_t>(region.size())};
+  std::uint32_t numbers[2] = {0, 0};
+  body.pose->add_handles({start, 2}, region, 1, {&numbers[1], 1});
+  try {
+    set(Span<const std::uint32_t>{numbers, 2});
+    FAIL() << "a layer took it";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), HF_ERROR_UNSUPPORTED);
+    EXPECT_EQ(error.index(), 1u);
+  }
+}
 
 inline double moved(const Surface& x, const Surface& y, const Region& region) {
   double largest = 0;

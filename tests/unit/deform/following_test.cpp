@@ -204,19 +204,8 @@ TEST(Following, AddedInPlaceAHandleMovesNothing) {
 
 TEST(Following, LayersAndThePapersModeRefuseIt) {
   Body body;
-  body.add("foot_L");
-  const Region region = body.region_at("hand_L");
-  const std::uint32_t start[2] = {0, static_cast<std::uint32_t>(region.size())};
-  std::uint32_t numbers[2] = {0, 0};
-  body.pose->add_handles({start, 2}, region, 1, {&numbers[1], 1});
-  try {
-    body.pose->set_following({numbers, 2}, 0.5);
-    FAIL() << "a layer took it";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), HF_ERROR_UNSUPPORTED);
-    EXPECT_EQ(error.index(), 1u);
-  }
-  EXPECT_EQ(body.pose->following(numbers[0]), 1);
+  expect_layers_refuse(body, [&](Span<const std::uint32_t> handles) { body.pose->set_following(handles, 0.5); });
+  EXPECT_EQ(body.pose->following(0), 1);
   PoseOptions paper;
   paper.scheme = hf_test::scheme_of(hf_test::DeformMode::paper);
   body.pose = PoseStack::make(body.creature.core, paper);

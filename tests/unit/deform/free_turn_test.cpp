@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "body.h"
 #include "cases.h"
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
@@ -15,12 +16,6 @@ namespace {
 
 using namespace hf_inner;
 using namespace deform_test;
-using Surface = std::vector<Vec3>;
-
-bool same_bits(const Surface& a, const Surface& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
-
 const Case& scene() {
   static const Case cactus = cactus_bend(70, 1800);
   return cactus;
@@ -29,7 +24,6 @@ std::shared_ptr<const Core> scene_core() {
   static const std::shared_ptr<const Core> core = hf_test::make_core(scene().mesh);
   return core;
 }
-using Region = std::vector<std::int32_t>;
 Region base_region() { return select(*scene_core(), scene().regions[0]); }
 Region crown_region() { return select(*scene_core(), scene().regions[1]); }
 Region arm_region() {
@@ -71,7 +65,6 @@ struct Plant {
   }
   Vec3 centroid(std::uint32_t handle) const { return pose->handle(handle).centroid; }
 };
-constexpr HandleKind free_kind{false, true};
 const HandleTransform pulled{{}, {0.5, 0.35, 0.3}};
 
 // The reduced energy of a surface (subspace.h), edge by edge, with the best rotation of each group.
@@ -261,9 +254,9 @@ TEST(FreeTurn, GivingTheRotationThatWasFoundChangesNothing) {
   const Surface found = plant.settle();
   const HandleTransform placed = plant.pose->placed(arm);
   plant.set_free(arm, false);
-  EXPECT_LT(largest_distance(found, plant.settle()), 1e-9 * plant.box);
+  EXPECT_LT(largest_distance(found, plant.settle()), 1e-8 * plant.box);  // rotations rest at settled_change, 1e-9
   plant.put(arm, placed);
-  EXPECT_LT(largest_distance(found, plant.settle()), 1e-9 * plant.box);
+  EXPECT_LT(largest_distance(found, plant.settle()), 1e-8 * plant.box);
   plant.set_free(arm, true);
   EXPECT_LT(largest_distance(found, plant.settle()), 1e-7 * plant.box);
 }
@@ -290,34 +283,28 @@ TEST(FreeTurn, FreeHandlesFollowARigidMotionOfTheOthersExactly) {
   }
 }
 
-// A hanging tail whose tip is pulled up by its length: at once, it folds.
-TEST(FreeTurn, ARestartEndsWhereADragDoes) {
-  const auto core = hf_test::make_core(hf_test::box(12, {0.25, 2, 0.25}, {0, 0, 0}));
-  for (const Vec3 way : {Vec3{0.3, 1.9, 0.25}, Vec3{1.2, 1.6, -0.4}, Vec3{0.1, 2.6, 0.3}}) {
-    const auto pose = PoseStack::make(core, {});
-    const Region top = select(*core, [](Vec3 p) { return p.y > 1.8; }),
-                 tip = select(*core, [](Vec3 p) { return p.y < 0.2; });
-    Region regions = top;
-    regions.insert(regions.end(), tip.begin(), tip.end());
-    const std::uint32_t start[] = {0, static_cast<std::uint32_t>(top.size())},
-                        end[] = {0, static_cast<std::uint32_t>(tip.size())};
-    std::uint32_t held = 0, pulled_tip = 0;
-    pose->add_handles({start, 2}, top, 0, {&held, 1}, {});
-    pose->add_handles({end, 2}, tip, 0, {&pulled_tip, 1}, free_kind);
-    const auto settled = [&](bool restart) {
-      DeformRequest request;
-      request.iteration_count = 1000;
-      request.restart = restart;
-      const DeformReport report = pose->deform(request);
-      return Surface(report.positions.begin(), report.positions.end());
-    };
-    for (int step = 1; step <= 20; ++step) {
-      const HandleTransform t{{}, step / 20.0 * way};
-      pose->set_transforms({&pulled_tip, 1}, {&t, 1});
-      pose->deform({});
+// At once, a tail or a leg that is pulled far folds.
+TEST(FreeTurn, AFreshPoseStandsAsADragLeavesIt) {
+  const Creature horse = make_body("horse");
+  struct Pull {
+    const Creature& creature;
+    std::vector<const char*> held;
+    const char* pulled;
+    Vec3 way;
+  };
+  const Pull pulls[] = {
+      {horse, {"front_hoof_L", "front_hoof_R", "hind_hoof_L", "hind_hoof_R", "hips"}, "tail_4", {0.11, 0.56, -0.24}},
+      {biped(), {"foot_R", "hand_L", "hand_R", "hips"}, "foot_L", {0.1, 0.5, 0.3}}};
+  for (const Pull& pull : pulls) {
+    Body dragged(pull.creature), fresh(pull.creature);
+    std::uint32_t tip = 0;
+    for (Body* body : {&dragged, &fresh}) {
+      for (const char* joint : pull.held) body->add(joint);
+      tip = body->add(pull.pulled, free_kind);
     }
-    const Surface dragged = settled(false);
-    EXPECT_LT(largest_distance(settled(true), dragged), 1e-6 * core->mesh.scale) << way.x;
+    const Surface x = dragged.drag(tip, pull.way);
+    fresh.put(tip, {{}, pull.way});
+    EXPECT_LT(largest_distance(x, fresh.settle()), 1e-4 * dragged.box) << pull.pulled;
   }
 }
 
