@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "hf/hf.h"
+#include "support/peers.h"
 
 namespace bench {
 
