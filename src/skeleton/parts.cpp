@@ -48,15 +48,17 @@ bool has_collar(const Body& body, const Limb& limb, const Vector<Index>& path, s
   return hand == 3 || bone(body, path, 0) < 0.6 * bone(body, path, 1);
 }
 
-// The hand: the first with its name, else the last joint before fingers; the length of the path: the arm ends without.
-std::size_t find_hand(const Body& body, const Vector<Index>& path) {
+// The hand: the first with its name, else the last joint before fingers; the length of the path: the arm ends without,
+// as one of two joints does.
+std::size_t find_hand(const Body& body, const Limb& limb, const Vector<Index>& path) {
   for (std::size_t k = 0; k < path.size() && body.named; ++k) {
     if (body.names[at(path[k])].hand) return k;
   }
   const Index last = path.back();
   const auto fingers = body.children_of(last);
   if (body.named && body.names[at(last)].lower) return path.size();
-  if (fingers.empty() && path.size() <= 2) return path.size();
+  const std::size_t collars = leads_out(body, limb) ? 1 : 0;
+  if (fingers.empty() && path.size() <= collars + 2) return path.size();
   // Fingers that start far from the last joint start at a wrist without a joint.
   if (!fingers.empty() && path.size() > 1) {
     double nearest = 1e300;
@@ -84,7 +86,7 @@ void assign_leg(Body& body, const Limb& limb, int side) {
 
 void assign_arm(Body& body, const Limb& limb, int side) {
   const auto& path = limb.paths[side];
-  const std::size_t hand = find_hand(body, path), first = has_collar(body, limb, path, hand) ? 1 : 0;
+  const std::size_t hand = find_hand(body, limb, path), first = has_collar(body, limb, path, hand) ? 1 : 0;
   set_digits(body, limb, side, Role::finger);
   set_from(body, path, 0, first, Role::shoulder);
   set_from(body, path, first, hand, Role::arm);

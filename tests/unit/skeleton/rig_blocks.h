@@ -5,8 +5,9 @@
 
 namespace hf_test {
 
-// half_owned: the right hip bone owns no vertex, as where both sides were painted by hand.
-inline Rig make_block_rig(bool half_owned) {
+// half_owned: the right hip bone owns no vertex, as where both sides were painted by hand. hands: else forearms end the
+// arms.
+inline Rig make_block_rig(bool half_owned, bool hands = true) {
   Rig rig;
   const auto joint = [&](int parent, Vec3 pivot, Role role, Side side = Side::middle) {
     return rig.add("Bone." + std::to_string(rig.joints.size()), parent, pivot, role, side);
@@ -20,7 +21,7 @@ inline Rig make_block_rig(bool half_owned) {
     rig.add_block(arm, {s * 0.5 - 0.09, 1.4, -0.1}, {s * 0.5 + 0.09, 1.8, 0.1});
     const int fore = joint(arm, {s * 0.5, 1.4, 0}, Role::arm, side);
     rig.add_block(fore, {s * 0.5 - 0.08, 1.05, -0.1}, {s * 0.5 + 0.08, 1.4, 0.1});
-    const int hand = joint(fore, {s * 0.5, 1.05, 0}, Role::hand, side);
+    const int hand = hands ? joint(fore, {s * 0.5, 1.05, 0}, Role::hand, side) : fore;
     rig.add_block(hand, {s * 0.5 - 0.08, 0.85, -0.1}, {s * 0.5 + 0.08, 1.05, 0.1});
   }
   const int head = joint(spine, {0, 1.8, 0}, Role::head);

@@ -47,6 +47,14 @@ TEST(BlockRig, ALegHangsAsItsMateWhereABoneAboveOwnsNothing) {
   EXPECT_EQ(placed.faults(known_in(placed)), "");
 }
 
+TEST(BlockRig, TwoJointsBehindACollarAreAnArmWithoutAHand) {
+  const Rig rig = make_block_rig(false, false);
+  const PlacedRig placed(rig, {});
+  const hf_inner::Character found = known_in(placed);
+  EXPECT_EQ(placed.faults(found), "");
+  for (std::size_t j = 0; j < found.roles.size(); ++j) EXPECT_NE(found.roles[j], Role::hand) << rig.joints[j].name;
+}
+
 // Eight legs of three bones that lie level, or stand, and two fangs below. Names say the sides alone. lifted: the pair
 // that is in the air.
 Rig make_spider(bool stands, int lifted) {
