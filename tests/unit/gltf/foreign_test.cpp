@@ -1,5 +1,10 @@
 // .fbx, .dae and .bvh by way of assimp: places that are known, what is said of what is lost, files that are hostile.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
 
 #include "common/mesh_file.h"
 #include "foreign_files.h"
@@ -179,6 +184,53 @@ TEST(ForeignFiles, InThisProcessTheSameBytesAreMade) {
     EXPECT_FALSE(foreign_glb_here({other.begin(), other.end()}, kind, "a", warnings).empty());
 }
 
+// A key at so late a time that assimp comes to no end.
+std::string endless_text() {
+  FbxFile turning;
+  turning.last = "1e30";
+  return fbx_text(turning);
+}
+
+// A host may ignore the end of processes, or wait for them itself, and its threads may block signals.
+TEST(ForeignFiles, AreReadInAHostThatKeepsSignalsForItself) {
+  HF_NEED_ASSIMP();
+  const std::string strip = fbx_text(), endless = endless_text();
+  std::vector<std::string> warnings;
+  ForeignLimits limits;
+  limits.seconds = 1;
+  const auto read_both = [&] {
+    EXPECT_FALSE(foreign_glb({strip.begin(), strip.end()}, FileKind::fbx, "strip", warnings, limits).empty());
+    return message_of([&] { foreign_glb({endless.begin(), endless.end()}, FileKind::fbx, "bad", warnings, limits); });
+  };
+  const std::string usual = read_both();
+  EXPECT_EQ(usual.find("bad: takes more than 1 s to read"), 0u) << usual;
+  const auto handler = std::signal(SIGCHLD, SIG_IGN);
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const std::string kept = read_both();
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  std::signal(SIGCHLD, handler);
+  EXPECT_EQ(kept, usual);
+}
+
+TEST(ForeignFiles, NoProcessAndNoFileStaysBehind) {
+  HF_NEED_ASSIMP();
+  const std::string strip = fbx_text();
+  std::vector<std::string> warnings;
+  ForeignLimits small;
+  small.max_glb_bytes = 100;
+  const int first = dup(0);
+  close(first);
+  EXPECT_NE(message_of([&] { foreign_glb({strip.begin(), strip.end()}, FileKind::fbx, "a", warnings, small); }), "");
+  foreign_glb({strip.begin(), strip.end()}, FileKind::fbx, "a", warnings);
+  const int next = dup(0);
+  close(next);
+  EXPECT_EQ(next, first);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
 // Each takes all memory, all time or all of the stack inside assimp.
 TEST(ForeignFiles, AHostileFileEndsWithASentence) {
   HF_NEED_ASSIMP();
@@ -191,9 +243,7 @@ TEST(ForeignFiles, AHostileFileEndsWithASentence) {
   std::string deep = "; FBX 7.3.0 project file\n";
   for (int i = 0; i < 300000; ++i) deep += "a: {\n";
   EXPECT_EQ(said(deep, FileKind::fbx).find("bad: "), 0u);
-  FbxFile turning;
-  turning.last = "1e30";
-  EXPECT_NE(said(fbx_text(turning), FileKind::fbx), "");
+  EXPECT_NE(said(endless_text(), FileKind::fbx), "");
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   EXPECT_NE(said(bvh_text("4000000000"), FileKind::bvh).find("bad: takes more than 1024 MB"), std::string::npos);
 #endif
