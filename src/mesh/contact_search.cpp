@@ -113,13 +113,18 @@ void ContactSearch::read_skeleton() {
 bool ContactSearch::are_kin(Index a, Index b) const noexcept {
   if (!tree_of_joints_) return false;
   constexpr double owned = 0.5;  // more than half of a vertex
-  for (Index i = joint_start_[at(a)]; i < joint_start_[at(a) + 1]; ++i) {
-    for (Index j = joint_start_[at(b)]; j < joint_start_[at(b) + 1]; ++j) {
-      const JointWeight &x = joint_[at(i)], &y = joint_[at(j)];
-      if (x.weight > owned && y.weight > owned && tree_of_joints_->steps(x.joint, y.joint) == 1) return true;
+  const auto carries = [&](Index above, Index below) {
+    const auto first = joint_.begin() + joint_start_[at(above)], last = joint_.begin() + joint_start_[at(above) + 1];
+    for (Index j = joint_start_[at(below)]; j < joint_start_[at(below) + 1]; ++j) {
+      if (!(joint_[at(j)].weight > owned)) continue;
+      const std::uint32_t parent = tree_of_joints_->above(joint_[at(j)].joint);
+      const auto found =
+          std::lower_bound(first, last, parent, [](const JointWeight& x, std::uint32_t y) { return x.joint < y; });
+      if (found != last && found->joint == parent && found->weight > owned) return true;
     }
-  }
-  return false;
+    return false;
+  };
+  return carries(a, b) || carries(b, a);
 }
 
 double ContactSearch::least_skin_cost(Index a, Index b) const noexcept {

@@ -2,6 +2,7 @@
 // touch.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 #include <set>
@@ -210,6 +211,52 @@ TEST(JointTree, steps_count_joints_that_own_vertices) {
   const std::vector<std::uint32_t> circle = {HF_NO_INDEX, 3, 1, 2};
   EXPECT_NE(joint_in_circle(circle, memory), HF_NO_INDEX);
   EXPECT_NE(joint_in_circle(circle, memory), 0u);
+}
+
+// Walks up joint by joint.
+Index slow_steps(Span<const std::uint32_t> parents, Span<const std::uint8_t> owns, std::uint32_t a, std::uint32_t b) {
+  const auto way = [&](std::uint32_t joint) {
+    std::vector<std::uint32_t> out;
+    for (; joint != HF_NO_INDEX; joint = parents[joint]) out.push_back(joint);
+    return out;
+  };
+  std::vector<std::uint32_t> to_a = way(a), to_b = way(b);
+  while (!to_a.empty() && !to_b.empty() && to_a.back() == to_b.back()) {
+    const std::uint32_t common = to_a.back();
+    to_a.pop_back();
+    to_b.pop_back();
+    // from the joint itself its own step does not count
+    if (owns[common] && (to_a.empty() || to_b.empty())) break;
+  }
+  Index out = 0;
+  for (const auto* part : {&to_a, &to_b}) {
+    for (const std::uint32_t joint : *part) out += owns[joint];
+  }
+  return out;
+}
+
+TEST(JointTree, steps_are_those_of_a_walk_in_chains_bushes_and_forests) {
+  Memory memory;
+  std::mt19937 random(7);
+  for (int forest = 0; forest < 60; ++forest) {
+    const std::uint32_t count = 1 + random() % 200, reach = forest % 3 == 0 ? 1 : 1 + random() % 20;
+    std::vector<std::uint32_t> order(count), parents(count);
+    for (std::uint32_t j = 0; j < count; ++j) order[j] = j;
+    std::shuffle(order.begin(), order.end(), random);  // parents stand anywhere
+    std::vector<std::uint8_t> owns(count);
+    for (std::uint32_t j = 0; j < count; ++j) {
+      const bool root = j == 0 || random() % 50 == 0;
+      parents[order[j]] = root ? HF_NO_INDEX : order[j - 1 - random() % std::min(j, reach)];
+      owns[j] = random() % 4 != 0;
+    }
+    const JointTree tree(parents, owns, memory);
+    for (int k = 0; k < 300; ++k) {
+      const std::uint32_t a = random() % count, b = random() % count;
+      if (owns[a] && owns[b]) {
+        ASSERT_EQ(tree.steps(a, b), slow_steps(parents, owns, a, b)) << "forest " << forest;
+      }
+    }
+  }
 }
 
 }  // namespace
