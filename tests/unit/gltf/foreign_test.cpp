@@ -65,6 +65,65 @@ TEST(ForeignFiles, ASkinOfAnFbxFileFollowsItsClipInMetres) {
   EXPECT_EQ(model.materials[static_cast<size_t>(red)].base_color, glm::vec4(1, 0.25, 0, 1));
 }
 
+TEST(ForeignFiles, CornersThatAgreeAreOneVertexAndTexturesStandUpright) {
+  HF_NEED_ASSIMP();
+  const Model model = read(fbx_text(), "strip.fbx");
+  const Primitive& quad = model.meshes.at(0).primitives.at(0);
+  ASSERT_EQ(quad.indices.size(), 6u);
+  ASSERT_EQ(quad.positions.size(), 4u);
+  ASSERT_EQ(quad.texcoords.size(), 1u);
+  for (size_t v = 0; v < 4; ++v) {
+    const glm::vec3& p = quad.positions[v];
+    EXPECT_LT(glm::length(quad.texcoords[0][v] - glm::vec2(p.x / 0.2f, 1 - p.y)), 1e-6f);
+  }
+}
+
+TEST(ForeignFiles, AShapeKeyOfAnFbxFileIsKeptAtRest) {
+  HF_NEED_ASSIMP();
+  std::string text = fbx_text();
+  text.insert(text.find("  Deformer: 10"), R"(  Geometry: 40, "Geometry::Smile", "Shape" {
+    Version: 100
+    Indexes: *1 { a: 2 }
+    Vertices: *3 { a: 0,10,0 }
+    Normals: *3 { a: 0,0,0 }
+  }
+  Deformer: 41, "Deformer::Keys", "BlendShape" { Version: 100 }
+  Deformer: 42, "SubDeformer::Smile", "BlendShapeChannel" {
+    Version: 100
+    DeformPercent: 0
+    FullWeights: *1 { a: 100 }
+  }
+)");
+  text.insert(text.rfind("}"), "  C: \"OO\",41,1\n  C: \"OO\",42,41\n  C: \"OO\",40,42\n");
+  const Model model = read(text, "a.fbx");
+  const MeshData& mesh = model.meshes.at(0);
+  ASSERT_EQ(mesh.weights, std::vector<float>{0});
+  const Primitive& quad = mesh.primitives.at(0);
+  ASSERT_EQ(quad.targets.size(), 1u);
+  for (size_t v = 0; v < quad.positions.size(); ++v) {
+    const bool moved = quad.positions[v].x > 0 && quad.positions[v].y > 0;
+    EXPECT_LT(glm::length(quad.targets[0].positions[v] - glm::vec3(0, moved ? 0.1f : 0, 0)), 1e-6f);
+  }
+}
+
+TEST(ForeignFiles, ABoneUnderAnObjectOfItsNameMovesTheSkin) {
+  HF_NEED_ASSIMP();
+  std::string text = fbx_text();
+  for (size_t at; (at = text.find("::Lower")) != std::string::npos;) text.replace(at, 7, "::Strip");
+  const Model model = read(text, "a.fbx");
+  for (const glm::dvec3& place : bent(90)) expect_place(posed(model, 1), place);
+}
+
+TEST(ForeignFiles, AClipThatBeginsBeforeZeroIsKeptWhole) {
+  HF_NEED_ASSIMP();
+  std::string text = fbx_text();
+  const std::string times = "0,23093079000,46186158000";
+  text.replace(text.find(times), times.size(), "-46186158000,0,46186158000");
+  const Model model = read(text, "a.fbx");
+  for (const double time : {0.0, 1.0, 2.0})
+    for (const glm::dvec3& place : bent(45 * time)) expect_place(posed(model, time), place);
+}
+
 TEST(ForeignFiles, AnFbxFileSavedInThePoseOfAClipRestsInTheShapeItIsStoredIn) {
   HF_NEED_ASSIMP();
   const Model model = read(fbx_text(), "strip.fbx");

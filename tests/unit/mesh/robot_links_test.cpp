@@ -68,6 +68,18 @@ struct Robot {
     part_of.insert(part_of.end(), part.vertex_count(), parts);
     return parts++;
   }
+  // The last vertex comes first, so that children stand before parents.
+  void turn_round() {
+    const std::size_t n = part_of.size();
+    std::vector<double> positions;
+    for (std::size_t v = n; v-- > 0;)
+      positions.insert(positions.end(), mesh.positions.begin() + 3 * static_cast<std::ptrdiff_t>(v),
+                       mesh.positions.begin() + 3 * static_cast<std::ptrdiff_t>(v) + 3);
+    mesh.positions = positions;
+    for (auto& corner : mesh.triangles) corner = static_cast<std::uint32_t>(n) - 1 - corner;
+    std::reverse(vertex_joint.begin(), vertex_joint.end());
+    std::reverse(part_of.begin(), part_of.end());
+  }
   // The links of the parts, as pairs of parts.
   using Pairs = std::set<std::pair<int, int>>;
   std::shared_ptr<const Links> link(bool skeleton) {
@@ -138,9 +150,12 @@ TEST(RobotLinks, no_link_is_false_and_every_joint_holds) {
 TEST(RobotLinks, every_contact_of_parent_and_child_is_linked_and_not_that_of_the_tree_alone) {
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
     Robot robot(seed);
-    const Robot::Pairs pairs = robot.pairs_of(robot.link(true)->links);
-    for (const auto& [plate, foot] : robot.plate_touches)
-      EXPECT_EQ(pairs.count({std::min(plate, foot), std::max(plate, foot)}), 1u) << "seed " << seed;
+    for (const bool round : {false, true}) {
+      if (round) robot.turn_round();
+      const Robot::Pairs pairs = robot.pairs_of(robot.link(true)->links);
+      for (const auto& [plate, foot] : robot.plate_touches)
+        EXPECT_EQ(pairs.count({std::min(plate, foot), std::max(plate, foot)}), 1u) << "seed " << seed << " " << round;
+    }
   }
 }
 

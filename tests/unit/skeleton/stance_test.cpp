@@ -103,13 +103,13 @@ void turn_node(Model& model, const std::string& name, const glm::dvec3& axis, do
 std::string bone(int number) { return "Bone." + std::to_string(number); }
 
 // Left arm 1 to 4, right arm 5 to 8, head 9, left leg 10 to 12, right leg 13 to 15.
-void stride(Model& model) {
-  turn_node(model, bone(0), {1, 0, 0}, 25);
-  turn_node(model, bone(2), {1, 0, 0}, 50);
-  turn_node(model, bone(6), {1, 0, 0}, -60);
-  turn_node(model, bone(10), {1, 0, 0}, -50);
-  turn_node(model, bone(13), {1, 0, 0}, 40);
-  turn_node(model, bone(14), {1, 0, 0}, 60);
+void stride(Model& model, double share = 1) {
+  turn_node(model, bone(0), {1, 0, 0}, share * 25);
+  turn_node(model, bone(2), {1, 0, 0}, share * 50);
+  turn_node(model, bone(6), {1, 0, 0}, share * -60);
+  turn_node(model, bone(10), {1, 0, 0}, share * -50);
+  turn_node(model, bone(13), {1, 0, 0}, share * 40);
+  turn_node(model, bone(14), {1, 0, 0}, share * 60);
 }
 
 double apart(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
@@ -167,6 +167,26 @@ TEST(Stance, AClipThatBeginsEvenlyStandsForAPoseThatIsNot) {
   const auto found = find_stance(model, flatten(model), nullptr);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->from, "as at the start of the clip \"idle\"");
+}
+
+TEST(Stance, AClipThatGetsUpStandsAtItsEnd) {
+  const Rig rig = make_block_rig(false);
+  const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
+  Model model = bound_in_stride(even), other = even;
+  stride(other, 1.3);
+  model.animations.push_back(hf_gltf::clip_of_poses(model, "get up", {0, 1}, {parts_of(other), parts_of(even)}));
+  const auto found = find_stance(model, flatten(model), nullptr);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->from, "as at the end of the clip \"get up\"");
+}
+
+TEST(Stance, AClipThatIsHardlyMoreEvenIsNone) {
+  const Rig rig = make_block_rig(false);
+  const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
+  Model model = bound_in_stride(even), other = even;
+  stride(other, 0.8);
+  model.animations.push_back(hf_gltf::clip_of_poses(model, "walk", {0}, {parts_of(other)}));
+  EXPECT_FALSE(find_stance(model, flatten(model), nullptr));
 }
 
 // New clips face as those that the file has.
