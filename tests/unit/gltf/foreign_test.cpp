@@ -106,14 +106,6 @@ TEST(ForeignFiles, AShapeKeyOfAnFbxFileIsKeptAtRest) {
   }
 }
 
-TEST(ForeignFiles, ABoneUnderAnObjectOfItsNameMovesTheSkin) {
-  HF_NEED_ASSIMP();
-  std::string text = fbx_text();
-  for (size_t at; (at = text.find("::Lower")) != std::string::npos;) text.replace(at, 7, "::Strip");
-  const Model model = read(text, "a.fbx");
-  for (const glm::dvec3& place : bent(90)) expect_place(posed(model, 1), place);
-}
-
 TEST(ForeignFiles, AClipThatBeginsBeforeZeroIsKeptWhole) {
   HF_NEED_ASSIMP();
   std::string text = fbx_text();
@@ -304,7 +296,7 @@ TEST(ForeignFiles, AHostileFileEndsWithASentence) {
   EXPECT_EQ(said(deep, FileKind::fbx).find("bad: "), 0u);
   EXPECT_NE(said(endless_text(), FileKind::fbx), "");
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  EXPECT_NE(said(bvh_text("4000000000"), FileKind::bvh).find("bad: takes more than 1024 MB"), std::string::npos);
+  EXPECT_NE(said(bvh_text("100000000"), FileKind::bvh).find("bad: takes more than 1024 MB"), std::string::npos);
 #endif
   const std::string strip = fbx_text();
   for (size_t length = 100; length < strip.size(); length += 97) said(strip.substr(0, length), FileKind::fbx);

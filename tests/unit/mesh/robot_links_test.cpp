@@ -22,6 +22,7 @@ using hf_test::PlainMesh;
 // Boxes with a joint each. Feet, thighs, and hands and thighs touch, as in many rest poses. Helper joints without
 // vertices lie between some parents and children.
 struct Robot {
+  Robot() = default;
   explicit Robot(std::uint32_t seed) : random(seed) {
     const double near = uniform(0.001, 0.006), knee = uniform(0.013, 0.03), touch = 0.002;
     const int pelvis = add(-1, {-0.2, 0.9, 0}, {0.2, 1.1, 0.25});
@@ -68,13 +69,14 @@ struct Robot {
     part_of.insert(part_of.end(), part.vertex_count(), parts);
     return parts++;
   }
-  // The last vertex comes first, so that children stand before parents.
+  // The robot stands on its head and its last vertex comes first, so that children stand before parents.
   void turn_round() {
     const std::size_t n = part_of.size();
     std::vector<double> positions;
-    for (std::size_t v = n; v-- > 0;)
-      positions.insert(positions.end(), mesh.positions.begin() + 3 * static_cast<std::ptrdiff_t>(v),
-                       mesh.positions.begin() + 3 * static_cast<std::ptrdiff_t>(v) + 3);
+    for (std::size_t v = n; v-- > 0;) {
+      const double* p = &mesh.positions[3 * v];
+      positions.insert(positions.end(), {-p[0], -p[1], p[2]});
+    }
     mesh.positions = positions;
     for (auto& corner : mesh.triangles) corner = static_cast<std::uint32_t>(n) - 1 - corner;
     std::reverse(vertex_joint.begin(), vertex_joint.end());
@@ -159,6 +161,19 @@ TEST(RobotLinks, every_contact_of_parent_and_child_is_linked_and_not_that_of_the
   }
 }
 
+// The tree has cheaper links, and looks at no contact of the plate with the foot.
+TEST(RobotLinks, parent_and_child_that_the_tree_does_not_need_are_linked) {
+  for (const bool round : {false, true}) {
+    Robot robot;
+    const int shin = robot.add(-1, {0, 0.13, 0}, {0.2, 1.85, 0.2}),
+              foot = robot.add(shin, {0, 0, 0}, {0.2, 0.129, 0.35}),
+              plate = robot.append_box({0, 0.133, 0.201}, {0.2, 0.6, 0.24}, shin);
+    robot.vertex_weight.assign(robot.part_of.size(), 1.0f);
+    if (round) robot.turn_round();
+    EXPECT_EQ(robot.pairs_of(robot.link(true)->links).count({foot, plate}), 1u) << round;
+  }
+}
+
 TEST(RobotLinks, contacts_of_strangers_are_noted_and_have_no_spring) {
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
     Robot robot(seed);
@@ -202,6 +217,23 @@ TEST(RobotLinks, without_a_skeleton_strangers_take_the_place_of_a_knee) {
   for (const auto& pair : robot.pairs_of(links->links)) wrong = wrong || !robot.belong(pair);
   EXPECT_TRUE(wrong);
   EXPECT_TRUE(links->open.empty());
+}
+
+// The skin names a joint for each vertex, but says nothing by a weight of 0.
+TEST(RobotLinks, where_all_weights_are_0_a_skeleton_changes_no_link) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    Robot robot(seed);
+    std::fill(robot.vertex_weight.begin(), robot.vertex_weight.end(), 0.0f);
+    Robot same = robot;
+    const auto with = robot.link(true), without = same.link(false);
+    ASSERT_EQ(with->links.size(), without->links.size()) << "seed " << seed;
+    for (std::size_t i = 0; i < with->links.size(); ++i) {
+      const Link &a = with->links[i], &b = without->links[i];
+      EXPECT_EQ(a.vertex, b.vertex);
+      EXPECT_TRUE(std::equal(a.corner, a.corner + 3, b.corner));
+      EXPECT_EQ(a.weight, b.weight);
+    }
+  }
 }
 
 TEST(RobotLinks, a_piece_that_only_strangers_touch_is_linked_to_them) {
