@@ -14,10 +14,9 @@ double limb_measure(double fall, double area) { return fall * std::sqrt(fall) / 
 // turn a shoulder. With 0.8 the head of a biped belongs to its arm.
 constexpr double limb_margin = 0.85;
 
-// Returns the field's value where the limb ends. vertices: those of the component outside handles. area: of the handle.
-double limb_end(const Core& core, FieldColumn<const double> field, double area, Vector<std::int32_t>& vertices) {
-  std::sort(vertices.begin(), vertices.end(),
-            [&](std::int32_t a, std::int32_t b) { return field[a] != field[b] ? field[a] > field[b] : a < b; });
+// Returns the field's value where the limb ends. vertices: those of the component outside handles, of falling field.
+// area: of the handle.
+double limb_end(const Core& core, FieldColumn<const double> field, double area, Span<const std::int32_t> vertices) {
   double best = 0, end = 1;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const double level = field[vertices[i]];
@@ -51,21 +50,29 @@ SymmetricMatrix part_of(const SymmetricMatrix& k, Span<const std::int32_t> verti
 Vector<std::int32_t> limb_of(const Core& core, const Reach& reach, const HandleFields& fields, std::int32_t handle,
                              Memory& memory) {
   const FieldColumn<const double> field = fields.of(handle);
-  Vector<std::int32_t> limb(&memory), component(&memory);
-  for (std::int32_t c = 0; c < core.mesh.component_count(); ++c) {
-    const Span<const std::int32_t> handles = reach.handles_of(c);
-    if (handles.size() < 2 || !std::binary_search(handles.begin(), handles.end(), handle)) continue;
-    component.clear();
-    double area = 0;
-    for (std::int32_t v = 0; v < core.size(); ++v) {
-      if (core.mesh.component[v] != c) continue;
-      if (reach.owner[v] < 0) component.push_back(v);
-      if (reach.owner[v] == handle) area += core.areas[static_cast<std::size_t>(v)];
-    }
-    const double end = limb_end(core, field, area, component);
-    for (const std::int32_t v : component) {
-      if (field[v] >= end) limb.push_back(v);
-    }
+  const Vector<std::int32_t>& component = core.mesh.component;
+  const std::size_t components = static_cast<std::size_t>(core.mesh.component_count());
+  Vector<std::uint8_t> meant(components, 0, &memory);  // another handle moves the component too
+  for (std::size_t c = 0; c < components; ++c) {
+    const Span<const std::int32_t> handles = reach.handles_of(static_cast<std::int32_t>(c));
+    meant[c] = handles.size() > 1 && std::binary_search(handles.begin(), handles.end(), handle);
+  }
+  Vector<double> area(components, 0.0, &memory);  // of the handle
+  Vector<std::int32_t> limb(&memory), vertices(&memory);
+  for (std::int32_t v = 0; v < core.size(); ++v) {
+    if (!meant[component[v]]) continue;
+    if (reach.owner[v] < 0) vertices.push_back(v);
+    if (reach.owner[v] == handle) area[component[v]] += core.areas[static_cast<std::size_t>(v)];
+  }
+  std::sort(vertices.begin(), vertices.end(), [&](std::int32_t a, std::int32_t b) {
+    if (component[a] != component[b]) return component[a] < component[b];
+    return field[a] != field[b] ? field[a] > field[b] : a < b;
+  });
+  for (std::size_t first = 0, last = 0; first < vertices.size(); first = last) {
+    const std::int32_t c = component[vertices[first]];
+    while (last < vertices.size() && component[vertices[last]] == c) ++last;
+    const double end = limb_end(core, field, area[c], {vertices.data() + first, last - first});
+    for (std::size_t i = first; i < last && field[vertices[i]] >= end; ++i) limb.push_back(vertices[i]);
   }
   std::sort(limb.begin(), limb.end());
   return limb;

@@ -12,7 +12,13 @@ std::uint32_t Pose::limb_steps(std::uint32_t number) const {
 void Pose::set_limb_steps(Span<const std::uint32_t> numbers, std::uint32_t steps) {
   for (std::uint32_t k = 0; k < numbers.size(); ++k) require(numbers[k], k);
   auto state = make_shared_in<State>(memory(), *state_, memory());
-  for (const std::uint32_t number : numbers) state->handles[find(number)].limb_steps = steps;
+  bool changed = false;
+  for (const std::uint32_t number : numbers) {
+    HandleState& handle = state->handles[find(number)];
+    changed = changed || handle.limb_steps != steps;
+    handle.limb_steps = steps;
+  }
+  if (!changed) return;
   prepare_limbs(*layout_, *state);
   state_ = std::move(state);
 }

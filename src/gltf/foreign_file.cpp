@@ -10,6 +10,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
 #include <fstream>
 #include <new>
 #endif
@@ -43,8 +46,12 @@ constexpr bool can_limit_memory = false;
 #else
 constexpr bool can_limit_memory = true;
 #endif
-// The first byte of what the process writes.
-constexpr char made = 'm', refused = 'r', out_of_memory = 'o';
+// How the process ended, behind all else that it writes. The status of the process is not asked: a host that ignores
+// SIGCHLD, or waits for all children, gets it first.
+constexpr size_t word_length = 4;
+constexpr char made[] = "made", refused[] = "said", out_of_memory[] = "full", late[] = "late";
+// A process that waits takes no processor time, so a clock stops it too. A busy machine may run it a tenth of the time.
+constexpr uint32_t most_waiting = 10;
 
 // Bytes of address space this process has; 0 where the system does not say.
 uint64_t own_space() {
@@ -53,7 +60,7 @@ uint64_t own_space() {
   return pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-// The hard limit stands one above: at the soft one of time a signal says which limit it was.
+// The hard limit stands one above: at the soft one of time the process can still say so.
 void lower_limit(decltype(RLIMIT_AS) which, uint64_t value) {
   rlimit limit{};
   if (getrlimit(which, &limit) != 0) return;
@@ -63,50 +70,103 @@ void lower_limit(decltype(RLIMIT_AS) which, uint64_t value) {
 }
 
 // All of it, or as much as the other end takes.
-void write_all(int to, const std::string& text) {
-  for (size_t done = 0; done < text.size();) {
-    const ssize_t wrote = ::write(to, text.data() + done, text.size() - done);
+void write_all(int to, const char* text, size_t size) noexcept {
+  while (size > 0) {
+    const ssize_t wrote = ::write(to, text, size);
     if (wrote < 0 && errno != EINTR) return;
-    if (wrote > 0) done += static_cast<size_t>(wrote);
+    if (wrote <= 0) continue;
+    text += wrote;
+    size -= static_cast<size_t>(wrote);
   }
 }
 
-// The process: one byte, then the GLB behind its warnings and a zero, or a sentence.
-[[noreturn]] void work(int to, const std::vector<uint8_t>& bytes, FileKind kind, const std::string& name,
-                       uint64_t space, uint32_t seconds) {
-  lower_limit(RLIMIT_CORE, 0);
-  lower_limit(RLIMIT_CPU, seconds);
-  if (can_limit_memory) lower_limit(RLIMIT_AS, space);
-  for (const int caught : {SIGXCPU, SIGSEGV, SIGABRT, SIGBUS, SIGFPE}) std::signal(caught, SIG_DFL);
-  try {
-    std::vector<std::string> warnings;
-    const std::string glb = foreign_glb_here(bytes, kind, name, warnings);
-    std::string head(1, made);
-    for (const std::string& warning : warnings) head += printable(warning) + '\n';
-    write_all(to, head + '\0');
-    write_all(to, glb);
-  } catch (const std::bad_alloc&) {
-    write_all(to, std::string(1, out_of_memory));
-  } catch (const std::exception& error) {
-    write_all(to, refused + std::string(error.what()));
-  } catch (...) {
-    write_all(to, refused + name + ": assimp fails on it");
-  }
+int late_to = -1;  // of the process
+
+extern "C" void say_late(int) {
+  write_all(late_to, late, word_length);
   _exit(0);
 }
 
-// What the process wrote, up to a limit; it is ended there.
-std::string read_all(int from, pid_t process, uint64_t limit) {
-  std::string out, block(size_t{1} << 16, '\0');
-  for (;;) {
-    const ssize_t got = ::read(from, block.data(), block.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return out;
-    out.append(block, 0, static_cast<size_t>(got));
-    if (out.size() <= limit) continue;
-    kill(process, SIGKILL);
-    return out;
+// What the host catches is not for the process: its signals, its lack of memory, its end.
+void leave_handlers() {
+  for (int number = 1; number < NSIG; ++number) {
+    struct sigaction now {};
+    if (sigaction(number, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) std::signal(number, SIG_DFL);
   }
+  std::set_new_handler(nullptr);
+  std::set_terminate(std::abort);
+}
+
+// At the end of its time the process says so, also where the host blocks or ignores signals.
+void limit_time(int to, uint32_t seconds) {
+  late_to = to;
+  for (const int number : {SIGXCPU, SIGALRM}) std::signal(number, say_late);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  lower_limit(RLIMIT_CPU, seconds);
+  alarm(most_waiting * seconds);
+}
+
+// The process: the warnings, a zero and the GLB, or a sentence. Then how it ended.
+[[noreturn]] void work(int to, const std::vector<uint8_t>& bytes, FileKind kind, const std::string& name,
+                       uint64_t space, uint32_t seconds) noexcept {
+  leave_handlers();
+  limit_time(to, seconds);
+  lower_limit(RLIMIT_CORE, 0);
+  if (can_limit_memory) lower_limit(RLIMIT_AS, space);
+  const char* end = nullptr;
+  try {
+    std::vector<std::string> warnings;
+    const std::string glb = foreign_glb_here(bytes, kind, name, warnings);
+    std::string head;
+    for (const std::string& warning : warnings) head += printable(warning) + '\n';
+    write_all(to, head.c_str(), head.size() + 1);
+    write_all(to, glb.data(), glb.size());
+    end = made;
+  } catch (const std::bad_alloc&) {
+    end = out_of_memory;
+  } catch (const std::exception& error) {
+    write_all(to, error.what(), std::strlen(error.what()));
+    end = refused;
+  } catch (...) {
+  }
+  if (end) write_all(to, end, word_length);
+  _exit(0);  // exit() would run what the host does at its end, and write the host's buffers a second time
+}
+
+// Both ends are closed in programs that the host starts. Elsewhere than on Linux one that starts just now keeps them.
+bool open_pipe(int ends[2]) {
+#ifdef __linux__
+  return pipe2(ends, O_CLOEXEC) == 0;
+#else
+  if (pipe(ends) != 0) return false;
+  for (int k = 0; k < 2; ++k) fcntl(ends[k], F_SETFD, FD_CLOEXEC);
+  return true;
+#endif
+}
+
+// The reading end and the process that writes. Closed before the wait: a process that still writes ends then.
+struct Writer {
+  int from;
+  pid_t process = -1;
+  ~Writer() {
+    close(from);
+    while (process > 0 && waitpid(process, nullptr, 0) < 0 && errno == EINTR) continue;
+  }
+};
+
+// What the process wrote, up to a little more than a limit.
+std::string read_all(int from, uint64_t limit) {
+  std::string out;
+  char block[1 << 16];
+  while (out.size() <= limit) {
+    const ssize_t got = ::read(from, block, sizeof block);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) break;
+    out.append(block, static_cast<size_t>(got));
+  }
+  return out;
 }
 
 }  // namespace
@@ -120,36 +180,34 @@ std::vector<uint8_t> foreign_glb(const std::vector<uint8_t>& bytes, FileKind kin
   const uint64_t memory = limits.free_bytes + limits.bytes_per_byte * bytes.size();
   const uint64_t space = own_space() + memory;
   int ends[2];
-  if (pipe(ends) != 0) fail("no pipe can be opened to read it through; close files and try again");
-  for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);  // a program that the host starts must not hold it open
-  const pid_t process = fork();
-  if (process == 0) {
-    close(ends[0]);
-    work(ends[1], bytes, kind, name, space, limits.seconds);
-  }
-  close(ends[1]);
+  if (!open_pipe(ends)) fail("no pipe can be opened to read it through; close files and try again");
   std::string text;
-  int status = 0;
-  if (process > 0) {
-    text = read_all(ends[0], process, limits.max_glb_bytes);
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  {
+    Writer writer{ends[0]};
+    writer.process = fork();
+    if (writer.process == 0) {
+      close(ends[0]);
+      work(ends[1], bytes, kind, name, space, limits.seconds);
+    }
+    close(ends[1]);
+    if (writer.process < 0) fail("no process can be started to read it in; end others and try again");
+    text = read_all(ends[0], limits.max_glb_bytes);
   }
-  close(ends[0]);
-  if (process < 0) fail("no process can be started to read it in; end others and try again");
   if (text.size() > limits.max_glb_bytes)
     fail("is more than " + std::to_string(limits.max_glb_bytes) + " bytes as glTF; split it");
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-    fail("takes more than " + std::to_string(limits.seconds) + " s to read, it may be damaged" + way_on);
-  if (text.substr(0, 1) == std::string(1, out_of_memory))
+  const size_t size = text.size() - std::min(text.size(), word_length);
+  const std::string end = text.substr(size);
+  text.resize(size);
+  if (end == late) fail("takes more than " + std::to_string(limits.seconds) + " s to read, it may be damaged" + way_on);
+  if (end == out_of_memory)
     fail("takes more than " + std::to_string(memory >> 20) + " MB to read, it may be damaged" + way_on);
-  if (text.substr(0, 1) == std::string(1, refused)) throw std::runtime_error(text.substr(1));
+  if (end == refused) throw std::runtime_error(text);
   const size_t glb = text.find('\0');
-  if (text.empty() || WIFSIGNALED(status) || glb == std::string::npos)
-    fail("assimp fails on it, it may be damaged" + way_on);
-  for (size_t at = 1; at < glb;) {
-    const size_t end = text.find('\n', at);
-    warnings.push_back(text.substr(at, end - at));
-    at = end + 1;
+  if (end != made || glb == std::string::npos) fail("assimp fails on it, it may be damaged" + way_on);
+  for (size_t at = 0; at < glb;) {
+    const size_t next = text.find('\n', at);
+    warnings.push_back(text.substr(at, next - at));
+    at = next + 1;
   }
   return {text.begin() + static_cast<std::ptrdiff_t>(glb) + 1, text.end()};
 }

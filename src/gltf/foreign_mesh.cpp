@@ -43,10 +43,8 @@ std::vector<Influences> influences_of(const ForeignMesh& from, Skin& skin) {
     }
     std::stable_sort(of.begin(), of.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     of.resize(std::min(of.size(), out[v].weights.size()));
-    float sum = 0;
-    for (const auto& [weight, slot] : of) sum += weight;
     for (size_t k = 0; k < of.size(); ++k) {
-      out[v].weights[k] = of[k].first / sum;
+      out[v].weights[k] = of[k].first;  // the writer makes their sum 1
       out[v].joints[k] = static_cast<uint16_t>(of[k].second);
     }
   }

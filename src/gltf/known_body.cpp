@@ -4,26 +4,13 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "gltf/character_arrays.h"
-#include "skeleton/character.h"
+#include "gltf/skeleton_body.h"
 
 namespace hf_gltf {
 namespace {
 
-using hf_inner::Chain;
-using hf_inner::Character;
-using hf_inner::Role;
-using hf_inner::Side;
-
-// What the skeleton says is taken from here on. Below, it is a guess.
-constexpr double enough = 0.5;
 // A forward that is nearer to a coordinate axis is that axis: 20 degrees. A rest in mid-stride turns the hips.
 constexpr double straight = 0.94;
-
-// Hips to head against up, a cosine: 53 degrees.
-constexpr double upright_trunk = 0.6;
-
-glm::dvec3 vector_of(const hf_inner::Vec3& v) { return {v.x, v.y, v.z}; }
 
 glm::dvec3 straightened(const glm::dvec3& v) {
   for (int c = 0; c < 3; ++c) {

@@ -243,8 +243,7 @@ RigFit::RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTi
   evenness_ = keep_even * mean;
 }
 
-// Joints at or above an influence, parents first; which of them shift. The path of a body goes into one joint: where
-// two move the same vertices, only the upper one of those that the model's own clips move shifts.
+// Joints at or above an influence, parents first.
 void RigFit::find_joints() {
   std::vector<char> used(model_.nodes.size(), 0), is_joint(model_.nodes.size(), 0), carries(model_.nodes.size(), 0);
   for (const Skin& skin : model_.skins)
@@ -264,22 +263,28 @@ void RigFit::find_joints() {
       }
     }
   }
-  const Pose& rest = whole_rest_;
   std::vector<int> order;
   for (size_t n = 0; n < model_.nodes.size(); ++n)
     if (model_.nodes[n].parent < 0) order.push_back(static_cast<int>(n));
   for (size_t i = 0; i < order.size(); ++i)
     for (const int child : model_.nodes[static_cast<size_t>(order[i])].children) order.push_back(child);
-  const std::vector<glm::dmat4> globals = global_matrices(model_, rest);
   for (const int node : order) {
     const auto n = static_cast<size_t>(node);
-    if (!used[n] || rest[n].fixed) continue;
+    if (!used[n] || whole_rest_[n].fixed) continue;
     Joint joint;
     joint.node = node;
     joint.parent = joint_above(model_.nodes[n].parent);
     joint_of_node_[n] = static_cast<int>(joints_.size());
     joints_.push_back(joint);
   }
+  number_unknowns(carries);
+}
+
+// Every joint turns; some shift. The path of a body goes into one joint: where two move the same vertices, only the
+// upper one of those that the model's own clips move shifts. carries: by node, whether vertices follow it.
+void RigFit::number_unknowns(const std::vector<char>& carries) {
+  const Pose& rest = whole_rest_;
+  const std::vector<glm::dmat4> globals = global_matrices(model_, rest);
   // By joint: its only child where it moves no vertex but those of that child.
   std::vector<int> children(joints_.size(), 0), only(joints_.size(), -1);
   for (size_t j = 0; j < joints_.size(); ++j) {
@@ -679,12 +684,12 @@ RigPose RigFit::fit(const std::vector<double>& frame, const RigPose& start, cons
   RigPose pose = start;
   double now = energy(task, pose), damping = first_damping;
   const size_t n = unknowns_;
+  // Turns and shifts have means of their own: the ratio of their diagonals is that of the unit squared.
+  std::vector<size_t> shifts(n, 0);
+  for (const Joint& joint : joints_)
+    for (int c = 0; c < 3 && joint.translation >= 0; ++c) shifts[static_cast<size_t>(joint.translation + c)] = 1;
   for (int round = 0; round < most_steps; ++round) {
     const System to = system(task, pose);
-    // of turns and of shifts apart: the ratio of their diagonals is that of the unit squared
-    std::vector<std::size_t> shifts(n, 0);
-    for (const Joint& joint : joints_)
-      for (int c = 0; c < 3 && joint.translation >= 0; ++c) shifts[static_cast<size_t>(joint.translation + c)] = 1;
     double mean[2] = {0, 0}, count[2] = {0, 0};
     for (size_t i = 0; i < n; ++i) {
       mean[shifts[i]] += to.matrix[i * (n + 1)];

@@ -113,7 +113,8 @@ class RigFit {
   struct Kept {
     int of_model = -1, parent = -1;  // parent: in nodes_, -1 at the top
   };
-  void find_joints(), find_vertices(const FlatMesh&mesh), keep_moving_nodes();
+  void find_joints(), number_unknowns(const std::vector<char>&carries);
+  void find_vertices(const FlatMesh&mesh), keep_moving_nodes();
   // The joint of a node, or of the nearest above it; -1 for none.
   int joint_above(int node) const;
   void find_ties(const FlatMesh& mesh, const std::vector<RigTie>& ties);

@@ -8,14 +8,6 @@
 #include "gltf/clip_binding.h"
 
 namespace hf_gltf {
-namespace {
-
-// What the skeleton says is taken from here on. Below, it is a guess.
-constexpr double enough = 0.5;
-// A trunk that rises by this cosine stands upright: 53 degrees.
-constexpr double upright_trunk = 0.6;
-}  // namespace
-
 SkeletonBody::SkeletonBody(const JointSide& given, hf_inner::Memory& memory)
     : side(given), arrays(given.model, given.mesh, rest_of(given)), input(arrays.input<CharacterInput>()) {
   if (given.axes) {
@@ -33,8 +25,7 @@ SkeletonBody::SkeletonBody(const JointSide& given, hf_inner::Memory& memory)
 
 void SkeletonBody::look() {
   const Character& c = *character;
-  if (c.role_confidence < enough || c.up_confidence < enough || c.forward_confidence < enough)
-    doubt = "the skeleton of " + side.model.name + " is not understood";
+  if (!is_understood(c)) doubt = "the skeleton of " + side.model.name + " is not understood";
   size_t left = 0, right = 0;
   const std::vector<glm::dmat4> globals = global_matrices(side.model, rest_of());
   for (const Chain& chain : c.chains) {

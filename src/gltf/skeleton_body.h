@@ -20,6 +20,15 @@ using hf_inner::CharacterInput;
 using hf_inner::Role;
 using hf_inner::Side;
 
+// What the skeleton says is taken from here on. Below, it is a guess.
+inline constexpr double enough = 0.5;
+// A trunk that rises by this cosine stands upright: 53 degrees.
+inline constexpr double upright_trunk = 0.6;
+
+inline bool is_understood(const Character& c) {
+  return c.role_confidence >= enough && c.up_confidence >= enough && c.forward_confidence >= enough;
+}
+
 inline glm::dvec3 vector_of(const hf_inner::Vec3& v) { return {v.x, v.y, v.z}; }
 inline glm::dvec3 place_of(const std::vector<glm::dmat4>& globals, int node) {
   return glm::dvec3(globals[static_cast<size_t>(node)][3]);

@@ -5,17 +5,11 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "gltf/character_arrays.h"
-#include "gltf/pose_numbers.h"
-#include "skeleton/character.h"
+#include "gltf/skeleton_body.h"
 
 namespace hf_gltf {
 namespace {
 
-using hf_inner::Character;
-
-// What the skeleton says is taken from here on. Below, it is a guess.
-constexpr double enough = 0.5;
 // A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half as much
 // leaves bodies that shift their weight to one leg; twice as much takes a stride for a stance.
 constexpr double even = 0.08;
@@ -28,8 +22,6 @@ struct Look {
   double uneven = 1e300;
 };
 
-glm::dvec3 vector_of(const hf_inner::Vec3& v) { return {v.x, v.y, v.z}; }
-
 // How far arms and legs are from mirroring each other: the mean over their joints, a share of the height.
 double unevenness(const Character& c) {
   const glm::dvec3 left = vector_of(c.left);
@@ -37,8 +29,8 @@ double unevenness(const Character& c) {
   double count = 0, sum = 0;
   const auto each_pair = [&](auto&& visit) {
     for (size_t j = 0; j < c.mates.size(); ++j) {
-      const bool limb = c.roles[j] == hf_inner::Role::arm || c.roles[j] == hf_inner::Role::leg ||
-                        c.roles[j] == hf_inner::Role::hand || c.roles[j] == hf_inner::Role::foot;
+      const bool limb =
+          c.roles[j] == Role::arm || c.roles[j] == Role::leg || c.roles[j] == Role::hand || c.roles[j] == Role::foot;
       if (limb && c.mates[j] > static_cast<std::int32_t>(j))
         visit(vector_of(c.frames[j].origin), vector_of(c.frames[static_cast<size_t>(c.mates[j])].origin));
     }
@@ -55,7 +47,17 @@ double unevenness(const Character& c) {
   return sum / count / c.height;
 }
 
-Look look_at(const Model& model, const FlatMesh& mesh, const Pose& pose, const Axes* axes) {
+// Whether a body that is said to face somewhere is seen to face there.
+bool faces_as_said(hf_inner::CharacterInput input, hf_inner::Memory& memory) {
+  constexpr double near = 0.7;  // a cosine: 45 degrees
+  const glm::dvec3 said(input.forward[0], input.forward[1], input.forward[2]);
+  input.forward = nullptr;
+  const Character c = know_character(input, memory);
+  return c.forward_confidence < enough || glm::dot(vector_of(c.forward), said) >= near * glm::length(said);
+}
+
+// of_file: the pose is that of the file, which axes and the file's own words are about.
+Look look_at(const Model& model, const FlatMesh& mesh, const Pose& pose, const Axes* axes, bool of_file) {
   const CharacterArrays arrays(model, mesh, pose);
   auto input = arrays.input<hf_inner::CharacterInput>();
   if (axes) {
@@ -66,7 +68,7 @@ Look look_at(const Model& model, const FlatMesh& mesh, const Pose& pose, const A
   try {
     hf_inner::Memory memory;
     const Character c = know_character(input, memory);
-    out.understood = c.role_confidence >= enough && c.up_confidence >= enough && c.forward_confidence >= enough;
+    out.understood = is_understood(c) && (of_file || !input.forward || faces_as_said(input, memory));
     out.uneven = unevenness(c);
   } catch (const hf_inner::Error&) {  // more joints than any character has
   }
@@ -176,13 +178,13 @@ FlatMesh standing(FlatMesh mesh, const Model& model, const Pose& pose) {
 std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, const Axes* axes) {
   if (model.skins.empty()) return {};
   const Pose rest = rest_pose(model);
-  const Look own = look_at(model, mesh, rest, axes);
+  const Look own = look_at(model, mesh, rest, axes, true);
   if (own.understood && own.uneven <= even) return {};
   std::optional<Stance> best;
   // A pose that is understood and more than twice as even is better; so is any that is understood where none was.
   double uneven = own.understood ? 0.5 * own.uneven : 1e300;
   const auto offer = [&](const Pose& pose, const std::string& from) {
-    const Look look = look_at(model, standing(mesh, model, pose), pose, axes);
+    const Look look = look_at(model, standing(mesh, model, pose), pose, axes, false);
     if (!look.understood || !(look.uneven < uneven)) return;
     uneven = look.uneven;
     best = Stance{pose, !own.understood, from};

@@ -104,8 +104,8 @@ void ContactSearch::read_skeleton() {
   for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
     const std::size_t row = count * at(mesh_.given_of_inner[v]);
     const auto most = std::max_element(skin_.weights + row, skin_.weights + row + count);
-    heaviest_.push_back(skin_.joints[most - skin_.weights]);
-    owns[heaviest_[v]] = 1;
+    heaviest_.push_back(*most > 0 ? skin_.joints[most - skin_.weights] : Mesh::none);
+    if (*most > 0) owns[at(heaviest_[v])] = 1;
   }
   tree_of_joints_.emplace(skin_.parents, owns, memory_);
 }
@@ -113,13 +113,18 @@ void ContactSearch::read_skeleton() {
 bool ContactSearch::are_kin(Index a, Index b) const noexcept {
   if (!tree_of_joints_) return false;
   constexpr double owned = 0.5;  // more than half of a vertex
-  for (Index i = joint_start_[at(a)]; i < joint_start_[at(a) + 1]; ++i) {
-    for (Index j = joint_start_[at(b)]; j < joint_start_[at(b) + 1]; ++j) {
-      const JointWeight &x = joint_[at(i)], &y = joint_[at(j)];
-      if (x.weight > owned && y.weight > owned && tree_of_joints_->steps(x.joint, y.joint) == 1) return true;
+  const auto carries = [&](Index above, Index below) {
+    const auto first = joint_.begin() + joint_start_[at(above)], last = joint_.begin() + joint_start_[at(above) + 1];
+    for (Index j = joint_start_[at(below)]; j < joint_start_[at(below) + 1]; ++j) {
+      if (!(joint_[at(j)].weight > owned)) continue;
+      const std::uint32_t parent = tree_of_joints_->above(joint_[at(j)].joint);
+      const auto found =
+          std::lower_bound(first, last, parent, [](const JointWeight& x, std::uint32_t y) { return x.joint < y; });
+      if (found != last && found->joint == parent && found->weight > owned) return true;
     }
-  }
-  return false;
+    return false;
+  };
+  return carries(a, b) || carries(b, a);
 }
 
 double ContactSearch::least_skin_cost(Index a, Index b) const noexcept {
@@ -181,8 +186,9 @@ Contact ContactSearch::contact(Index v, Index triangle, double squared_length) c
     squared(mesh_.positions[at(v)], triangle, share);
     const Index* corner = mesh_.triangle(triangle);
     if (tree_of_joints_) {
-      const Index nearest = corner[std::max_element(share, share + 3) - share];
-      out.steps = tree_of_joints_->steps(heaviest_[at(v)], heaviest_[at(nearest)]);
+      const Index a = heaviest_[at(v)], b = heaviest_[at(corner[std::max_element(share, share + 3) - share])];
+      if (a != Mesh::none && b != Mesh::none)
+        out.steps = tree_of_joints_->steps(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
     }
     out.cost += skin_distance * difference(skin_, mesh_, v, corner, share) * std::max(1, out.steps);
   }

@@ -14,7 +14,7 @@ namespace hf_inner {
 struct Contact {
   Index vertex, triangle;
   double distance, cost;  // cost: with the difference of skin weights
-  Index steps = 0;        // between the joints of both ends in the skeleton; 0: the same joint, or no skeleton
+  Index steps = 0;        // between the joints of both ends in the skeleton; 0: the same joint, or one is not known
   // What skin weights add to the distance, for neighbours in the skeleton.
   double unlike() const noexcept { return (cost - distance) / std::max(1, steps); }
 };
@@ -80,7 +80,7 @@ class ContactSearch {
   Vector<Chunk> chunk_;
   Vector<Index> joint_start_;  // the joints of piece p: joint_[joint_start_[p] .. joint_start_[p + 1]), ascending
   Vector<JointWeight> joint_;
-  Vector<std::uint16_t> heaviest_;  // joint by vertex; empty without a skeleton
+  Vector<Index> heaviest_;  // joint by vertex, Mesh::none where all weights are 0; empty without a skeleton
   std::optional<JointTree> tree_of_joints_;
 };
 

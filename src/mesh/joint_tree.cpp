@@ -1,33 +1,43 @@
 #include "mesh/joint_tree.h"
 
+#include <utility>
+
 #include "hf/base.h"
 
 namespace hf_inner {
 
 JointTree::JointTree(Span<const std::uint32_t> parents, Span<const std::uint8_t> owns, Memory& memory)
-    : parent_(parents.begin(), parents.end(), &memory),
-      depth_(parents.size(), -1, &memory),
-      owners_(parents.size(), 0, &memory) {
+    : above_(parents.size() + 1, 0, &memory),
+      far_above_(above_.size(), 0, &memory),
+      depth_(above_.size(), -1, &memory) {
+  const std::uint32_t top = static_cast<std::uint32_t>(parents.size());
+  above_[top] = far_above_[top] = top;
+  depth_[top] = 0;
   Vector<std::uint32_t> way(&memory);
-  for (std::size_t j = 0; j < parents.size(); ++j) {
-    way.clear();
-    for (std::uint32_t at = static_cast<std::uint32_t>(j); at != HF_NO_INDEX && depth_[at] < 0; at = parents[at])
-      way.push_back(at);
+  for (std::uint32_t j = 0; j < top; ++j) {
+    const auto parent = [&](std::uint32_t joint) { return parents[joint] == HF_NO_INDEX ? top : parents[joint]; };
+    for (std::uint32_t at = j; depth_[at] < 0; at = parent(at)) way.push_back(at);
     for (; !way.empty(); way.pop_back()) {
-      const std::uint32_t joint = way.back(), above = parents[joint];
-      depth_[joint] = above == HF_NO_INDEX ? 0 : depth_[above] + 1;
-      owners_[joint] = (above == HF_NO_INDEX ? 0 : owners_[above]) + owns[joint];
+      const std::uint32_t joint = way.back(), direct = parent(joint),
+                          up = direct == top || owns[direct] ? direct : above_[direct], far = far_above_[up];
+      above_[joint] = up;
+      depth_[joint] = depth_[up] + 1;
+      // Two steps of one length above make one of twice that: any depth is reached in about 2 log steps.
+      far_above_[joint] = depth_[up] - depth_[far] == depth_[far] - depth_[far_above_[far]] ? far_above_[far] : up;
     }
   }
 }
 
 Index JointTree::steps(std::uint32_t a, std::uint32_t b) const noexcept {
-  const Index both = owners_[a] + owners_[b];
-  while (a != b && a != HF_NO_INDEX && b != HF_NO_INDEX) {
-    std::uint32_t& deeper = depth_[a] >= depth_[b] ? a : b;
-    deeper = parent_[deeper];
+  const Index both = depth_[a] + depth_[b];
+  if (depth_[a] < depth_[b]) std::swap(a, b);
+  while (depth_[a] > depth_[b]) a = depth_[far_above_[a]] >= depth_[b] ? far_above_[a] : above_[a];
+  while (a != b) {
+    const Vector<std::uint32_t>& up = far_above_[a] != far_above_[b] ? far_above_ : above_;
+    a = up[a];
+    b = up[b];
   }
-  return a == b && a != HF_NO_INDEX ? both - 2 * owners_[a] : both;
+  return both - 2 * depth_[a];
 }
 
 std::uint32_t joint_in_circle(Span<const std::uint32_t> parents, Memory& memory) {

@@ -89,7 +89,7 @@ void read_parents(const hf_links_desc& desc, const Mesh& mesh, Memory& memory, S
   }
   out.parents = {desc.joint_parents, desc.joint_count};
   if (const std::uint32_t j = joint_in_circle(out.parents, memory); j != HF_NO_INDEX)
-    fail(HF_ERROR_INVALID_ARGUMENT, j, "the parents of joint %u go in a circle", j);
+    fail(HF_ERROR_INVALID_ARGUMENT, j, "joint %u is an ancestor of itself", j);
   for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
     for (std::size_t i = 0; i < desc.influence_count; ++i) {
       const std::uint32_t joint = desc.joints[std::size_t{v} * desc.influence_count + i];

@@ -74,19 +74,29 @@ SideCrosses SideCrosses::find(const FluxSurface& surface, const Connection& conn
 
 void leave_out_near(const Mesh& mesh, const Topology& topology, Span<const Index> vertices, double far,
                     Vector<Complex>& wish) {
+  struct Reached {
+    double distance;
+    Index vertex;
+    bool operator<(const Reached& o) const noexcept { return distance > o.distance; }  // the nearest on top of the heap
+  };
   Vector<double> distance(wish.size(), HUGE_VAL, wish.get_allocator());
-  Vector<Index> front(vertices.begin(), vertices.end(), wish.get_allocator());
-  for (const Index v : front) distance[at(v)] = 0;
-  // A vertex that is found on a shorter way is visited again.
-  for (std::size_t next = 0; next < front.size(); ++next) {
-    const Index v = front[next];
+  Vector<Reached> heap(wish.get_allocator());
+  const auto reach = [&](Index v, double here) {
+    if (here > far || here >= distance[at(v)]) return;
+    distance[at(v)] = here;
     wish[at(v)] = 0;
-    for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {
-      const Index w = topology.neighbour[at(i)];
-      const double here = distance[at(v)] + norm(mesh.positions[at(w)] - mesh.positions[at(v)]);
-      if (here > far || here >= distance[at(w)]) continue;
-      distance[at(w)] = here;
-      front.push_back(w);
+    heap.push_back({here, v});
+    std::push_heap(heap.begin(), heap.end());
+  };
+  for (const Index v : vertices) reach(v, 0);
+  while (!heap.empty()) {
+    std::pop_heap(heap.begin(), heap.end());
+    const Reached here = heap.back();
+    heap.pop_back();
+    if (here.distance > distance[at(here.vertex)]) continue;  // reached on a shorter way since
+    for (Index i = topology.neighbour_start[at(here.vertex)]; i < topology.neighbour_start[at(here.vertex) + 1]; ++i) {
+      const Index next = topology.neighbour[at(i)];
+      reach(next, here.distance + norm(mesh.positions[at(next)] - mesh.positions[at(here.vertex)]));
     }
   }
 }

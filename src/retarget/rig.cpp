@@ -178,7 +178,7 @@ Rig::Rig(const RetargetSide& side, const char* side_name, Memory& m)
   find_flips(*this, rest);
   find_ends(*this, side, m);
   find_legs(*this, side.character, m);
-  find_trunk(*this, side.character, m);
+  find_trunk(*this, side.character);
   find_soles(*this, side, m);
   if (side.rest) face_rest(*this);
 }

@@ -98,7 +98,7 @@ struct Rig {
 // rig.cpp, rig_limbs.cpp, rig_skin.cpp
 void read_rest(Rig& rig, const RetargetSide& side, Memory& memory);
 void find_order(Rig& rig, Memory& memory);
-void find_trunk(Rig& rig, const Character& character, Memory& memory);
+void find_trunk(Rig& rig, const Character& character);
 Segments cut_chain(const Rig& rig, const Character& character, const Chain& chain, Memory& memory);
 void find_legs(Rig& rig, const Character& character, Memory& memory);
 void find_soles(Rig& rig, const RetargetSide& side, Memory& memory);

@@ -132,7 +132,7 @@ void find_legs(Rig& rig, const Character& character, Memory& memory) {
   }
 }
 
-void find_trunk(Rig& rig, const Character& character, Memory& memory) {
+void find_trunk(Rig& rig, const Character& character) {
   const auto visit = [&](Role role, auto&& call) {
     for (const Chain& chain : character.chains) {
       if (chain.role == role) call(first_joint(character, chain));
@@ -161,7 +161,6 @@ void find_trunk(Rig& rig, const Character& character, Memory& memory) {
   double rise = character.trunk;
   if (rig.head >= 0) rise = dot(unit_vector(rig.rest.place[at(rig.head)] - rig.hip_place(rig.rest)), rig.up);
   rig.upright = rig.legs.size() == 2 && rise > 0.6;
-  (void)memory;
 }
 
 }  // namespace hf_inner

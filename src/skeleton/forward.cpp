@@ -52,6 +52,7 @@ struct Facts {
 // The middle of the sole against the ankle, and the joint after the ankle. Without an ankle the knee counts, if it is
 // as good as under the hip.
 void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
+  constexpr double under = 0.5;  // in halves of a sole: a knee that is farther from under its hip is bent
   for (int side = 0; side < 2; ++side) {
     const auto& path = limb.paths[side];
     const std::size_t thigh = leads_out(body, limb) ? 1 : 0, ankle = ankle_of(body, path, thigh);
@@ -71,7 +72,7 @@ void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
     });
     if (!(front > back)) continue;
     const auto ahead = [&](Vec3 p) { return (front + back - 2 * dot(p, body.forward)) / (front - back); };
-    if (std::fabs(ahead(joint) - ahead(upper)) < 0.5) facts.toes.add(ahead(joint));
+    if (std::fabs(ahead(joint) - ahead(upper)) < under) facts.toes.add(ahead(joint));
   }
 }
 

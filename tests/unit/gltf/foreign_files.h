@@ -14,7 +14,7 @@ struct FbxFile {
 };
 
 // A strip of 10 x 100 on a bone at 0 and one at 50, which a clip of a second turns about z. The corner at (20, 0, 0)
-// has no bone. The two triangles of the quad have one material, the last has another.
+// has no bone. The two triangles of the quad have one material, the last has another. Texture coordinates: (x / 20, y / 100).
 inline std::string fbx_text(const FbxFile& file = {}) {
   std::string settings;
   const char* names[] = {"Coord", "Up", "Front"};
@@ -47,8 +47,19 @@ Objects:  {
       ReferenceInformationType: "IndexToDirect"
       Materials: *2 { a: 0,1 }
     }
+    LayerElementUV: 0 {
+      Version: 101
+      Name: ""
+      MappingInformationType: "ByVertice"
+      ReferenceInformationType: "Direct"
+      UV: *10 { a: 0,0,0.5,0,0.5,1,0,1,1,0 }
+    }
     Layer: 0 {
       Version: 100
+      LayerElement:  {
+        Type: "LayerElementUV"
+        TypedIndex: 0
+      }
       LayerElement:  {
         Type: "LayerElementMaterial"
         TypedIndex: 0

@@ -2,6 +2,7 @@
 // touch.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 #include <set>
@@ -21,6 +22,7 @@ using hf_test::PlainMesh;
 // Boxes with a joint each. Feet, thighs, and hands and thighs touch, as in many rest poses. Helper joints without
 // vertices lie between some parents and children.
 struct Robot {
+  Robot() = default;
   explicit Robot(std::uint32_t seed) : random(seed) {
     const double near = uniform(0.001, 0.006), knee = uniform(0.013, 0.03), touch = 0.002;
     const int pelvis = add(-1, {-0.2, 0.9, 0}, {0.2, 1.1, 0.25});
@@ -66,6 +68,19 @@ struct Robot {
     vertex_joint.insert(vertex_joint.end(), part.vertex_count(), static_cast<std::uint16_t>(joint));
     part_of.insert(part_of.end(), part.vertex_count(), parts);
     return parts++;
+  }
+  // The robot stands on its head and its last vertex comes first, so that children stand before parents.
+  void turn_round() {
+    const std::size_t n = part_of.size();
+    std::vector<double> positions;
+    for (std::size_t v = n; v-- > 0;) {
+      const double* p = &mesh.positions[3 * v];
+      positions.insert(positions.end(), {-p[0], -p[1], p[2]});
+    }
+    mesh.positions = positions;
+    for (auto& corner : mesh.triangles) corner = static_cast<std::uint32_t>(n) - 1 - corner;
+    std::reverse(vertex_joint.begin(), vertex_joint.end());
+    std::reverse(part_of.begin(), part_of.end());
   }
   // The links of the parts, as pairs of parts.
   using Pairs = std::set<std::pair<int, int>>;
@@ -137,9 +152,25 @@ TEST(RobotLinks, no_link_is_false_and_every_joint_holds) {
 TEST(RobotLinks, every_contact_of_parent_and_child_is_linked_and_not_that_of_the_tree_alone) {
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
     Robot robot(seed);
-    const Robot::Pairs pairs = robot.pairs_of(robot.link(true)->links);
-    for (const auto& [plate, foot] : robot.plate_touches)
-      EXPECT_EQ(pairs.count({std::min(plate, foot), std::max(plate, foot)}), 1u) << "seed " << seed;
+    for (const bool round : {false, true}) {
+      if (round) robot.turn_round();
+      const Robot::Pairs pairs = robot.pairs_of(robot.link(true)->links);
+      for (const auto& [plate, foot] : robot.plate_touches)
+        EXPECT_EQ(pairs.count({std::min(plate, foot), std::max(plate, foot)}), 1u) << "seed " << seed << " " << round;
+    }
+  }
+}
+
+// The tree has cheaper links, and looks at no contact of the plate with the foot.
+TEST(RobotLinks, parent_and_child_that_the_tree_does_not_need_are_linked) {
+  for (const bool round : {false, true}) {
+    Robot robot;
+    const int shin = robot.add(-1, {0, 0.13, 0}, {0.2, 1.85, 0.2}),
+              foot = robot.add(shin, {0, 0, 0}, {0.2, 0.129, 0.35}),
+              plate = robot.append_box({0, 0.133, 0.201}, {0.2, 0.6, 0.24}, shin);
+    robot.vertex_weight.assign(robot.part_of.size(), 1.0f);
+    if (round) robot.turn_round();
+    EXPECT_EQ(robot.pairs_of(robot.link(true)->links).count({foot, plate}), 1u) << round;
   }
 }
 
@@ -188,6 +219,23 @@ TEST(RobotLinks, without_a_skeleton_strangers_take_the_place_of_a_knee) {
   EXPECT_TRUE(links->open.empty());
 }
 
+// The skin names a joint for each vertex, but says nothing by a weight of 0.
+TEST(RobotLinks, where_all_weights_are_0_a_skeleton_changes_no_link) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    Robot robot(seed);
+    std::fill(robot.vertex_weight.begin(), robot.vertex_weight.end(), 0.0f);
+    Robot same = robot;
+    const auto with = robot.link(true), without = same.link(false);
+    ASSERT_EQ(with->links.size(), without->links.size()) << "seed " << seed;
+    for (std::size_t i = 0; i < with->links.size(); ++i) {
+      const Link &a = with->links[i], &b = without->links[i];
+      EXPECT_EQ(a.vertex, b.vertex);
+      EXPECT_TRUE(std::equal(a.corner, a.corner + 3, b.corner));
+      EXPECT_EQ(a.weight, b.weight);
+    }
+  }
+}
+
 TEST(RobotLinks, a_piece_that_only_strangers_touch_is_linked_to_them) {
   Robot robot(0);
   robot.parents[robot.joint_of[2]] = HF_NO_INDEX;  // the head has a skeleton of its own
@@ -210,6 +258,52 @@ TEST(JointTree, steps_count_joints_that_own_vertices) {
   const std::vector<std::uint32_t> circle = {HF_NO_INDEX, 3, 1, 2};
   EXPECT_NE(joint_in_circle(circle, memory), HF_NO_INDEX);
   EXPECT_NE(joint_in_circle(circle, memory), 0u);
+}
+
+// Walks up joint by joint.
+Index slow_steps(Span<const std::uint32_t> parents, Span<const std::uint8_t> owns, std::uint32_t a, std::uint32_t b) {
+  const auto way = [&](std::uint32_t joint) {
+    std::vector<std::uint32_t> out;
+    for (; joint != HF_NO_INDEX; joint = parents[joint]) out.push_back(joint);
+    return out;
+  };
+  std::vector<std::uint32_t> to_a = way(a), to_b = way(b);
+  while (!to_a.empty() && !to_b.empty() && to_a.back() == to_b.back()) {
+    const std::uint32_t common = to_a.back();
+    to_a.pop_back();
+    to_b.pop_back();
+    // from the joint itself its own step does not count
+    if (owns[common] && (to_a.empty() || to_b.empty())) break;
+  }
+  Index out = 0;
+  for (const auto* part : {&to_a, &to_b}) {
+    for (const std::uint32_t joint : *part) out += owns[joint];
+  }
+  return out;
+}
+
+TEST(JointTree, steps_are_those_of_a_walk_in_chains_bushes_and_forests) {
+  Memory memory;
+  std::mt19937 random(7);
+  for (int forest = 0; forest < 60; ++forest) {
+    const std::uint32_t count = 1 + random() % 200, reach = forest % 3 == 0 ? 1 : 1 + random() % 20;
+    std::vector<std::uint32_t> order(count), parents(count);
+    for (std::uint32_t j = 0; j < count; ++j) order[j] = j;
+    std::shuffle(order.begin(), order.end(), random);  // parents stand anywhere
+    std::vector<std::uint8_t> owns(count);
+    for (std::uint32_t j = 0; j < count; ++j) {
+      const bool root = j == 0 || random() % 50 == 0;
+      parents[order[j]] = root ? HF_NO_INDEX : order[j - 1 - random() % std::min(j, reach)];
+      owns[j] = random() % 4 != 0;
+    }
+    const JointTree tree(parents, owns, memory);
+    for (int k = 0; k < 300; ++k) {
+      const std::uint32_t a = random() % count, b = random() % count;
+      if (owns[a] && owns[b]) {
+        ASSERT_EQ(tree.steps(a, b), slow_steps(parents, owns, a, b)) << "forest " << forest;
+      }
+    }
+  }
 }
 
 }  // namespace

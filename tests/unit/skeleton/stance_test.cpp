@@ -111,13 +111,13 @@ void turn_node(Model& model, const std::string& name, const glm::dvec3& axis, do
 std::string bone(int number) { return "Bone." + std::to_string(number); }
 
 // Left arm 1 to 4, right arm 5 to 8, head 9, left leg 10 to 12, right leg 13 to 15.
-void stride(Model& model) {
-  turn_node(model, bone(0), {1, 0, 0}, 25);
-  turn_node(model, bone(2), {1, 0, 0}, 50);
-  turn_node(model, bone(6), {1, 0, 0}, -60);
-  turn_node(model, bone(10), {1, 0, 0}, -50);
-  turn_node(model, bone(13), {1, 0, 0}, 40);
-  turn_node(model, bone(14), {1, 0, 0}, 60);
+void stride(Model& model, double share = 1) {
+  turn_node(model, bone(0), {1, 0, 0}, share * 25);
+  turn_node(model, bone(2), {1, 0, 0}, share * 50);
+  turn_node(model, bone(6), {1, 0, 0}, share * -60);
+  turn_node(model, bone(10), {1, 0, 0}, share * -50);
+  turn_node(model, bone(13), {1, 0, 0}, share * 40);
+  turn_node(model, bone(14), {1, 0, 0}, share * 60);
 }
 
 double apart(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
@@ -143,45 +143,102 @@ TEST(Stance, ABodyStoredInMidStrideStandsAsItsSkinWasBound) {
   }
 }
 
-TEST(Stance, AClipThatBeginsEvenlyStandsForAPoseThatIsNot) {
-  const Rig rig = make_block_rig(false);
-  const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
+// In the stride, and bound in it: only a clip can say how the body stands.
+Model bound_in_stride(const Model& even, double share = 1) {
   Model model = even;
-  stride(model);
-  // Bound in the stride as well: only the clip says how the body stands.
+  stride(model, share);
   const std::vector<glm::dvec3> placed = flatten(model).positions;
   auto& stored = model.meshes[0].primitives[0].positions;
-  ASSERT_EQ(stored.size(), placed.size());
   for (size_t v = 0; v < placed.size(); ++v) stored[v] = glm::vec3(placed[v]);
   const std::vector<glm::dmat4> globals = global_matrices(model, rest_pose(model));
   for (size_t k = 0; k < model.skins[0].joints.size(); ++k)
     model.skins[0].inverse_bind[k] = glm::mat4(glm::inverse(globals[static_cast<size_t>(model.skins[0].joints[k])]));
-  ASSERT_LT(apart(flatten(model).positions, placed), 1e-4);
+  for (auto& node : model.nodes)
+    if (node.matrix) hf_gltf::split_matrix(node);
+  EXPECT_LT(apart(flatten(model).positions, placed), 1e-4);
+  return model;
+}
+
+// The pose of a model in numbers that a clip can hold.
+Pose parts_of(const Model& model) {
+  std::vector<double> numbers;
+  hf_gltf::append_trs(rest_pose(model), numbers);
+  return hf_gltf::pose_of(rest_pose(model), numbers);
+}
+
+TEST(Stance, AClipThatBeginsEvenlyStandsForAPoseThatIsNot) {
+  const Rig rig = make_block_rig(false);
+  const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
+  Model model = bound_in_stride(even);
   EXPECT_FALSE(find_stance(model, flatten(model), nullptr)) << "there is no other pose";
-  hf_gltf::Animation clip;
-  clip.name = "idle";
-  for (size_t n = 0; n < model.nodes.size(); ++n) {
-    const glm::dquat q = glm::normalize(glm::quat_cast(glm::dmat3(even.nodes[n].matrix.value_or(glm::dmat4(1)))));
-    hf_gltf::Channel channel;
-    channel.node = static_cast<int>(n);
-    channel.path = hf_gltf::Path::rotation;
-    channel.width = 4;
-    channel.times = {0};
-    channel.values = {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z),
-                      static_cast<float>(q.w)};
-    auto& node = model.nodes[n];
-    if (!node.matrix) continue;
-    const glm::dquat own = glm::normalize(glm::quat_cast(glm::dmat3(*node.matrix)));
-    node.translation = glm::dvec3((*node.matrix)[3]);
-    node.rotation = glm::quat(own);
-    node.matrix.reset();
-    clip.channels.push_back(channel);
-  }
-  model.animations.push_back(clip);
-  ASSERT_LT(apart(flatten(model).positions, placed), 1e-4);
+  model.animations.push_back(hf_gltf::clip_of_poses(model, "idle", {0}, {parts_of(even)}));
   const auto found = find_stance(model, flatten(model), nullptr);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->from, "as at the start of the clip \"idle\"");
+}
+
+TEST(Stance, AClipThatGetsUpStandsAtItsEnd) {
+  const Rig rig = make_block_rig(false);
+  const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
+  Model model = bound_in_stride(even), other = even;
+  stride(other, 1.3);
+  model.animations.push_back(hf_gltf::clip_of_poses(model, "get up", {0, 1}, {parts_of(other), parts_of(even)}));
+  const auto found = find_stance(model, flatten(model), nullptr);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->from, "as at the end of the clip \"get up\"");
+}
+
+TEST(Stance, AClipThatIsHardlyMoreEvenIsNone) {
+  const Rig rig = make_block_rig(false);
+  const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
+  const hf_gltf::Axes given;  // with them the body is understood
+  for (const double own : {0.6, 0.8, 1.0}) {
+    Model model = bound_in_stride(even, own), other = even;
+    stride(other, 0.8 * own);
+    model.animations.push_back(hf_gltf::clip_of_poses(model, "walk", {0}, {parts_of(other)}));
+    EXPECT_FALSE(find_stance(model, flatten(model), &given)) << own;
+  }
+}
+
+// New clips face as those that the file has.
+TEST(Stance, ABodyThatAClipTurnsMovesAsThatClipFaces) {
+  const Rig rig = make_block_rig(false);
+  const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
+  Model raised = even;
+  turn_node(raised, bone(2), {1, 0, 0}, -70);
+  turn_node(raised, bone(14), {1, 0, 0}, -40);
+  Model source = even;
+  for (auto& node : source.nodes)
+    if (node.matrix) hf_gltf::split_matrix(node);
+  const auto clip = hf_gltf::clip_of_poses(source, "raise", {0}, {parts_of(raised)});
+  const auto source_mesh = flatten(source);
+  for (const double yaw : {0.0, 60.0, 90.0, 180.0}) {
+    const Model turned = make_rig_model(PlacedRig(rig, Placing{1, yaw, false, false, {}}), "body.glb");
+    Model model = bound_in_stride(even);
+    model.animations.push_back(hf_gltf::clip_of_poses(model, "idle", {0}, {parts_of(turned)}));
+    const auto stance = find_stance(model, flatten(model), nullptr);
+    ASSERT_TRUE(stance) << yaw;
+    const auto mesh = hf_gltf::standing(flatten(model), model, stance->pose);
+    const hf_gltf::SkeletonPair pair({source, source_mesh}, {model, mesh, nullptr, &stance->pose});
+    ASSERT_EQ(pair.refusal(), "") << yaw;
+    const hf_gltf::JointClip played = pair.play(clip, {0}, {});
+    std::vector<glm::dvec3> wanted = hf_gltf::posed_positions(source, source_mesh, played.source[0]);
+    const glm::dquat turn = glm::angleAxis(yaw * degree, glm::dvec3(0, 1, 0));
+    for (glm::dvec3& p : wanted) p = turn * p;
+    EXPECT_LT(apart(hf_gltf::posed_positions(model, mesh, played.target[0]), wanted), 2e-3) << yaw;
+  }
+}
+
+TEST(Stance, AClipThatFacesElsewhereThanTheCallerSaysIsNone) {
+  const Rig rig = make_block_rig(false);
+  const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
+  const hf_gltf::Axes given;  // up y, forward z
+  for (const double yaw : {0.0, 90.0, 180.0}) {
+    const Model turned = make_rig_model(PlacedRig(rig, Placing{1, yaw, false, false, {}}), "body.glb");
+    Model model = bound_in_stride(even);
+    model.animations.push_back(hf_gltf::clip_of_poses(model, "idle", {0}, {parts_of(turned)}));
+    EXPECT_EQ(find_stance(model, flatten(model), &given).has_value(), yaw == 0) << yaw;
+  }
 }
 
 TEST(Stance, MotionCountsFromTheStanceNotFromThePoseOfTheFile) {
