@@ -357,8 +357,8 @@ void run(const Command& options) {
         report.faces, wanted);
   if (options.faces > 0 && std::abs(report.faces - double(options.faces)) > missed_count * options.faces)
     std::printf(
-        "warning     %u faces where %u are asked for: parts, creases or corners need others; try another count or "
-        "--edge\n",
+        "warning     %u faces where %u are asked for: parts, creases or corners need more or fewer; try another "
+        "count or --edge\n",
         report.faces, options.faces);
   if (options.crease > 0) print_creases(measure_creases(input, options.crease, mesh, info.edge_length));
   if (!options.out.empty()) {

@@ -1,4 +1,4 @@
-// See foreign_file.h. Here: the process that assimp runs in. What its scene means is foreign_scene.cpp's matter.
+// Runs assimp in a process of its own (foreign_file.h). foreign_scene.cpp makes a model of the scene that assimp reads.
 #include "gltf/foreign_file.h"
 
 #ifdef HF_GLTF_ASSIMP
@@ -53,7 +53,7 @@ uint64_t own_space() {
   return pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-// The hard limit stands one above: at the soft one of time a signal says which limit it was.
+// The hard limit is one above the soft limit: at the soft limit of time a signal says which limit it was.
 void lower_limit(decltype(RLIMIT_AS) which, uint64_t value) {
   rlimit limit{};
   if (getrlimit(which, &limit) != 0) return;
@@ -62,7 +62,7 @@ void lower_limit(decltype(RLIMIT_AS) which, uint64_t value) {
   setrlimit(which, &limit);
 }
 
-// All of it, or as much as the other end takes.
+// Writes all of it, or as much as the other end takes.
 void write_all(int to, const std::string& text) {
   for (size_t done = 0; done < text.size();) {
     const ssize_t wrote = ::write(to, text.data() + done, text.size() - done);
@@ -71,7 +71,7 @@ void write_all(int to, const std::string& text) {
   }
 }
 
-// The process: one byte, then the GLB behind its warnings and a zero, or a sentence.
+// Runs in the process. Writes one byte, then either warnings, a zero and the GLB, or a sentence.
 [[noreturn]] void work(int to, const std::vector<uint8_t>& bytes, FileKind kind, const std::string& name,
                        uint64_t space, uint32_t seconds) {
   lower_limit(RLIMIT_CORE, 0);
@@ -90,12 +90,12 @@ void write_all(int to, const std::string& text) {
   } catch (const std::exception& error) {
     write_all(to, refused + std::string(error.what()));
   } catch (...) {
-    write_all(to, refused + name + ": assimp fails on it");
+    write_all(to, refused + name + ": assimp fails on it; " + advice_on(FileKind::usd));
   }
   _exit(0);
 }
 
-// What the process wrote, up to a limit; it is ended there.
+// Returns the bytes that the process wrote. Ends the process if there are more than the limit.
 std::string read_all(int from, pid_t process, uint64_t limit) {
   std::string out, block(size_t{1} << 16, '\0');
   for (;;) {
@@ -120,7 +120,7 @@ std::vector<uint8_t> foreign_glb(const std::vector<uint8_t>& bytes, FileKind kin
   const uint64_t memory = limits.free_bytes + limits.bytes_per_byte * bytes.size();
   const uint64_t space = own_space() + memory;
   int ends[2];
-  if (pipe(ends) != 0) fail("no pipe can be opened to read it through; close files and try again");
+  if (pipe(ends) != 0) fail("no pipe can be opened to read it; close other files and try again");
   for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);  // a program that the host starts must not hold it open
   const pid_t process = fork();
   if (process == 0) {
@@ -135,17 +135,17 @@ std::vector<uint8_t> foreign_glb(const std::vector<uint8_t>& bytes, FileKind kin
     while (waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
   }
   close(ends[0]);
-  if (process < 0) fail("no process can be started to read it in; end others and try again");
+  if (process < 0) fail("no process can be started to read it; end other processes and try again");
   if (text.size() > limits.max_glb_bytes)
-    fail("is more than " + std::to_string(limits.max_glb_bytes) + " bytes as glTF; split it");
+    fail("is more than " + std::to_string(limits.max_glb_bytes) + " bytes as glTF; split it into several files");
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-    fail("takes more than " + std::to_string(limits.seconds) + " s to read, it may be damaged" + way_on);
+    fail("takes more than " + std::to_string(limits.seconds) + " s to read and may be damaged" + way_on);
   if (text.substr(0, 1) == std::string(1, out_of_memory))
-    fail("takes more than " + std::to_string(memory >> 20) + " MB to read, it may be damaged" + way_on);
+    fail("takes more than " + std::to_string(memory >> 20) + " MB to read and may be damaged" + way_on);
   if (text.substr(0, 1) == std::string(1, refused)) throw std::runtime_error(text.substr(1));
   const size_t glb = text.find('\0');
   if (text.empty() || WIFSIGNALED(status) || glb == std::string::npos)
-    fail("assimp fails on it, it may be damaged" + way_on);
+    fail("assimp fails on it; it may be damaged" + way_on);
   for (size_t at = 1; at < glb;) {
     const size_t end = text.find('\n', at);
     warnings.push_back(text.substr(at, end - at));

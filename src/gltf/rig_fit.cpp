@@ -681,7 +681,7 @@ RigPose RigFit::fit(const std::vector<double>& frame, const RigPose& start, cons
   const size_t n = unknowns_;
   for (int round = 0; round < most_steps; ++round) {
     const System to = system(task, pose);
-    // of turns and of shifts apart: the ratio of their diagonals is that of the unit squared
+    // turns and shifts have a mean each: the ratio of their diagonals is a length squared
     std::vector<std::size_t> shifts(n, 0);
     for (const Joint& joint : joints_)
       for (int c = 0; c < 3 && joint.translation >= 0; ++c) shifts[static_cast<size_t>(joint.translation + c)] = 1;

@@ -50,7 +50,7 @@ struct Facts {
 };
 
 // The middle of the sole against the ankle, and the joint after the ankle. Without an ankle the knee counts, if it is
-// as good as under the hip.
+// almost below the hip.
 void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
   for (int side = 0; side < 2; ++side) {
     const auto& path = limb.paths[side];
