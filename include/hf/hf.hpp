@@ -303,13 +303,13 @@ struct DeformOptions {
   // handles, added in the same order, and the same transforms. Without restart a frame continues from the last one,
   // so it also depends on that
   bool restart = false;
-  // 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about 0.2 us a
+  // 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about 0.2 us per
   // vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
   int32_t refine = 0;
   // 1: the steps go on from the surface of the last call, instead of starting at the smooth pose. Then one step a frame
   // keeps lengths in a drag as well as 8 do without. If the handles stand still, more calls go on to the minimum. A
   // restart, or a call without it, forgets that surface. Needs a refine of 1 or more. Higher layers start at the
-  // smooth pose. Memory: 72 bytes a vertex
+  // smooth pose. Memory: 72 bytes per vertex
   bool refine_from_last = false;
   // outputs hold vertex_count vertices from this one on; 0 and 0: all
   uint32_t first_vertex = 0;
@@ -819,10 +819,10 @@ class Surface {
   // surface counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
   // Surface::report gives these counts.
   //
-  // A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are doubled
-  // if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a
-  // cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
-  // second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+  // A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
+  // doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf,
+  // hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices
+  // of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
   //
   // positions: `[vertex_count x 3]` of float or double, any unit, any offset
   // triangles: `[triangle_count x 3]` of uint32_t or uint16_t, counter-clockwise seen from outside
@@ -942,7 +942,7 @@ class Surface {
   }
 
   // Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends
-  // are apart than at rest, and 0 if they are nearer.
+  // are apart than at rest, and 0 if they are nearer. The gap of a contact (hf_links_info) is measured in the same way.
   //
   // positions: `[vertex_count x 3]` of float or double: the deformed mesh, from a pose, a transfer or any other source.
   // info: filled in when given
@@ -968,7 +968,8 @@ class Surface {
   //
   // progress: an object to poll and cancel through.
   //
-  // Fails with HF_ERROR_CANCELLED.
+  // Fails with HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+  // HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
   Surface relink(const Links& options = {}, const Progress* progress = nullptr) const {
     Call c(counts_);
     const hf_links_desc desc = options.fill(c, "");

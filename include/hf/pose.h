@@ -253,13 +253,13 @@ typedef struct hf_deform_desc {
                                pose with the same handles, added in the same order, and the same transforms. Without
                                restart a frame continues from the last one, so it also depends on that */
   int32_t refine; /* 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
-                     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
+                     about 0.2 us per vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
                      sharper */
   int32_t refine_from_last; /* 1: the steps go on from the surface of the last call, instead of starting at the smooth
                                pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the
                                handles stand still, more calls go on to the minimum. A restart, or a call without it,
                                forgets that surface. Needs a refine of 1 or more. Higher layers start at the smooth
-                               pose. Memory: 72 bytes a vertex */
+                               pose. Memory: 72 bytes per vertex */
   uint32_t first_vertex;    /* outputs hold vertex_count vertices from this one on; 0 and 0: all */
   uint32_t vertex_count;    /* positions of a range cost only the range; but with higher layers, rigid pieces, refine,
                                limb_refine or normals they cost the whole surface */
@@ -344,7 +344,7 @@ typedef struct hf_handle_proposals_desc {
   hf_progress progress;      /* NULL, or an object to poll and cancel through */
 } hf_handle_proposals_desc;
 
-/* One proposed handle. position and radius are those of hf_handles_desc: the regions of all proposals are disjoint. */
+/* One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint. */
 typedef struct hf_handle_proposal {
   uint32_t vertex;    /* nearest to the position; as given, of welded copies the first */
   uint32_t component; /* as hf_surface_get_components */

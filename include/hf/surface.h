@@ -163,12 +163,12 @@ typedef struct hf_surface_desc {
  * counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
  * hf_surface_get_report gives these counts.
  *
- * A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are doubled if
- * they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a cape,
- * is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the second
- * side alone get opposite normals from poses, and a ray with front_only hits both sides.
+ * A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are doubled
+ * if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a
+ * cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
+ * second side alone get opposite normals from poses, and a ray with front_only hits both sides.
  *
- * out_surface: receives NULL at the start of the call and the new surface on success. Cost: about 2 us a vertex for
+ * out_surface: receives NULL at the start of the call and the new surface on success. Cost: about 2 us per vertex for
  * 300,000 vertices, one thread. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY (no vertex or no triangle),
  * HF_ERROR_OUT_OF_RANGE (index = triangle or face; a face of fewer than three corners is HF_ERROR_INVALID_ARGUMENT, one
  * of too many HF_ERROR_TOO_LARGE), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (a limit),
@@ -253,7 +253,7 @@ typedef struct hf_surface_info {
 /* Writes the options of a surface. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 
-/* Counts of what the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If faces were
+/* Counts that the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If faces were
  * given, the report counts collapsed and duplicate faces, and sides of faces as edges. It counts the degenerate
  * triangles of the cut. */
 typedef struct hf_surface_report {
@@ -349,18 +349,19 @@ typedef struct hf_gaps_info {
 } hf_gaps_info;
 
 /* Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends are
- * apart than at rest, and 0 if they are nearer. positions: [vertex_count][3] of float or double: the deformed mesh,
- * from a pose, a transfer or any other source. out_gaps: NULL, or double[capacity], out_info->link_count of them, in
- * the order of hf_surface_get_links. out_info: NULL, or a struct. Set one of the two at least. Errors:
- * HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
+ * apart than at rest, and 0 if they are nearer. The gap of a contact (hf_links_info) is measured in the same way.
+ * positions: [vertex_count][3] of float or double: the deformed mesh, from a pose, a transfer or any other source.
+ * out_gaps: NULL, or double[capacity], out_info->link_count of them, in the order of hf_surface_get_links. out_info:
+ * NULL, or a struct. Set one of the two at least. Errors: HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (index = vertex).
+ * Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_array* positions, uint32_t capacity,
                                          double* out_gaps, hf_gaps_info* out_info);
 
 /* Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old one where
  * its matrix has the same pattern: other stiffness, weights or light pieces. links: NULL: HF_LINK_NONE. Memory limits
  * hold for both surfaces together. progress: NULL, or an object to poll and cancel through. out_surface: as in
- * hf_surface_create. Errors: those of the links in hf_surface_create, HF_ERROR_CANCELLED. Thread safety: reads
- * `surface`. Since 0.1. */
+ * hf_surface_create. Errors: as hf_surface_create for links, HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since
+ * 0.1. */
 HF_API hf_result hf_surface_relink(hf_surface surface, const hf_links_desc* links, hf_progress progress,
                                    hf_surface* out_surface);
 
@@ -442,7 +443,7 @@ HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, c
                                      const hf_pick_desc* desc, hf_hit* out_hit);
 
 /* Finds the vertex nearest to a point. point: double[3] in the frame of the positions. desc: NULL for the rest
- * positions. The call ignores isolated vertices. Of several at one distance, such as welded copies,
+ * positions. The call ignores isolated vertices. Among several at one distance, such as welded copies,
  * the lowest index counts. out_vertex: receives the vertex. out_distance: NULL, or receives the distance. Cost: a pass
  * over the vertices. Errors: HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (1e15 boxes). Thread safety:
  * reads `surface`. Since 0.1. */

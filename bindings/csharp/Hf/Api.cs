@@ -500,9 +500,9 @@ namespace Hf
         }
     }
 
-    /// <summary>Counts of what the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If
-    /// faces were given, the report counts collapsed and duplicate faces, and sides of faces as edges. It counts
-    /// the degenerate triangles of the cut.</summary>
+    /// <summary>Counts that the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If faces
+    /// were given, the report counts collapsed and duplicate faces, and sides of faces as edges. It counts the
+    /// degenerate triangles of the cut.</summary>
     public sealed unsafe partial class SurfaceReport
     {
         /// <summary>as given</summary>
@@ -1154,8 +1154,7 @@ namespace Hf
         }
     }
 
-    /// <summary>One proposed handle. position and radius are those of HandlesDesc: the regions of all proposals are
-    /// disjoint.</summary>
+    /// <summary>One proposed handle. position and radius are as in HandlesDesc: the regions of all proposals are disjoint.</summary>
     public sealed unsafe partial class HandleProposal
     {
         /// <summary>nearest to the position; as given, of welded copies the first</summary>
@@ -2142,7 +2141,7 @@ namespace Hf
     /// dirty: the surface counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices
     /// and components. Surface.Report gives these counts.
     ///
-    /// A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are
+    /// A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
     /// doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a
     /// leaf, hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name
     /// any. Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both
@@ -2176,7 +2175,7 @@ namespace Hf
         /// may be dirty: the surface counts non-manifold edges, flipped, duplicate and zero-area triangles,
         /// isolated vertices and components. Surface.Report gives these counts.
         ///
-        /// A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces
+        /// A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces
         /// are doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such
         /// as a leaf, hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you
         /// can name any. Vertices of the second side alone get opposite normals from poses, and a ray with
@@ -2419,7 +2418,8 @@ namespace Hf
         }
 
         /// <summary>Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther
-        /// its ends are apart than at rest, and 0 if they are nearer.
+        /// its ends are apart than at rest, and 0 if they are nearer. The gap of a contact (LinksInfo) is measured
+        /// in the same way.
         ///
         /// positions: [vertexCount x 3] of float or double: the deformed mesh, from a pose, a transfer or any other
         ///     source.
@@ -2469,7 +2469,8 @@ namespace Hf
         ///     % of the diagonal, below 0: no piece is light unless light_vertices say so
         /// progress: an object to poll and cancel through.
         ///
-        /// Throws HF_ERROR_CANCELLED.</summary>
+        /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+        /// HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
         public Surface Relink(ushort[] joints = null, float[] weights = null, uint[] jointParents = null,
                 uint[] tags = null, Link[] links = null, uint[] lightVertices = null, uint[] heavyVertices = null,
                 LinkMode mode = default(LinkMode), double distance = 0, double stiffness = 0,
@@ -4359,12 +4360,12 @@ namespace Hf
         ///     with the same handles, added in the same order, and the same transforms. Without restart a frame
         ///     continues from the last one, so it also depends on that
         /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
-        ///     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
+        ///     about 0.2 us per vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
         ///     sharper
         /// refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth
         ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand
         ///     still, more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs
-        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes per vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         /// vertexCount: positions of a range cost only the range; but with higher layers, rigid pieces, refine,
         ///     limb_refine or normals they cost the whole surface

@@ -1038,10 +1038,10 @@ class Surface(Object):
     surface counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
     Surface.report gives these counts.
 
-    A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are doubled
-    if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a
-    cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
-    second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+    A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
+    doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf,
+    hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any.
+    Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
 
     positions: (vertex_count, 3) of float or double, any unit, any offset
     triangles: (triangle_count, 3) of uint32_t or uint16_t, counter-clockwise seen from outside
@@ -1211,7 +1211,8 @@ class Surface(Object):
 
     def measure_gaps(self, positions: ArrayLike, *, info: Optional[GapsInfo] = None) -> np.ndarray:
         """Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
-        ends are apart than at rest, and 0 if they are nearer.
+        ends are apart than at rest, and 0 if they are nearer. The gap of a contact (LinksInfo) is measured in the
+        same way.
 
         positions: (vertex_count, 3) of float or double: the deformed mesh, from a pose, a transfer or any other
             source.
@@ -1256,7 +1257,8 @@ class Surface(Object):
             the diagonal, below 0: no piece is light unless light_vertices say so
         progress: an object to poll and cancel through.
 
-        Raises CancelledError.
+        Raises CancelledError, EmptyError, InvalidArgumentError, NonFiniteError, NotPositiveDefiniteError,
+        OutOfRangeError, TooLargeError, UnsupportedError.
         """
         c = Call(self)
         desc = _links_desc(c, joints=joints, weights=weights, joint_parents=joint_parents, tags=tags, links=links,
@@ -2339,11 +2341,11 @@ class Pose(Recorded):
             the same handles, added in the same order, and the same transforms. Without restart a frame continues from
             the last one, so it also depends on that
         refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about
-            0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
+            0.2 us per vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
         refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the smooth
             pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still,
             more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of
-            1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+            1 or more. Higher layers start at the smooth pose. Memory: 72 bytes per vertex
         first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         vertex_count: positions of a range cost only the range; but with higher layers, rigid pieces, refine,
             limb_refine or normals they cost the whole surface

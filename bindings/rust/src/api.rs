@@ -575,13 +575,13 @@ pub struct DeformOptions {
     /// handles, added in the same order, and the same transforms. Without restart a frame continues from the last
     /// one, so it also depends on that
     pub restart: bool,
-    /// 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about 0.2 us a
+    /// 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about 0.2 us per
     /// vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
     pub refine: i32,
     /// 1: the steps go on from the surface of the last call, instead of starting at the smooth pose. Then one step a
     /// frame keeps lengths in a drag as well as 8 do without. If the handles stand still, more calls go on to the
     /// minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1 or more. Higher layers
-    /// start at the smooth pose. Memory: 72 bytes a vertex
+    /// start at the smooth pose. Memory: 72 bytes per vertex
     pub refine_from_last: bool,
     /// outputs hold vertex_count vertices from this one on; 0 and 0: all
     pub first_vertex: u32,
@@ -1480,10 +1480,10 @@ impl Surface {
     /// surface counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
     /// `Surface::report` gives these counts.
     ///
-    /// A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are doubled
-    /// if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a
-    /// cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
-    /// second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+    /// A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
+    /// doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf,
+    /// hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any.
+    /// Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
     ///
     /// positions: `[vertex_count x 3]` of float or double, any unit, any offset
     /// triangles: `[triangle_count x 3]` of uint32_t or uint16_t, counter-clockwise seen from outside
@@ -1632,7 +1632,8 @@ impl Surface {
     }
 
     /// Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends
-    /// are apart than at rest, and 0 if they are nearer.
+    /// are apart than at rest, and 0 if they are nearer. The gap of a contact ([`raw::hf_links_info`]) is measured in the
+    /// same way.
     ///
     /// positions: `[vertex_count x 3]` of float or double: the deformed mesh, from a pose, a transfer or any other
     /// source.
@@ -1664,7 +1665,9 @@ impl Surface {
     ///
     /// progress: an object to poll and cancel through.
     ///
-    /// Fails with [`raw::HF_ERROR_CANCELLED`].
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn relink(&self, links: &Links, progress: Option<&Progress>) -> Result<Self> {
         let mut c = Call::new(&self.counts);
         let desc = links.fill(&mut c, "")?;
