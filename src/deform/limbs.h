@@ -28,7 +28,7 @@ struct Limbs {
   std::uint32_t steps = 0;
 };
 
-// Returns the vertices of a handle's limb, ascending, without those of handles.
+// Returns the vertices of a handle's limb, ascending, without vertices of handles.
 Vector<std::int32_t> limb_of(const Core& core, const Reach& reach, const HandleFields& fields, std::int32_t handle,
                              Memory& memory);
 

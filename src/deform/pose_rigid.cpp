@@ -44,8 +44,8 @@ void PoseStack::check_rigid(const RigidPieces& rigid, Span<const std::int32_t> v
   }
 }
 
-// Regions that touch a rigid piece take all of it. Two handles on one piece are refused: a handle on a piece has all
-// vertices of the piece, so check_regions finds the second one.
+// A region that touches a rigid piece gets all of the piece. Two handles on one piece are refused: a
+// handle on a piece has all vertices of the piece, so check_regions finds the second one.
 void PoseStack::take_whole_pieces(Span<const std::uint32_t> start, Span<const std::int32_t> vertices,
                                   Vector<std::uint32_t>& whole_start, Vector<std::int32_t>& whole) const {
   base_->check_regions(start, vertices);

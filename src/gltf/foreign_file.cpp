@@ -43,7 +43,7 @@ constexpr bool can_limit_memory = false;
 #else
 constexpr bool can_limit_memory = true;
 #endif
-// The first byte of what the process writes.
+// The first byte that the process writes.
 constexpr char made = 'm', refused = 'r', out_of_memory = 'o';
 
 // Bytes of address space this process has; 0 where the system does not say.

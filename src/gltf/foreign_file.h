@@ -1,8 +1,8 @@
 // Reads .fbx, .dae and .bvh by way of assimp, where the build has it (HF_WITH_ASSIMP).
 //
-// assimp turns the file into its own scene; foreign_scene.cpp turns that into a model, and the writer turns the model
-// into a GLB, which the reader of glTF reads with all of its checks. Nodes, surfaces, skins, shape keys, clips and base
-// colours survive. Lengths come out in metres and y points up, by the unit and the axes of the file.
+// assimp reads a scene. foreign_scene.cpp makes a model of it, and the writer makes a GLB of the model. The reader of
+// glTF reads the GLB with all of its checks. Nodes, surfaces, skins, shape keys, clips and base colours survive.
+// Lengths come out in metres and y points up, by the unit and the axes of the file.
 //
 // A file may be hostile, and assimp does not bound its memory and time. So assimp runs in a process of its own, with
 // limits of both. Whatever happens there, the caller gets the GLB or an error.

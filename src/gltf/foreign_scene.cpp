@@ -208,7 +208,7 @@ class SceneModel {
       MeshData mesh;
       mesh.name = text_of(first.mName);
       for (unsigned t = 0; t < first.mNumAnimMeshes; ++t) {
-        // assimp gives those of FBX the weight 1, whatever the file says
+        // assimp gives shape keys of FBX the weight 1, whatever the file says
         mesh.weights.push_back(fbx_ ? 0 : first.mAnimMeshes[t]->mWeight);
         mesh.target_names.push_back(text_of(first.mAnimMeshes[t]->mName));
       }

@@ -280,7 +280,7 @@ void RigFit::find_joints() {
     joint_of_node_[n] = static_cast<int>(joints_.size());
     joints_.push_back(joint);
   }
-  // By joint: its only child where it moves no vertex but those of that child.
+  // By joint: its only child, if the joint moves no other vertices than the child.
   std::vector<int> children(joints_.size(), 0), only(joints_.size(), -1);
   for (size_t j = 0; j < joints_.size(); ++j) {
     const int up = joints_[j].parent;
