@@ -4,7 +4,8 @@
  * function makes a solver, a pose or a transfer. All functions of that noun accept the object, except where a comment
  * below says otherwise.
  *
- * The two engines of solvers, updown and refactor, give the same fields as hf_create. They differ from it in five ways:
+ * The two engines of solvers, updown and refactor, give the same fields as hf_create. Their solvers differ in five
+ * ways:
  * - hf_solver_set_screening returns HF_ERROR_UNSUPPORTED.
  * - hf_solver_prepare_rebase returns HF_ERROR_UNSUPPORTED.
  * - A preview gives the exact field (hf_preview_info.exact is 1).
@@ -37,14 +38,14 @@ HF_API hf_result hf_peer_refactor_create(hf_surface surface, const hf_solver_des
  * 200, group_count has no effect. rim_site_count: sites on the boundary of a handle; 0 = all vertices of the boundary.
  * The paper takes "dozens". With fewer than all, fields leak (hf_handle_info.leak). Handles need a rotation:
  * free_rotation is refused with HF_ERROR_UNSUPPORTED. A handle added with in_place starts at the posed surface. The
- * surface goes to the pose of all handles at the next hf_deform, without the delay of hf_pose_add_handles. Errors: as
+ * next hf_deform moves the surface to the pose of all handles at once, also if no handle moves. Errors: as
  * hf_pose_create. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_peer_pose_create(hf_surface surface, const hf_pose_desc* desc, uint32_t rim_site_count,
                                      hf_pose* out_pose);
 
 /* Creates a transfer with the clusters of Section 6 of Xu, Zhang, Cohen-Or and Xiong (2009): a cluster holds the
- * vertices between two levels of one field. There is no rest alignment and no ground. A part that reaches farther than
- * the source's turns as much as the source's. desc: NULL, or as hf_transfer_create with HF_TRANSFER_FIELDS;
+ * vertices between two levels of one field. There is no rest alignment and no ground. A part of the target that reaches
+ * farther than its partner turns as much as its partner. desc: NULL, or as hf_transfer_create with HF_TRANSFER_FIELDS;
  * cluster_count is divided among the pairs, 2 to 64 per pair; 0 = 8 per pair. Errors: as hf_transfer_create. Thread
  * safety: reads the surfaces. Since 0.1. */
 HF_API hf_result hf_peer_transfer_create(hf_surface source, hf_surface target, const hf_transfer_desc* desc,

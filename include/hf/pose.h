@@ -127,15 +127,14 @@ HF_API hf_result hf_pose_set_transforms(hf_pose pose, uint32_t handle_count, con
 /* Places one handle. Errors: as hf_pose_set_transforms. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_transform* transform);
 
-/* Chooses who gives the rotations of handles: the solve or you. handles: uint32_t[handle_count]. free_rotation: 1: the
+/* Frees the rotations of handles, or lets you give them again. handles: uint32_t[handle_count]. free_rotation: 1: the
  * solve finds the rotations; 0: you give them.
- *
  *
  * A handle of free rotation is a positional constraint (Sorkine and Alexa 2007). Its centroid lands exactly where its
  * transform puts it; the rotation of the transform is ignored. Each hf_deform finds the rotation together with the
- * pose, and hf_pose_get_handle writes it. The rotation has the least as-rigid-as-possible energy. A group of vertices
- * that is pulled compares itself with a longer and thinner shape than its rest shape. So the energy is not exactly the
- * energy towards the rest shape.
+ * pose, and hf_pose_get_handle writes it. The rotation has the least as-rigid-as-possible energy. The energy of a
+ * pulled group of vertices is measured from a longer and thinner shape than the rest shape of the group. So the
+ * rotation is not exactly the rotation of least energy from the rest shape.
  *
  * Free the rotation while the user drags a handle: the wrist then follows the hand. Give the rotation while the user
  * turns a ring. A given rotation starts at the present rotation of the handle, so the pose does not change. When you
@@ -152,37 +151,37 @@ HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count,
 /* Sets how much of the surface follows handles of layer 0. handles: uint32_t[handle_count]. following: 0 to 1. At 1 all
  * of the surface follows the handle; a new handle has 1. At 0 only the limb of the handle follows, such as an arm.
  *
- * Below 1, soft pins hold the rest of the surface where it would be without these handles. So a body does not lean
- * after a dragged hand. Keep 1 for the handles that hold the body, and set less for a handle that is dragged. Every
- * handle still lands exactly, and a limb that is too short gets longer. The limb of a handle is the part where its
- * field is near 1. The next hf_deform shows a change at once. Full-mesh steps (refine) ignore the pins; with
- * refine_from_last they let the body lean again. Cost: at this call, and when handles are added or removed, one field
- * solve for the other handles, and as many solves of the reduced system as in a few frames. While other handles move, a
- * frame takes up to twice the time of the pose solve. No factor is recomputed. Errors: HF_ERROR_NOT_FOUND,
- * HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (following), HF_ERROR_UNSUPPORTED (a handle of a higher layer).
- * Thread safety: changes `pose`. Since 0.1. */
+ * Below 1, soft pins hold the surface where it would be without these handles. So a body does not lean after a dragged
+ * hand. The nearer to 1 the field of the handle is, the weaker the pins are: the limb stays free. Keep 1 for the
+ * handles that hold the body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb
+ * that is too short gets longer. The next hf_deform shows a change at once. Full-mesh steps (refine) ignore the pins.
+ * Repeated steps (refine_from_last) let the body lean again. Cost: at this call, and when handles are added or removed,
+ * one field solve for the other handles, and as many solves of the reduced system as in a few frames. While other
+ * handles move, a frame takes up to twice the time of the pose solve. No factor is recomputed. Errors:
+ * HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (following), HF_ERROR_UNSUPPORTED (a handle of
+ * a higher layer). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_following(hf_pose pose, uint32_t handle_count, const uint32_t* handles, double following);
 
 /* Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. handles:
- * uint32_t[handle_count]. refine: 0 to 64 steps of as-rigid-as-possible at every hf_deform; 0 = none, as in a new
- * handle. 1 keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
+ * uint32_t[handle_count]. refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a
+ * new handle. 1 keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
  *
  * The limb is the part of the surface where the field of the handle falls a long way over little area. It ends at the
- * trunk, or at the next handle on the limb. The steps move the limb alone. The rest of the surface keeps its bits, and
- * the body does not lean more than without the steps. A limb that is pulled beyond its length is stretched evenly. With
- * the refine of hf_deform_desc the limbs take their steps after it. If several handles have a refine, all their limbs
- * take the largest. Cost: at this call, and when handles are added or removed, a factor for the vertices of the limbs;
- * a step takes about 0.2 us a vertex of a limb. hf_pose_get_skin writes the motions before the steps. Errors:
- * HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (refine), HF_ERROR_UNSUPPORTED (a handle of a higher layer). Thread
- * safety: changes `pose`. Since 0.1. */
+ * trunk, or at the next handle on the limb. The steps move the limb alone. All other vertices keep their bits, so the
+ * body leans no more than without the steps. A limb that is pulled beyond its length is stretched evenly. The limbs
+ * take their steps after the steps of hf_deform_desc.refine. If handles have different counts of steps, all their limbs
+ * take the largest count. Cost: at this call, and when handles are added or removed, a factor for the vertices of the
+ * limbs. A step takes as long per vertex as a step of refine. hf_pose_get_skin writes the motions before the steps.
+ * Errors: HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (refine), HF_ERROR_UNSUPPORTED (a handle of a higher layer).
+ * Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_limb_refine(hf_pose pose, uint32_t handle_count, const uint32_t* handles, int32_t refine);
 
 /* Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. vertices:
  * uint32_t[vertex_count], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
  * replaces the previous list.
  *
- * Each frame moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the
- * vertices near links most. If the region of a handle touches a rigid piece, the whole piece joins the region and moves
+ * Each frame moves a rigid piece by the rigid motion that fits the piece best, also after refine. Vertices near links
+ * count most in this fit. If the region of a handle touches a rigid piece, the whole piece joins the region and moves
  * with the handle. A second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this function before you add
  * such handles. hf_pose_get_skin writes the motions before this fit. Errors: HF_ERROR_CONFLICT (a handle has a part of
  * a piece; index = position), HF_ERROR_OUT_OF_RANGE and HF_ERROR_INVALID_ARGUMENT (isolated vertex; index = position),
@@ -255,15 +254,16 @@ typedef struct hf_deform_desc {
                                pose with the same handles, added in the same order, and the same transforms. Without
                                restart a frame continues from the last one, so it also depends on that */
   int32_t refine; /* 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
-                     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
+                     about 0.2 us per vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
                      sharper */
   int32_t refine_from_last; /* 1: the steps go on from the surface of the last call, instead of starting at the smooth
                                pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the
                                handles stand still, more calls go on to the minimum. A restart, or a call without it,
                                forgets that surface. Needs a refine of 1 or more. Higher layers start at the smooth
-                               pose. Memory: 72 bytes a vertex */
+                               pose. Memory: 72 bytes per vertex */
   uint32_t first_vertex;    /* outputs hold vertex_count vertices from this one on; 0 and 0: all */
-  uint32_t vertex_count;    /* positions of a range cost only the range, without higher layers, refine and normals */
+  uint32_t vertex_count;    /* positions of a range cost only the range; but with higher layers, rigid pieces, refine,
+                               limb_refine or normals they cost the whole surface */
   uint32_t reserved;        /* 0 */
 } hf_deform_desc;
 
@@ -279,7 +279,7 @@ typedef struct hf_pose_statistics {
   double solve_ms;
   double blend_ms;
   double normal_ms;
-  double refine_ms;
+  double refine_ms; /* steps of refine and of limb_refine */
 } hf_pose_statistics;
 
 /* Writes the statistics of a pose. Thread safety: reads `pose`. Since 0.1. */
@@ -345,7 +345,7 @@ typedef struct hf_handle_proposals_desc {
   hf_progress progress;      /* NULL, or an object to poll and cancel through */
 } hf_handle_proposals_desc;
 
-/* One proposed handle. position and radius are those of hf_handles_desc: the regions of all proposals are disjoint. */
+/* One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint. */
 typedef struct hf_handle_proposal {
   uint32_t vertex;    /* nearest to the position; as given, of welded copies the first */
   uint32_t component; /* as hf_surface_get_components */

@@ -100,12 +100,13 @@ typedef struct hf_links_desc {
   uint32_t reserved;        /* 0 */
   const uint16_t* joints;   /* [vertex_count][influence_count] of a skin: pieces of the same joint link sooner */
   const float* weights;     /* [vertex_count][influence_count] of sum 1; where all are 0, a vertex shares no joint */
-  const uint32_t* joint_parents; /* [joint_count] parent of each joint, HF_NO_INDEX for a root. Pieces of parent and
-                               child link wherever they touch. Pieces of joints that are farther apart, such as two
-                               feet, link only if nothing else joins them */
-  const uint32_t* tags;     /* [vertex_count]: pieces with different tags do not link, as a rider and a horse. The
-                               first vertex of a piece counts */
-  const hf_link* links;     /* [link_count] */
+  const uint32_t* joint_parents;  /* [joint_count] parent of each joint, HF_NO_INDEX for a root; needs joints and
+                                     weights. Pieces of parent and child link wherever they touch. Pieces of joints
+                                     farther apart in the skeleton, such as two feet, link only if nothing else joins
+                                     them */
+  const uint32_t* tags;           /* [vertex_count]: pieces with different tags do not link, as a rider and a horse. The
+                                     first vertex of a piece counts */
+  const hf_link* links;           /* [link_count] */
   const uint32_t* light_vertices; /* [light_count]: their pieces are light */
   const uint32_t* heavy_vertices; /* [heavy_count]: their pieces are not, as one that gets a site or handle */
 } hf_links_desc;
@@ -162,19 +163,19 @@ typedef struct hf_surface_desc {
  * counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
  * hf_surface_get_report gives these counts.
  *
- * A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are doubled if
- * they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a cape,
- * is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the second
- * side alone get opposite normals from poses, and a ray with front_only hits both sides.
+ * A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are doubled
+ * if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a
+ * cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
+ * second side alone get opposite normals from poses, and a ray with front_only hits both sides.
  *
- * out_surface: receives NULL at the start of the call and the new surface on success. Cost: about 2 us a vertex for
+ * out_surface: receives NULL at the start of the call and the new surface on success. Cost: about 2 us per vertex for
  * 300,000 vertices, one thread. Errors: HF_ERROR_INVALID_ARGUMENT, HF_ERROR_EMPTY (no vertex or no triangle),
- * HF_ERROR_OUT_OF_RANGE (index = triangle or face; a face of fewer than three corners is
- * HF_ERROR_INVALID_ARGUMENT, one of too many HF_ERROR_TOO_LARGE), HF_ERROR_NON_FINITE (index = vertex),
- * HF_ERROR_TOO_LARGE (a limit), HF_ERROR_UNSUPPORTED (ordering not in this build), HF_ERROR_CANCELLED,
- * HF_ERROR_NOT_POSITIVE_DEFINITE. With links also HF_ERROR_OUT_OF_RANGE, _NON_FINITE and _INVALID_ARGUMENT (index =
- * link, or position in a list of vertices; for weights the vertex) and HF_ERROR_TOO_LARGE (more than 20,000 pieces to
- * link automatically). With saved_factor also HF_ERROR_INVALID_ARGUMENT (damaged bytes, or bytes of another
+ * HF_ERROR_OUT_OF_RANGE (index = triangle or face; a face of fewer than three corners is HF_ERROR_INVALID_ARGUMENT, one
+ * of too many HF_ERROR_TOO_LARGE), HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (a limit),
+ * HF_ERROR_UNSUPPORTED (ordering not in this build), HF_ERROR_CANCELLED, HF_ERROR_NOT_POSITIVE_DEFINITE. With links
+ * also HF_ERROR_OUT_OF_RANGE, _NON_FINITE and _INVALID_ARGUMENT (index = link, or position in a list of vertices; for
+ * weights and joints the vertex, for joint_parents the joint) and HF_ERROR_TOO_LARGE (joint_count; more than 20,000
+ * pieces to link automatically). With saved_factor also HF_ERROR_INVALID_ARGUMENT (damaged bytes, or bytes of another
  * mesh, operator or field_kind; borrowed bytes that are not aligned) and HF_ERROR_UNSUPPORTED (another format version
  * or byte order). Thread safety: any thread. Since 0.1. */
 HF_API hf_result hf_surface_create(const hf_surface_desc* desc, hf_surface* out_surface);
@@ -252,7 +253,7 @@ typedef struct hf_surface_info {
 /* Writes the options of a surface. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_info);
 
-/* Counts of what the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If faces were
+/* Counts that the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If faces were
  * given, the report counts collapsed and duplicate faces, and sides of faces as edges. It counts the degenerate
  * triangles of the cut. */
 typedef struct hf_surface_report {
@@ -313,8 +314,8 @@ typedef struct hf_links_info {
   uint32_t link_count;  /* hf_surface_get_links writes them */
   uint32_t light_piece_count;
   uint32_t lone_piece_count; /* pieces without a link, if there are several */
-  uint32_t contact_count;    /* with joint_parents: places where pieces touch and are not linked, such as two feet.
-                                hf_surface_measure_gaps tells how far they open */
+  uint32_t contact_count;    /* with joint_parents: places where two pieces touch and have no link, such as two feet.
+                                hf_surface_measure_gaps measures how far they open */
   double longest_tree_link;  /* longest link of the tree over the pieces, in the unit of the positions */
 } hf_links_info;
 
@@ -338,28 +339,29 @@ HF_API hf_result hf_surface_get_pieces(hf_surface surface, uint32_t capacity, ui
 typedef struct hf_gaps_info {
   uint32_t struct_size;
   uint32_t link_count;
-  double percentile_95; /* 95 of 100 links opened no more than this; 0 without links */
-  double worst;
-  uint32_t worst_link; /* its number in hf_surface_get_links; HF_NO_INDEX without links */
-  uint32_t contact_count; /* as in hf_links_info; worst does not count them */
-  double worst_contact;   /* how far the widest of them opened; 0 without one */
-  uint32_t contact_vertex; /* of the widest, as given; HF_NO_INDEX without one */
-  uint32_t reserved;
+  double percentile_95;    /* 95 of 100 links opened no more than this; 0 without links */
+  double worst;            /* the widest gap of a link; 0 without links */
+  uint32_t worst_link;     /* its number in hf_surface_get_links; HF_NO_INDEX without links */
+  uint32_t contact_count;  /* as in hf_links_info; the fields above leave contacts out */
+  double worst_contact;    /* the widest gap of a contact; 0 without contacts */
+  uint32_t contact_vertex; /* a vertex of that contact, as given; HF_NO_INDEX without contacts */
+  uint32_t reserved;       /* 0 */
 } hf_gaps_info;
 
 /* Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends are
- * apart than at rest, and 0 if they are nearer. positions: [vertex_count][3] of float or double: the deformed mesh,
- * from a pose, a transfer or any other source. out_gaps: NULL, or double[capacity], out_info->link_count of them, in
- * the order of hf_surface_get_links. out_info: NULL, or a struct. Set one of the two at least. Errors:
- * HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
+ * apart than at rest, and 0 if they are nearer. The gap of a contact (hf_links_info) is measured in the same way.
+ * positions: [vertex_count][3] of float or double: the deformed mesh, from a pose, a transfer or any other source.
+ * out_gaps: NULL, or double[capacity], out_info->link_count of them, in the order of hf_surface_get_links. out_info:
+ * NULL, or a struct. Set one of the two at least. Errors: HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (index = vertex).
+ * Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_array* positions, uint32_t capacity,
                                          double* out_gaps, hf_gaps_info* out_info);
 
 /* Makes a surface with other links from the mesh of a surface. The new surface orders the unknowns as the old one where
  * its matrix has the same pattern: other stiffness, weights or light pieces. links: NULL: HF_LINK_NONE. Memory limits
  * hold for both surfaces together. progress: NULL, or an object to poll and cancel through. out_surface: as in
- * hf_surface_create. Errors: those of the links in hf_surface_create, HF_ERROR_CANCELLED. Thread safety: reads
- * `surface`. Since 0.1. */
+ * hf_surface_create. Errors: as hf_surface_create for links, HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since
+ * 0.1. */
 HF_API hf_result hf_surface_relink(hf_surface surface, const hf_links_desc* links, hf_progress progress,
                                    hf_surface* out_surface);
 
@@ -425,8 +427,8 @@ typedef struct hf_hit {
   int32_t found;      /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
   uint32_t triangle;  /* or face, as given */
   uint32_t vertex;    /* its corner nearest to the hit, as given, of welded copies the first */
-  hf_place place;     /* the point hit: corners of the triangle (the first of welded copies) and their weights. In a
-                         face of more corners, the corners are those three that the ray hits in the cut of the face */
+  hf_place place;     /* the point hit: corners of the triangle (the first of welded copies) and their barycentrics.
+                         In a face of more corners: the three corners of the triangle of its cut that the ray hits */
   double position[3]; /* in the unit of the positions */
   double distance;    /* from the origin, in lengths of `direction` */
 } hf_hit;
@@ -441,7 +443,7 @@ HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, c
                                      const hf_pick_desc* desc, hf_hit* out_hit);
 
 /* Finds the vertex nearest to a point. point: double[3] in the frame of the positions. desc: NULL for the rest
- * positions. The call ignores isolated vertices. Of several at one distance, such as welded copies,
+ * positions. The call ignores isolated vertices. Among several at one distance, such as welded copies,
  * the lowest index counts. out_vertex: receives the vertex. out_distance: NULL, or receives the distance. Cost: a pass
  * over the vertices. Errors: HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (1e15 boxes). Thread safety:
  * reads `surface`. Since 0.1. */

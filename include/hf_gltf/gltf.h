@@ -48,15 +48,16 @@ HF_GLTF_API hf_result hf_gltf_error_get_detail(hf_error_detail* out_detail);
 typedef struct hf_gltf_read_desc {
   uint32_t struct_size;
   uint32_t reserved;   /* 0 */
-  const void* bytes;   /* a .glb or .gltf file in memory, or NULL */
+  const void* bytes;   /* a file in memory, or NULL */
   uint64_t byte_count; /* of bytes */
   const char* file;    /* UTF-8. Without bytes: the file to read; files it names are read from below its folder. With
                           bytes: the name for messages, or NULL */
 } hf_gltf_read_desc;
 
-/* Reads a glTF 2.0 file; .fbx, .dae and .bvh too where the library was built with assimp. Those are read in a process
- * of their own, which fork() starts. Sets *out_model to NULL first. Errors: HF_ERROR_INVALID_ARGUMENT (the file cannot be read or
- * contradicts itself; the detail says where), HF_ERROR_TOO_LARGE. Thread safety: any thread. Since 0.1. */
+/* Reads a glTF 2.0 file. A build with assimp (HF_WITH_ASSIMP) also reads .fbx, .dae and .bvh files. It reads them in a
+ * process of their own, which the call starts with fork(). Sets *out_model to NULL first. Errors:
+ * HF_ERROR_INVALID_ARGUMENT (the file cannot be read or contradicts itself; the detail says where), HF_ERROR_TOO_LARGE.
+ * Thread safety: any thread. Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_read(const hf_gltf_read_desc* desc, hf_gltf_model* out_model);
 
 typedef struct hf_gltf_mesh_desc {
@@ -169,7 +170,7 @@ HF_GLTF_API hf_result hf_gltf_model_add_clip(hf_gltf_model model, const hf_gltf_
 typedef struct hf_gltf_skin_desc {
   uint32_t struct_size;
   uint32_t joint_count, frame_count;
-  uint32_t influence_count;      /* for each vertex, 1 to 8 */
+  uint32_t influence_count;   /* for each vertex, 1 to 8 */
   const char* name;           /* of the clip; UTF-8, or NULL */
   const double* pivots;       /* [joint_count][3] */
   const uint32_t* joints;     /* [vertex_count][influence_count] */

@@ -38,8 +38,8 @@ struct HandlePlace {
 
 enum class Refine { none, one_step, from_last };  // full-mesh steps of a frame: hf_deform_desc
 
-// How much follows a proposed tip that is dragged, where nothing else is said. A hand pulled up by a quarter of the box
-// moves the head of 15 bipeds that stand on their feet by at most 0.02 of it; with 1 by up to 0.43.
+// How much of the surface follows a proposed tip that is dragged, if the options do not say it. A hand pulled up by a
+// quarter of the box moves the head of 15 bipeds that stand on their feet by at most 0.02 of it; with 1 by up to 0.43.
 constexpr double tip_following = 0.25;
 
 class Posable {

@@ -20,7 +20,7 @@ int RegionOwners::owner(const glm::dvec3& point, double radius) const {
     for (size_t k = v * width; k < (v + 1) * width; ++k)
       moved[skin_.joints[k]] += static_cast<double>(skin_.weights[k]);
   }
-  // with all that hangs on it
+  // a joint counts with all joints below it
   std::vector<double> below(moved.size(), 0.0);
   double all = 0;
   for (size_t n = 0; n < moved.size(); ++n) {

@@ -1,5 +1,5 @@
-// What the skeleton of a model says about proposed handles: the joint whose limb is most of a region names the handle,
-// and a hand, a head, a tail or what they hold is dragged, not pinned.
+// Names proposed handles by the skeleton of a model: the lowest joint that moves most of a region, with all below it,
+// names the handle. A hand, a head, a tail or a thing that one of them holds is dragged, not pinned.
 #ifndef HF_SAMPLES_DEFORM_PROPOSE_NAMES_H
 #define HF_SAMPLES_DEFORM_PROPOSE_NAMES_H
 

@@ -71,8 +71,8 @@ constexpr double most_faces = 10000000;  // of --faces: the most that it takes
 constexpr double most_by_edge = 100000;
 // A mesh with fewer than this share of the quads that an edge length asks for is warned of. Borders take up to a third.
 constexpr double too_few = 0.5;
-// A mesh whose count is farther from --faces than this share is warned of. Few quads divide a body in few ways: those
-// of a cube are up to a tenth away from 40.
+// A mesh whose count is farther from --faces than this share is warned of. A body has few meshes of few quads: a cube
+// misses 40 by up to a tenth.
 constexpr double missed_count = 0.2;
 
 // A length, or with a percent sign a share of the box diagonal, which comes back below 0.
@@ -357,8 +357,8 @@ void run(const Command& options) {
         report.faces, wanted);
   if (options.faces > 0 && std::abs(report.faces - double(options.faces)) > missed_count * options.faces)
     std::printf(
-        "warning     %u faces where %u are asked for: parts, creases or corners need others; try another count or "
-        "--edge\n",
+        "warning     %u faces where %u are asked for: parts, creases or corners need more or fewer; try another "
+        "count or --edge\n",
         report.faces, options.faces);
   if (options.crease > 0) print_creases(measure_creases(input, options.crease, mesh, info.edge_length));
   if (!options.out.empty()) {

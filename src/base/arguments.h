@@ -90,7 +90,7 @@ std::size_t check_array(const Array& array, std::int32_t other, std::size_t widt
   const std::size_t number = array.type == HF_TYPE_DOUBLE ? 8 : array.type == HF_TYPE_UINT16 ? 2 : 4;
   const std::size_t row = width * number;
   if (array.stride != 0 && array.stride < row)
-    fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s.stride is %u bytes; a row has %zu, and 0 is packed rows", name,
+    fail(HF_ERROR_TOO_SMALL, HF_NO_INDEX, "%s.stride is %u bytes; a row has %zu bytes, and 0 means packed rows", name,
          array.stride, row);
   return array.stride == 0 ? row : array.stride;
 }

@@ -6,12 +6,12 @@
 namespace hf_inner {
 namespace {
 
-// A large number says limb. On a tube the area grows like the fall, on a trunk much faster. With the power 1 a tube has
-// no end, and a thin wrist ends an arm. With 2 a short, thick arm is no limb, and the whole body is.
+// The limb ends where this is largest. On a tube the area grows like the fall, on a trunk much faster. With the power 1
+// a tube has no end, and an arm ends at a thin wrist. With 2 a short, thick arm has no end before the whole body has.
 double limb_measure(double fall, double area) { return fall * std::sqrt(fall) / area; }
 
-// The limb goes on while the measure is at least this share of the best, a little into the trunk, so that the steps can
-// turn a shoulder. With 0.8 the head of a biped belongs to its arm.
+// The limb continues while the measure is at least this share of the best, a little into the trunk, so that the steps
+// can turn a shoulder. With 0.8 the head of a biped belongs to its arm.
 constexpr double limb_margin = 0.85;
 
 // Returns the field's value where the limb ends. vertices: those of the component outside handles, of falling field.

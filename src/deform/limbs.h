@@ -1,15 +1,15 @@
-// Limbs of handles whose lengths full-mesh steps keep, while the rest of the surface stands still.
+// Finds the limbs of handles, and factorises the system of full-mesh steps that move these limbs alone.
 //
 // Let phi be the field of a handle, and A(t) the area where phi >= t. Along a limb the field falls a long way over
-// little area; on the trunk it falls little over much. The limb is where phi is at least the t that makes
+// little area; on the trunk it falls a little over much area. The limb is where phi is at least the t that makes
 //     (1 - t)^1.5 / A(t)
-// largest, and a little beyond it. A tube between two handles is all limb. By the maximum principle every part of a
+// largest, and a little beyond that. A tube between two handles is all limb. By the maximum principle every part of a
 // limb touches its handle.
 //
-// One step solves the equations of refine.h on the vertices L of all limbs, and the others keep their positions:
+// One step solves the equations of refine.h on the vertices L of all limbs. The other vertices keep their positions:
 //     K_LL u = (b - K x)_L,   y_L = x_L + u.
 // K_LL has a factor of its own. Cost: a sort of the vertices by field, and the factor, when handles change; a step
-// costs as much for a vertex as one of the whole surface. A failed call changes nothing.
+// costs as much per vertex as a step on the whole surface. A failed call changes nothing.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -28,7 +28,7 @@ struct Limbs {
   std::uint32_t steps = 0;
 };
 
-// Returns the vertices of a handle's limb, ascending, without those of handles.
+// Returns the vertices of a handle's limb, ascending, without vertices of handles.
 Vector<std::int32_t> limb_of(const Core& core, const Reach& reach, const HandleFields& fields, std::int32_t handle,
                              Memory& memory);
 

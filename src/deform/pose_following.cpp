@@ -103,7 +103,7 @@ bool Pose::pull_to_others(State& state, const DeformRequest& request) const {
 // ---- layers ----
 
 void PoseStack::set_following(Span<const std::uint32_t> numbers, double following) {
-  base_->set_following(on_base(numbers, "a following"), following);
+  base_->set_following(on_base(numbers, "following"), following);
   mark_stale(0);
 }
 

@@ -1,4 +1,4 @@
-// Full-mesh steps on the limbs of handles (limbs.h), in poses and their layers.
+// Sets full-mesh steps on the limbs of handles (limbs.h), in a pose and in its layers.
 #include "base/error.h"
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
@@ -46,7 +46,7 @@ Vector<std::uint32_t> PoseStack::on_base(Span<const std::uint32_t> numbers, cons
 }
 
 void PoseStack::set_limb_steps(Span<const std::uint32_t> numbers, std::uint32_t steps) {
-  base_->set_limb_steps(on_base(numbers, "a limb_refine"), steps);
+  base_->set_limb_steps(on_base(numbers, "limb_refine"), steps);
   mark_stale(0);
 }
 

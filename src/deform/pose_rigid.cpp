@@ -44,8 +44,8 @@ void PoseStack::check_rigid(const RigidPieces& rigid, Span<const std::int32_t> v
   }
 }
 
-// Regions that touch a rigid piece take all of it. Two handles on one piece are refused: a handle that is there has all
-// of its vertices, so check_regions finds it.
+// A region that touches a rigid piece gets all of the piece. Two handles on one piece are refused: a
+// handle on a piece has all vertices of the piece, so check_regions finds the second one.
 void PoseStack::take_whole_pieces(Span<const std::uint32_t> start, Span<const std::int32_t> vertices,
                                   Vector<std::uint32_t>& whole_start, Vector<std::int32_t>& whole) const {
   base_->check_regions(start, vertices);
@@ -65,8 +65,8 @@ void PoseStack::take_whole_pieces(Span<const std::uint32_t> start, Span<const st
         const Span<const std::int32_t> piece = rigid_->vertices_of(static_cast<std::size_t>(p));
         whole.insert(whole.end(), piece.begin(), piece.end());
       } else if (owner[p] != own) {
-        fail(HF_ERROR_CONFLICT, k,
-             "entry %u is on a rigid piece that an earlier region has already; leave the entry out", k);
+        fail(HF_ERROR_CONFLICT, k, "entry %u is on a rigid piece that an earlier region has taken; leave the entry out",
+             k);
       }
     }
     whole_start.push_back(static_cast<std::uint32_t>(whole.size()));

@@ -114,7 +114,7 @@ class PoseStack {
   void check_rigid(const RigidPieces& rigid, Span<const std::int32_t> vertices) const;
   void take_whole_pieces(Span<const std::uint32_t> start, Span<const std::int32_t> vertices,
                          Vector<std::uint32_t>& whole_start, Vector<std::int32_t>& whole) const;
-  // Returns the numbers of these handles in the pose of layer 0. Throws for others; `word`: what is set for them.
+  // Returns the numbers of these handles in the pose of layer 0. Throws for others. word: the option in the error.
   Vector<std::uint32_t> on_base(Span<const std::uint32_t> numbers, const char* word) const;
   void mark_stale(std::uint32_t layer) noexcept;
   void take_base_turns();

@@ -134,7 +134,7 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
   });
 }
 
-// Computes the right-hand side b - K x, in the unit of the scaled mesh; of limbs their rows.
+// Computes the right-hand side b - K x, in the unit of the scaled mesh; with limbs only the rows of their vertices.
 void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* positions, double* load) {
   const Core& core = input.core;
   const SymmetricMatrix& k = core.laplacian;

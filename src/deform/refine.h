@@ -87,8 +87,8 @@ class Refinement {
            (!followed || (!blended_.empty() && followed->rotation.size() <= relative_.capacity()));
   }
   // Improves the blended `positions` in place by this many steps. They are in the given unit and frame. Vertices of
-  // handles and of components without free clusters keep their positions. followed: null, or where the steps go on
-  // from, which this call renews; null with limbs.
+  // handles and of components without free clusters keep their positions. followed: null, or where the steps
+  // continue from, which this call renews; null with limbs.
   void apply(const RefineInput& input, std::uint32_t steps, Followed* followed, Vec3* positions);
 
  private:

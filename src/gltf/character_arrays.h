@@ -22,7 +22,7 @@ struct CharacterArrays {
   double forward[3] = {0, 0, 1};
   bool declared = false;  // the file says which node is which bone of a humanoid, and where forward is
 
-  // Vertices that are loose in the mesh are left out. pose: that of the mesh's positions.
+  // Vertices that are loose in the mesh are left out. pose: the pose of the mesh's positions.
   CharacterArrays(const Model& model, const FlatMesh& mesh, const Pose& pose);
   CharacterArrays(const Model& model, const FlatMesh& mesh) : CharacterArrays(model, mesh, rest_pose(model)) {}
   CharacterArrays(const CharacterArrays&) = delete;

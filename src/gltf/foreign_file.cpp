@@ -1,4 +1,4 @@
-// See foreign_file.h. Here: the process that assimp runs in. What its scene means is foreign_scene.cpp's matter.
+// Runs assimp in a process of its own (foreign_file.h). foreign_scene.cpp makes a model of the scene that assimp reads.
 #include "gltf/foreign_file.h"
 
 #ifdef HF_GLTF_ASSIMP
@@ -180,7 +180,7 @@ std::vector<uint8_t> foreign_glb(const std::vector<uint8_t>& bytes, FileKind kin
   const uint64_t memory = limits.free_bytes + limits.bytes_per_byte * bytes.size();
   const uint64_t space = own_space() + memory;
   int ends[2];
-  if (!open_pipe(ends)) fail("no pipe can be opened to read it through; close files and try again");
+  if (!open_pipe(ends)) fail("no pipe can be opened to read it; close other files and try again");
   std::string text;
   {
     Writer writer{ends[0]};
@@ -190,20 +190,20 @@ std::vector<uint8_t> foreign_glb(const std::vector<uint8_t>& bytes, FileKind kin
       work(ends[1], bytes, kind, name, space, limits.seconds);
     }
     close(ends[1]);
-    if (writer.process < 0) fail("no process can be started to read it in; end others and try again");
+    if (writer.process < 0) fail("no process can be started to read it; end other processes and try again");
     text = read_all(ends[0], limits.max_glb_bytes);
   }
   if (text.size() > limits.max_glb_bytes)
-    fail("is more than " + std::to_string(limits.max_glb_bytes) + " bytes as glTF; split it");
+    fail("is more than " + std::to_string(limits.max_glb_bytes) + " bytes as glTF; split it into several files");
   const size_t size = text.size() - std::min(text.size(), word_length);
   const std::string end = text.substr(size);
   text.resize(size);
-  if (end == late) fail("takes more than " + std::to_string(limits.seconds) + " s to read, it may be damaged" + way_on);
+  if (end == late) fail("takes more than " + std::to_string(limits.seconds) + " s to read and may be damaged" + way_on);
   if (end == out_of_memory)
-    fail("takes more than " + std::to_string(memory >> 20) + " MB to read, it may be damaged" + way_on);
+    fail("takes more than " + std::to_string(memory >> 20) + " MB to read and may be damaged" + way_on);
   if (end == refused) throw std::runtime_error(text);
   const size_t glb = text.find('\0');
-  if (end != made || glb == std::string::npos) fail("assimp fails on it, it may be damaged" + way_on);
+  if (end != made || glb == std::string::npos) fail("assimp fails on it; it may be damaged" + way_on);
   for (size_t at = 0; at < glb;) {
     const size_t next = text.find('\n', at);
     warnings.push_back(text.substr(at, next - at));

@@ -14,7 +14,8 @@ glm::vec3 shape_key(const aiMesh& mesh, size_t target, unsigned v) {
   return moved.mVertices && v < moved.mNumVertices ? vec(moved.mVertices[v] - mesh.mVertices[v]) : glm::vec3(0);
 }
 
-// The eight heaviest joints of every vertex. One without any stays with the node, which becomes a joint then.
+// Returns the eight heaviest joints of every vertex. A vertex without joints stays with the node, which becomes a
+// joint.
 std::vector<Influences> influences_of(const ForeignMesh& from, Skin& skin) {
   const aiMesh& mesh = from.mesh;
   std::unordered_map<int, size_t> slots;
@@ -53,7 +54,7 @@ std::vector<Influences> influences_of(const ForeignMesh& from, Skin& skin) {
 
 }  // namespace
 
-// Triangles alone. assimp gives every corner a vertex; those that agree in all bits become one.
+// Keeps triangles only. assimp gives every corner a vertex; vertices that agree in all bits become one.
 Primitive foreign_primitive(ForeignMesh& from, Skin& skin) {
   const aiMesh& mesh = from.mesh;
   std::vector<Influences> influences;

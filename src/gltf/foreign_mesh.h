@@ -1,4 +1,4 @@
-// Inner header of foreign_scene.cpp: a mesh of assimp as a primitive.
+// Makes a primitive of a mesh of assimp. Inner header of foreign_scene.cpp.
 #ifndef HF_GLTF_FOREIGN_MESH_H
 #define HF_GLTF_FOREIGN_MESH_H
 
@@ -20,7 +20,7 @@ struct ForeignMesh {
   size_t lost_faces = 0;                       // out
 };
 
-// skin: that of the mesh's bones. If a vertex has no bone, the node becomes a joint of it.
+// skin: has the bones of the mesh. If a vertex has no bone, the node becomes a joint of the skin.
 Primitive foreign_primitive(ForeignMesh& from, Skin& skin);
 
 }  // namespace hf_gltf

@@ -1,6 +1,6 @@
-// foreign_glb_here() of foreign_file.h: the scene that assimp reads becomes a model, and the writer makes a GLB of it.
+// Makes a model of the scene that assimp reads, and a GLB of the model: foreign_glb_here() of foreign_file.h.
 //
-// assimp's own writer of glTF is not used: it makes one skin for all meshes and keeps four joints of a vertex.
+// The writer of glTF that assimp has is not used: it makes one skin for all meshes and keeps four joints per vertex.
 // Lengths: an FBX file states its unit in centimetres, COLLADA in metres (assimp scales the root by it), BVH has none.
 // The unit is multiplied into places, bind matrices and keys, so that no node scales for it.
 #ifdef HF_GLTF_ASSIMP
@@ -29,7 +29,7 @@ namespace {
 // How far a matrix may be from the product of its parts, and a joint from where its skin was bound, by the largest
 // entry: above the rounding of floats.
 constexpr double rounding = 1e-5;
-// What assimp means by 0 ticks a second.
+// Ticks per second where the file says 0, as in assimp.
 constexpr double default_ticks = 25;
 
 std::string text_of(const aiString& s) { return printable({s.C_Str(), s.length}); }
@@ -52,7 +52,7 @@ glm::dmat4 local_of(const Node& node) {
   return local_matrix(rest_pose(one)[0]);
 }
 
-// As translation, rotation and scale; as a matrix where it shears.
+// Sets translation, rotation and scale, or the matrix where it shears.
 void place(Node& node, const glm::dmat4& local) {
   node.matrix = local;
   Node parts = node;
@@ -75,14 +75,17 @@ class SceneModel {
     if (fbx_) rest_where_bound();
     for (unsigned m = 0; m < scene_.mNumAnimations; ++m) add_clip(*scene_.mAnimations[m]);
     if (lost_bones_)
-      warnings_.push_back(std::to_string(lost_bones_) + " bones of skins name no node; they are left out");
+      warnings_.push_back(std::to_string(lost_bones_) +
+                          " bones of skins have no node and are left out; export the skeleton with the mesh");
     if (lost_channels_)
-      warnings_.push_back(std::to_string(lost_channels_) +
-                          " curves are left out: they move a pivot, or no node has their name");
+      warnings_.push_back(
+          std::to_string(lost_channels_) +
+          " curves are left out: they move a pivot, or no node has their name; bake the clip before export");
     if (shared_names_)
       warnings_.push_back(std::to_string(shared_names_) +
-                          " nodes have the name of another; a clip may move the wrong one");
-    if (lost_faces_) warnings_.push_back(std::to_string(lost_faces_) + " points and lines are left out");
+                          " nodes have the name of another, and a clip may move the wrong one; rename them");
+    if (lost_faces_)
+      warnings_.push_back(std::to_string(lost_faces_) + " points and lines are left out; only faces are read");
     return std::move(model_);
   }
 
@@ -118,7 +121,7 @@ class SceneModel {
     if (axes.Determinant() > 0.5f)
       root_ = axes;
     else
-      warnings_.push_back("its axes are not right-handed; y is taken as up");
+      warnings_.push_back("its axes are not right-handed, so y is taken as up; export it with right-handed axes");
   }
 
   glm::dmat4 matrix_of(const aiMatrix4x4& m) const {
@@ -133,7 +136,8 @@ class SceneModel {
   void add_node(const aiNode& from, int parent, uint32_t depth) {
     const ReadLimits limits;
     if (depth > limits.max_node_depth || model_.nodes.size() >= limits.max_nodes)
-      fail("has more nodes, or deeper ones, than are read");
+      fail("has more than " + std::to_string(limits.max_nodes) + " nodes, or nodes more than " +
+           std::to_string(limits.max_node_depth) + " deep; split it into several files");
     int self = parent;
     // the root of FBX stands for the file alone
     if (depth > 0 || !fbx_ || from.mNumMeshes > 0 || root_ != aiMatrix4x4()) {
@@ -184,7 +188,8 @@ class SceneModel {
       model_.materials.push_back(material);
     }
     if (textured)
-      warnings_.push_back("textures are not kept; " + std::to_string(textured) + " materials keep their colour alone");
+      warnings_.push_back("textures of " + std::to_string(textured) +
+                          " materials are left out; glTF exported from Blender keeps them");
   }
 
   static bool have_one_rig(const aiMesh& a, const aiMesh& b) {
@@ -203,7 +208,7 @@ class SceneModel {
       MeshData mesh;
       mesh.name = text_of(first.mName);
       for (unsigned t = 0; t < first.mNumAnimMeshes; ++t) {
-        // assimp gives those of FBX the weight 1, whatever the file says
+        // assimp gives shape keys of FBX the weight 1, whatever the file says
         mesh.weights.push_back(fbx_ ? 0 : first.mAnimMeshes[t]->mWeight);
         mesh.target_names.push_back(text_of(first.mAnimMeshes[t]->mName));
       }
@@ -244,8 +249,8 @@ class SceneModel {
     return out;
   }
 
-  // The nodes of an FBX file stand as they did when it was saved, in the middle of a clip perhaps. Joints go to where
-  // their skins were bound. There the surface has the shape that it is stored in.
+  // The nodes of an FBX file stand as they did when it was saved, perhaps in the middle of a clip. This moves joints to
+  // where their skins were bound: there the surface has its stored shape.
   void rest_where_bound() {
     const std::vector<glm::dmat4> before = global_matrices(model_, rest_pose(model_));
     std::unordered_map<int, glm::dmat4> bound;
@@ -311,7 +316,7 @@ class SceneModel {
       add_channel(clip, node, Path::scale, ticks, of.mScalingKeys, of.mNumScalingKeys, 3,
                   [&](const aiVectorKey& key, auto& out) { put(out, vec(key.mValue)); });
     }
-    // what a clip does not move stands as it was saved
+    // a joint that a clip does not move stands as it was saved
     for (const auto& [node, saved] : saved_)
       if (!moved.count(node)) hold(clip, node, saved);
     for (unsigned c = 0; c < from.mNumMorphMeshChannels; ++c) add_shape_keys(clip, *from.mMorphMeshChannels[c], ticks);

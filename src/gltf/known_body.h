@@ -32,7 +32,7 @@ struct KnownBody {
   bool knows_parts() const;
 };
 
-// given: axes that the caller knows, or null. pose: that of the mesh's positions; null: that of the file.
+// given: axes that the caller knows, or null. pose: the pose of the mesh's positions; null: the pose of the file.
 KnownBody know_body(const Model& model, const FlatMesh& mesh, const Axes* given = nullptr, const Pose* pose = nullptr);
 
 // How far the target's body goes for one length of the source's: the ratio of the lengths of their legs. 0: one of them

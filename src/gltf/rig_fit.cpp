@@ -285,7 +285,7 @@ void RigFit::find_joints() {
 void RigFit::number_unknowns(const std::vector<char>& carries) {
   const Pose& rest = whole_rest_;
   const std::vector<glm::dmat4> globals = global_matrices(model_, rest);
-  // By joint: its only child where it moves no vertex but those of that child.
+  // By joint: its only child, if the joint moves no other vertices than the child.
   std::vector<int> children(joints_.size(), 0), only(joints_.size(), -1);
   for (size_t j = 0; j < joints_.size(); ++j) {
     const int up = joints_[j].parent;

@@ -5,9 +5,9 @@
 // back and damped. Let x_j = G_j B_j p_v, and o_a be the origin of joint a. A small world turn w of a moves v by
 // w x (sum_{j below a} w_vj (x_j - o_a)). The sums over vertices are quadratic in the matrices G_j B_j. So they are
 // added up once for each pair of joints, and a step costs O(J^3), whatever the number of vertices.
-// Joints that the model's own clips move (roots, and feet that a rig places by inverse kinematics) may shift too, but
-// only one of those that move the same vertices. All others keep the lengths of their bones. Positions are in world
-// space, in double.
+// Joints that the model's own clips move (roots, and feet that a rig places by inverse kinematics) may shift too. If
+// several move the same vertices, one of them shifts. All others keep the lengths of their bones. Positions are in
+// world space, in double.
 // A ground (RigGround) adds k_g sum_v a_v d_v^2, where v lies d_v under it. It comes in without a step: neither the sum
 // nor its slope jumps where a vertex touches the ground. A vertex under it adds a row to the system.
 // Over a clip, misses change evenly. Let r_f be what the fit of frame f misses: place minus goal, of each vertex. The

@@ -10,8 +10,8 @@
 namespace hf_gltf {
 namespace {
 
-// A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half as much
-// leaves bodies that shift their weight to one leg; twice as much takes a stride for a stance.
+// A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half would
+// refuse bodies that shift their weight to one leg; double would take a stride for a stance.
 constexpr double even = 0.08;
 // A file may hold hundreds of clips, and thousands of loose joints. Clips of one body begin alike, and joints of one
 // skin are bound alike. More cost time.
@@ -93,8 +93,9 @@ double apart(const Skin& skin, const std::vector<glm::dmat4>& globals, const glm
 
 double size_of(const glm::dmat4& m) { return std::cbrt(std::abs(glm::determinant(glm::dmat3(m)))); }
 
-// From where a skin was bound to the world. A frame of the file says it: the node of the mesh or what carries the
-// joints. Where no frame fits, joints without a parent in the skin are taken to rest where they were bound.
+// Returns the transform from the space in which a skin was bound to the world. A frame of the file says it: the node of
+// the mesh, or the node above the joints. If no frame fits, joints without a parent in the skin rest where they were
+// bound.
 glm::dmat4 world_of(const Model& model, size_t index, const std::vector<glm::dmat4>& globals) {
   constexpr double same_size = 0.01, near = 3;  // a frame is off by axes or units if the joints come much farther away
   const Skin& skin = model.skins[index];
@@ -127,8 +128,8 @@ glm::dmat4 world_of(const Model& model, size_t index, const std::vector<glm::dma
   return apart(skin, globals, frame) <= near * apart(skin, globals, root) ? frame : root;
 }
 
-// The joints turn to where their skins were bound; bones keep the lengths that they have. None: they are there, or the
-// file does not say where that is.
+// Turns the joints to where their skins were bound; bones keep their lengths. None: the joints are there already, or
+// the file does not say where they were bound.
 std::optional<Pose> bound_pose(const Model& model, const Pose& rest) {
   const std::vector<glm::dmat4> globals = global_matrices(model, rest);
   std::vector<std::optional<glm::dquat>> wanted(model.nodes.size());

@@ -15,7 +15,7 @@ struct Contact {
   Index vertex, triangle;
   double distance, cost;  // cost: with the difference of skin weights
   Index steps = 0;        // between the joints of both ends in the skeleton; 0: the same joint, or one is not known
-  // What skin weights add to the distance, for neighbours in the skeleton.
+  // The part of the cost that skin weights add, for one step in the skeleton.
   double unlike() const noexcept { return (cost - distance) / std::max(1, steps); }
 };
 

@@ -69,8 +69,8 @@ struct GeodesicPoint {
     std::int32_t triangle;
     double weight[3];  // of its corners
   };
-  // Weights up to this share of their sum count as 0. So a ray that hits an edge gives a point of the edge, whatever its
-  // rounding (1e-15). Larger values move points that are meant to lie beside an edge.
+  // Weights up to this share of their sum count as 0. So a ray that hits an edge gives a point of the edge, whatever
+  // its rounding (1e-15). Larger values move points that are meant to lie beside an edge.
   static constexpr double least_weight = 1e-12;
   // corners: those of a triangle; one of weight 0 may be Mesh::none. Without such a triangle, found() is false.
   GeodesicPoint(const TriangleSides& sides, const std::int32_t* corners, const double* weights, Memory& memory);

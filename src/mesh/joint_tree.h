@@ -1,6 +1,6 @@
-// How far apart two joints are in a skeleton: 0 for one joint, 1 for parent and child, 2 for siblings. Joints that own
-// no vertex do not count, so that a helper between a shin and its foot does not part them. Cost of a query: the
-// logarithm of the depth.
+// Counts the steps between two joints of a skeleton: 0 for one joint, 1 for parent and child, 2 for siblings. Joints
+// that own no vertex do not count: a helper between a shin and its foot is no step. Cost of a query: the logarithm of
+// the depth.
 #pragma once
 #include <cstdint>
 

@@ -74,27 +74,31 @@ void read_skin_hint(const hf_links_desc& desc, const Mesh& mesh, SkinHint& out) 
 void read_parents(const hf_links_desc& desc, const Mesh& mesh, Memory& memory, SkinHint& out) {
   require_zero(desc.reserved);
   if (desc.joint_count == 0) {
-    if (desc.joint_parents) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joint_parents is set, but joint_count is 0");
+    if (desc.joint_parents)
+      fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joint_parents is set, but joint_count is 0; set both or neither");
     return;
   }
   require(desc.joint_parents, "joint_parents");
   if (desc.joint_count > most_parents)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "joint_count is %u; it must be at most %u", desc.joint_count, most_parents);
   if (out.influence_count == 0)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joint_parents needs joints and weights; influence_count is 0");
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "joint_parents is set, but influence_count is 0; set joints and weights too");
   for (std::uint32_t j = 0; j < desc.joint_count; ++j) {
     const std::uint32_t parent = desc.joint_parents[j];
     if (parent != HF_NO_INDEX && parent >= desc.joint_count)
-      fail(HF_ERROR_OUT_OF_RANGE, j, "the parent of joint %u is %u; there are %u joints", j, parent, desc.joint_count);
+      fail(HF_ERROR_OUT_OF_RANGE, j, "the parent of joint %u is %u; it must be below joint_count, %u, or HF_NO_INDEX",
+           j, parent, desc.joint_count);
   }
   out.parents = {desc.joint_parents, desc.joint_count};
   if (const std::uint32_t j = joint_in_circle(out.parents, memory); j != HF_NO_INDEX)
-    fail(HF_ERROR_INVALID_ARGUMENT, j, "joint %u is an ancestor of itself", j);
+    fail(HF_ERROR_INVALID_ARGUMENT, j, "joint %u is its own ancestor; set the parent of the root to HF_NO_INDEX", j);
   for (std::uint32_t v = 0; v < mesh.report.vertex_count; ++v) {
     for (std::size_t i = 0; i < desc.influence_count; ++i) {
       const std::uint32_t joint = desc.joints[std::size_t{v} * desc.influence_count + i];
       if (joint >= desc.joint_count)
-        fail(HF_ERROR_OUT_OF_RANGE, v, "vertex %u names joint %u; there are %u joints", v, joint, desc.joint_count);
+        fail(HF_ERROR_OUT_OF_RANGE, v, "vertex %u names joint %u; it must be below joint_count, %u", v, joint,
+             desc.joint_count);
     }
   }
 }

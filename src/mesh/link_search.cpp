@@ -383,8 +383,8 @@ void LinkSearch::link_spread(const Vector<Contact>& contacts, std::size_t most, 
   }
 }
 
-// Links each side of a pair once, near the middle of the contact. Pieces of different joints turn about
-// each other, and points near the axis move apart the least. The links are as stiff as those of other pairs together.
+// Links each side of a pair once, near the middle of the contact. Pieces of different joints turn about each other, and
+// points near the axis move apart the least. The links are as stiff as all links of another pair together.
 void LinkSearch::link_hinge(Vector<Contact>* sides, bool in_tree) {
   Vec3 middle;
   double sum = 0;
@@ -434,7 +434,7 @@ void LinkSearch::link_pair(const Pair& pair) {
   }
 }
 
-// Notes contacts of pieces that touch and are not linked, so that poses can tell how far they open.
+// Lists contacts of pieces that touch and are not linked, so that hf_surface_measure_gaps can measure them.
 void LinkSearch::list_open(const Pair& pair) {
   for (int side = 0; side < 2; ++side) {
     Vector<Contact> near(&memory_);

@@ -54,7 +54,7 @@ struct LinkOptions {
 struct Links {
   explicit Links(Memory& memory) : links(&memory), open(&memory), piece(&memory), light(&memory), group(&memory) {}
   Vector<Link> links;
-  Vector<Link> open;           // contacts of joints that are far apart in the skeleton: measured, and no springs
+  Vector<Link> open;           // contacts of joints far apart in the skeleton: measured, but no springs
   Vector<Index> piece;         // by vertex
   Vector<std::uint8_t> light;  // by piece
   Vector<Index> group;         // by piece, numbered by their first pieces

@@ -26,7 +26,7 @@ struct HardCross {
   std::complex<double> cross;  // to the fourth degree, length 1, in the frame of the vertex
 };
 
-// What a neighbour sees of a hard cross, besides the cross: the change to that of its own side (side_crosses.h).
+// The cross that a neighbour sees on its own side of a crease is the hard cross plus this change (side_crosses.h).
 struct SeenCross {
   std::int32_t vertex, neighbour;
   std::complex<double> change;

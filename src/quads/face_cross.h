@@ -25,7 +25,7 @@ struct FaceCross {
       : edge(memory), direction(memory), importance(memory), turn(memory), index(memory) {}
   // crosses: by inner vertex of the mesh, to the fourth degree, in the frames of the connection. Triangles with creases
   // take the direction of these; at borders the crosses of the vertices count, which are evened out.
-  // of_corner: of SideCrosses, which count in place of the crosses of vertices; may be empty.
+  // of_corner: of SideCrosses; its crosses count instead of the crosses of vertices. It may be empty.
   static FaceCross make(const FluxSurface& surface, const Connection& connection,
                         Span<const std::complex<double>> crosses, const Table<std::uint8_t>& features,
                         const SharpCorners& corners, const Table<std::complex<double>>& of_corner, Memory& memory);

@@ -14,8 +14,8 @@ constexpr double right_angle = half_turn / 2;
 // straight on.
 constexpr double sharp = right_angle / 2, straight_from = 1.5 * right_angle, straight_to = 2.5 * right_angle;
 
-// Two quads side by side need so many edge lengths between two edges. The vertices behind them need as many before the
-// next corner.
+// Two quads side by side need this many edge lengths between two creases. The quads beyond need as many before the next
+// corner.
 constexpr double two_quads = 2;
 
 // A corner between two feature edges: the triangles on the left of `first`, which leaves the vertex, up to `last`,

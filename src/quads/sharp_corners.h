@@ -6,9 +6,9 @@
 // turned along the edges up to the next corners, such as the valleys of the saw. There the angle counts without the
 // turns, so that the sum of all corners stays that of the shape.
 //
-// Two creases of at least two edges of quads are a tooth. There crosses stay turned as far as the two creases have no
-// room for two quads between them. Behind that, crosses follow the creases again, and a vertex of three quads lies
-// between them; but where the next corners are not far behind, crosses stay turned up to these.
+// Two creases from a sharp corner are a tooth if both are at least two edges of quads long. On a tooth, crosses stay
+// turned only where two quads have no room between the creases. Beyond, crosses follow the creases again, and a vertex
+// of three quads lies between them. If the next corners are near that place, crosses stay turned up to these corners.
 #pragma once
 #include <complex>
 

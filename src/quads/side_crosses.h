@@ -1,4 +1,4 @@
-// The crosses of the two sides of the creases of teeth, where sharp corners turn one side (sharp_corners.h).
+// Gives the two sides of a crease crosses of their own, at teeth whose sharp corner turns one side (sharp_corners.h).
 //
 // A vertex has one cross. On a crease that runs to a sharp corner it would be the mean of the two sides, and wrong on
 // both. So every side, from one feature edge of the vertex to the next, has a cross of its own there.
@@ -10,8 +10,8 @@ namespace hf_inner {
 
 struct SideCrosses {
   explicit SideCrosses(Memory& memory) : of_corner(memory), turned(&memory), seen(&memory) {}
-  // features: by half-edge. hard: of feature_crosses, by ascending vertex; receives those of vertices that have sides
-  // and no cross yet.
+  // features: by half-edge. hard: of feature_crosses, by ascending vertex; receives a cross for vertices that have
+  // sides and no cross yet.
   static SideCrosses find(const FluxSurface& surface, const Connection& connection, const Table<std::uint8_t>& features,
                           const SharpCorners& corners, Vector<HardCross>& hard, Memory& memory);
 
@@ -19,16 +19,16 @@ struct SideCrosses {
   // Empty if no corner is sharp.
   Table<std::complex<double>> of_corner;
   Vector<std::int32_t> turned;  // vertices of the mesh that have sides
-  Vector<SeenCross> seen;       // what the neighbours of these vertices see of them
+  Vector<SeenCross> seen;       // by neighbour of these vertices
 };
 
-// Leaves out the wish within `far` of these vertices, along edges. The curvature of a crease is evened out around it,
-// and would turn crosses back along the crease.
+// Sets the wish to 0 within `far` of these vertices, along edges. The wish there is the curvature of the crease, evened
+// out. It would turn crosses back along the crease.
 void leave_out_near(const Mesh& mesh, const Topology& topology, Span<const std::int32_t> vertices, double far,
                     Vector<std::complex<double>>& wish);
-// Without a wish, the crosses of a round patch cancel out in its middle, and its four quarter turns gather there: at
-// one vertex, which would get no quad, or within an edge. So where crosses cancel out around more than two turns, all
-// hold one direction, and the turns stand around that. Adds these to `hard`; returns whether there are any. wish,
+// Parts the four quarter turns of a round patch. Without a wish, the crosses of the patch cancel out in its middle, and
+// the turns gather there: at one vertex, which would get no quad, or within an edge. So where crosses cancel out around
+// more than two turns, all hold one direction. Adds these crosses to `hard`; returns whether there are any. wish,
 // crosses: by vertex of the mesh. index: of FaceCross.
 bool part_turns(const FluxSurface& surface, const Topology& topology, const Connection& connection,
                 Span<const std::complex<double>> wish, Span<const std::complex<double>> crosses,

@@ -17,9 +17,9 @@ double reached(double distance, double length, double turned) noexcept {
   return soft + (full - soft) * (1 - exponential(-(distance - soft) / (full - soft)));
 }
 
-// Two bones: the triangle of hip, knee and ankle. The side says about which axis the knee bends. The knee stands on
-// that side of the line from hip to ankle: where a long shin is folded up beyond the hip, this is under the thigh and
-// no more where the side points.
+// Two bones: the triangle of hip, knee and ankle. The knee bends about the axis `hinge`, across the thigh and `side`.
+// It stays on one side of the line from hip to ankle: hinge x line. If a long shin is folded up beyond the hip, that
+// side is below the thigh and differs from `side`.
 void bend_two(const Vec3* p, Vec3 goal, double distance, Vec3 side, Vector<Turn>& bends) noexcept {
   const Vec3 thigh = p[1] - p[0], shin = p[2] - p[1];
   const double a = norm(thigh), b = norm(shin);

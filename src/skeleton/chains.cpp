@@ -81,7 +81,7 @@ void number_chains(const Body& body, Character& out) {
         counts[static_cast<std::size_t>(out.chains[c].role)][static_cast<std::size_t>(out.chains[c].side)]++;
 }
 
-// The middle of the lowest vertices of a joint: a leg without a foot ends there, not at the toes of a boot.
+// Returns the middle of the lowest vertices of a joint: a leg without a foot ends there, not at the toes of a boot.
 Vec3 sole_of(const Body& body, Index joint) {
   const double low = body.lowest_below(joint, body.up);
   Box box;
@@ -148,8 +148,8 @@ void measure_limbs(const Body& body, Character& out) {
   if (arm_count > 0) out.arm_length = arms / arm_count;
 }
 
-// Legs that count are among the longest limbs, without a pair of wings. Where a spider lies flat they stretch aside,
-// and what stands is small.
+// Whether the longest leg has at least a quarter of the length of the longest other limb; the first pair of wings does
+// not count. A spider that lies flat stretches its legs aside, and the limbs that stand are short.
 bool has_legs(const Character& out) {
   double legs = 0, longest = 0;
   for (const Chain& chain : out.chains) {

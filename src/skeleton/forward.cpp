@@ -50,7 +50,7 @@ struct Facts {
 };
 
 // The middle of the sole against the ankle, and the joint after the ankle. Without an ankle the knee counts, if it is
-// as good as under the hip.
+// almost below the hip.
 void look_at_feet(const Body& body, const Limb& limb, Facts& facts) {
   constexpr double under = 0.5;  // in halves of a sole: a knee that is farther from under its hip is bent
   for (int side = 0; side < 2; ++side) {

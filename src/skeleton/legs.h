@@ -6,10 +6,10 @@ namespace hf_inner {
 
 // Limbs that stand, else those with the name of legs.
 Vector<const Limb*> standing_limbs(const Body& body);
-// A bone from the middle of the body to where a limb begins: those of both sides start in one place.
+// Whether a limb begins with a bone from the middle of the body: such bones of both sides start in one place.
 bool leads_out(const Body& body, const Limb& limb);
-// The place of the ankle in the path of a leg, whose thigh is at `thigh`: the last joint below half the hip that is
-// clear of the ground, else the first one; 0: none.
+// Returns the place of the ankle in the path of a leg: the last joint below half the hip that is clear of the ground,
+// else the first one; 0: none. thigh: the place of the thigh.
 std::size_t ankle_of(const Body& body, const Vector<Index>& path, std::size_t thigh);
 
 }  // namespace hf_inner

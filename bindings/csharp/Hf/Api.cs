@@ -500,9 +500,9 @@ namespace Hf
         }
     }
 
-    /// <summary>Counts of what the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If
-    /// faces were given, the report counts collapsed and duplicate faces, and sides of faces as edges. It counts
-    /// the degenerate triangles of the cut.</summary>
+    /// <summary>Counts that the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If faces
+    /// were given, the report counts collapsed and duplicate faces, and sides of faces as edges. It counts the
+    /// degenerate triangles of the cut.</summary>
     public sealed unsafe partial class SurfaceReport
     {
         /// <summary>as given</summary>
@@ -596,8 +596,8 @@ namespace Hf
         public uint LightPieceCount;
         /// <summary>pieces without a link, if there are several</summary>
         public uint LonePieceCount;
-        /// <summary>with joint_parents: places where pieces touch and are not linked, such as two feet. Surface.MeasureGaps
-        /// tells how far they open</summary>
+        /// <summary>with joint_parents: places where two pieces touch and have no link, such as two feet.
+        /// Surface.MeasureGaps measures how far they open</summary>
         public uint ContactCount;
         /// <summary>longest link of the tree over the pieces, in the unit of the positions</summary>
         public double LongestTreeLink;
@@ -619,14 +619,15 @@ namespace Hf
         public uint LinkCount;
         /// <summary>95 of 100 links opened no more than this; 0 without links</summary>
         public double Percentile95;
+        /// <summary>the widest gap of a link; 0 without links</summary>
         public double Worst;
         /// <summary>its number in Surface.Links; uint.MaxValue without links</summary>
         public uint WorstLink;
-        /// <summary>as in LinksInfo; worst does not count them</summary>
+        /// <summary>as in LinksInfo; the fields above leave contacts out</summary>
         public uint ContactCount;
-        /// <summary>how far the widest of them opened; 0 without one</summary>
+        /// <summary>the widest gap of a contact; 0 without contacts</summary>
         public double WorstContact;
-        /// <summary>of the widest, as given; uint.MaxValue without one</summary>
+        /// <summary>a vertex of that contact, as given; uint.MaxValue without contacts</summary>
         public uint ContactVertex;
 
         internal GapsInfo(hf_gaps_info* raw)
@@ -722,8 +723,8 @@ namespace Hf
         public uint Triangle;
         /// <summary>its corner nearest to the hit, as given, of welded copies the first</summary>
         public uint Vertex;
-        /// <summary>the point hit: corners of the triangle (the first of welded copies) and their weights. In a face of more
-        /// corners, the corners are those three that the ray hits in the cut of the face</summary>
+        /// <summary>the point hit: corners of the triangle (the first of welded copies) and their barycentrics. In a face of
+        /// more corners: the three corners of the triangle of its cut that the ray hits</summary>
         public Place Place;
         /// <summary>in the unit of the positions</summary>
         public double[] Position = new double[3];
@@ -1140,6 +1141,7 @@ namespace Hf
         public double SolveMs;
         public double BlendMs;
         public double NormalMs;
+        /// <summary>steps of refine and of limb_refine</summary>
         public double RefineMs;
 
         internal PoseStatistics(hf_pose_statistics* raw)
@@ -1152,8 +1154,7 @@ namespace Hf
         }
     }
 
-    /// <summary>One proposed handle. position and radius are those of HandlesDesc: the regions of all proposals are
-    /// disjoint.</summary>
+    /// <summary>One proposed handle. position and radius are as in HandlesDesc: the regions of all proposals are disjoint.</summary>
     public sealed unsafe partial class HandleProposal
     {
         /// <summary>nearest to the position; as given, of welded copies the first</summary>
@@ -1881,9 +1882,9 @@ namespace Hf
         public ushort[] Joints;
         /// <summary>[vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint</summary>
         public float[] Weights;
-        /// <summary>[jointCount] parent of each joint, uint.MaxValue for a root. Pieces of parent and child link wherever
-        /// they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing else joins
-        /// them</summary>
+        /// <summary>[jointCount] parent of each joint, uint.MaxValue for a root; needs joints and weights. Pieces of parent
+        /// and child link wherever they touch. Pieces of joints farther apart in the skeleton, such as two feet,
+        /// link only if nothing else joins them</summary>
         public uint[] JointParents;
         /// <summary>[vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a
         /// piece counts</summary>
@@ -2140,7 +2141,7 @@ namespace Hf
     /// dirty: the surface counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices
     /// and components. Surface.Report gives these counts.
     ///
-    /// A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are
+    /// A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
     /// doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a
     /// leaf, hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name
     /// any. Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both
@@ -2174,7 +2175,7 @@ namespace Hf
         /// may be dirty: the surface counts non-manifold edges, flipped, duplicate and zero-area triangles,
         /// isolated vertices and components. Surface.Report gives these counts.
         ///
-        /// A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces
+        /// A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces
         /// are doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such
         /// as a leaf, hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you
         /// can name any. Vertices of the second side alone get opposite normals from poses, and a ray with
@@ -2417,7 +2418,8 @@ namespace Hf
         }
 
         /// <summary>Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther
-        /// its ends are apart than at rest, and 0 if they are nearer.
+        /// its ends are apart than at rest, and 0 if they are nearer. The gap of a contact (LinksInfo) is measured
+        /// in the same way.
         ///
         /// positions: [vertexCount x 3] of float or double: the deformed mesh, from a pose, a transfer or any other
         ///     source.
@@ -2452,9 +2454,9 @@ namespace Hf
         ///
         /// joints: [vertexCount x influenceCount] of a skin: pieces of the same joint link sooner
         /// weights: [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint
-        /// jointParents: [jointCount] parent of each joint, uint.MaxValue for a root. Pieces of parent and child
-        ///     link wherever they touch. Pieces of joints that are farther apart, such as two feet, link only if
-        ///     nothing else joins them
+        /// jointParents: [jointCount] parent of each joint, uint.MaxValue for a root; needs joints and weights.
+        ///     Pieces of parent and child link wherever they touch. Pieces of joints farther apart in the skeleton,
+        ///     such as two feet, link only if nothing else joins them
         /// tags: [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of
         ///     a piece counts
         /// links: [linkCount]
@@ -2467,7 +2469,8 @@ namespace Hf
         ///     % of the diagonal, below 0: no piece is light unless light_vertices say so
         /// progress: an object to poll and cancel through.
         ///
-        /// Throws HF_ERROR_CANCELLED.</summary>
+        /// Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+        /// HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
         public Surface Relink(ushort[] joints = null, float[] weights = null, uint[] jointParents = null,
                 uint[] tags = null, Link[] links = null, uint[] lightVertices = null, uint[] heavyVertices = null,
                 LinkMode mode = default(LinkMode), double distance = 0, double stiffness = 0,
@@ -4150,12 +4153,12 @@ namespace Hf
             }
         }
 
-        /// <summary>Chooses who gives the rotations of handles: the solve or you. A handle of free rotation is a positional
+        /// <summary>Frees the rotations of handles, or lets you give them again. A handle of free rotation is a positional
         /// constraint (Sorkine and Alexa 2007). Its centroid lands exactly where its transform puts it; the
         /// rotation of the transform is ignored. Each Pose.Deform finds the rotation together with the pose, and
-        /// Pose.Handle writes it. The rotation has the least as-rigid-as-possible energy. A group of vertices that
-        /// is pulled compares itself with a longer and thinner shape than its rest shape. So the energy is not
-        /// exactly the energy towards the rest shape.
+        /// Pose.Handle writes it. The rotation has the least as-rigid-as-possible energy. The energy of a pulled
+        /// group of vertices is measured from a longer and thinner shape than the rest shape of the group. So the
+        /// rotation is not exactly the rotation of least energy from the rest shape.
         ///
         /// Free the rotation while the user drags a handle: the wrist then follows the hand. Give the rotation
         /// while the user turns a ring. A given rotation starts at the present rotation of the handle, so the pose
@@ -4179,12 +4182,12 @@ namespace Hf
             }
         }
 
-        /// <summary>Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the rest of the surface
-        /// where it would be without these handles. So a body does not lean after a dragged hand. Keep 1 for the
-        /// handles that hold the body, and set less for a handle that is dragged. Every handle still lands exactly,
-        /// and a limb that is too short gets longer. The limb of a handle is the part where its field is near 1.
-        /// The next Pose.Deform shows a change at once. Full-mesh steps (refine) ignore the pins; with
-        /// refine_from_last they let the body lean again.
+        /// <summary>Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the surface where it
+        /// would be without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field
+        /// of the handle is, the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the
+        /// body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is
+        /// too short gets longer. The next Pose.Deform shows a change at once. Full-mesh steps (refine) ignore the
+        /// pins. Repeated steps (refine_from_last) let the body lean again.
         ///
         /// handles: [handleCount].
         /// following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of
@@ -4203,14 +4206,14 @@ namespace Hf
 
         /// <summary>Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The
         /// limb is the part of the surface where the field of the handle falls a long way over little area. It ends
-        /// at the trunk, or at the next handle on the limb. The steps move the limb alone. The rest of the surface
-        /// keeps its bits, and the body does not lean more than without the steps. A limb that is pulled beyond its
-        /// length is stretched evenly. With the refine of DeformDesc the limbs take their steps after it. If
-        /// several handles have a refine, all their limbs take the largest.
+        /// at the trunk, or at the next handle on the limb. The steps move the limb alone. All other vertices keep
+        /// their bits, so the body leans no more than without the steps. A limb that is pulled beyond its length is
+        /// stretched evenly. The limbs take their steps after the steps of DeformDesc.refine. If handles have
+        /// different counts of steps, all their limbs take the largest count.
         ///
         /// handles: [handleCount].
-        /// refine: 0 to 64 steps of as-rigid-as-possible at every Pose.Deform; 0 = none, as in a new handle. 1
-        ///     keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
+        /// refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle.
+        ///     1 keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
         public void SetLimbRefine(uint[] handles, int refine = 0)
@@ -4224,11 +4227,10 @@ namespace Hf
         }
 
         /// <summary>Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each
-        /// frame moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit
-        /// counts the vertices near links most. If the region of a handle touches a rigid piece, the whole piece
-        /// joins the region and moves with the handle. A second handle on the same piece is refused
-        /// (HF_ERROR_CONFLICT). Call this function before you add such handles. Pose.Skin writes the motions before
-        /// this fit.
+        /// frame moves a rigid piece by the rigid motion that fits the piece best, also after refine. Vertices near
+        /// links count most in this fit. If the region of a handle touches a rigid piece, the whole piece joins the
+        /// region and moves with the handle. A second handle on the same piece is refused (HF_ERROR_CONFLICT). Call
+        /// this function before you add such handles. Pose.Skin writes the motions before this fit.
         ///
         /// vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid.
         ///     The list replaces the previous list.
@@ -4359,14 +4361,15 @@ namespace Hf
         ///     with the same handles, added in the same order, and the same transforms. Without restart a frame
         ///     continues from the last one, so it also depends on that
         /// refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes
-        ///     about 0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
+        ///     about 0.2 us per vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
         ///     sharper
         /// refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth
         ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand
         ///     still, more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs
-        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes per vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-        /// vertexCount: positions of a range cost only the range, without higher layers, refine and normals
+        /// vertexCount: positions of a range cost only the range; but with higher layers, rigid pieces, refine,
+        ///     limb_refine or normals they cost the whole surface
         /// @out: [vertexCount x 3] of float or double: posed positions
         /// normals: [vertexCount x 3] of float or double: unit normals of the posed surface, shared across seams
         /// info: filled in when given
@@ -4889,8 +4892,8 @@ namespace Hf
     ///
     /// Creates a region without vertices.
     ///
-    /// positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. Weight 0 gives the same
-    ///     bits. null: the positions of the mesh, to 1e-15 of the box. The call copies them
+    /// positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. A morph of weight 0
+    ///     writes their bits. null: the positions of the mesh, to 1e-15 of the box. The call copies the array
     /// @base: Base. If the surface has no factor for it yet, it is made now
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Region : Recorded
@@ -4899,8 +4902,8 @@ namespace Hf
 
         /// <summary>Creates a region without vertices.
         ///
-        /// positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. Weight 0 gives the
-        ///     same bits. null: the positions of the mesh, to 1e-15 of the box. The call copies them
+        /// positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. A morph of weight 0
+        ///     writes their bits. null: the positions of the mesh, to 1e-15 of the box. The call copies the array
         /// @base: Base. If the surface has no factor for it yet, it is made now
         /// progress: an object to poll and cancel through
         ///

@@ -91,7 +91,7 @@ export interface SurfaceInfo {
 }
 
 /**
- * Counts of what the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If faces
+ * Counts that the surface found in the mesh. A graph has no triangles: its counts of triangles are 0. If faces
  * were given, the report counts collapsed and duplicate faces, and sides of faces as edges. It counts the
  * degenerate triangles of the cut.
  */
@@ -160,8 +160,8 @@ export interface LinksInfo {
   /** pieces without a link, if there are several */
   lonePieceCount: number;
   /**
-   * with joint_parents: places where pieces touch and are not linked, such as two feet. Surface.measureGaps tells
-   * how far they open
+   * with joint_parents: places where two pieces touch and have no link, such as two feet. Surface.measureGaps
+   * measures how far they open
    */
   contactCount: number;
   /** longest link of the tree over the pieces, in the unit of the positions */
@@ -173,14 +173,15 @@ export interface GapsInfo {
   linkCount: number;
   /** 95 of 100 links opened no more than this; 0 without links */
   percentile95: number;
+  /** the widest gap of a link; 0 without links */
   worst: number;
   /** its number in Surface.links; constants.HF_NO_INDEX without links */
   worstLink: number;
-  /** as in LinksInfo; worst does not count them */
+  /** as in LinksInfo; the fields above leave contacts out */
   contactCount: number;
-  /** how far the widest of them opened; 0 without one */
+  /** the widest gap of a contact; 0 without contacts */
   worstContact: number;
-  /** of the widest, as given; constants.HF_NO_INDEX without one */
+  /** a vertex of that contact, as given; constants.HF_NO_INDEX without contacts */
   contactVertex: number;
 }
 
@@ -238,8 +239,8 @@ export interface Hit {
   /** its corner nearest to the hit, as given, of welded copies the first */
   vertex: number;
   /**
-   * the point hit: corners of the triangle (the first of welded copies) and their weights. In a face of more
-   * corners, the corners are those three that the ray hits in the cut of the face
+   * the point hit: corners of the triangle (the first of welded copies) and their barycentrics. In a face of more
+   * corners: the three corners of the triangle of its cut that the ray hits
    */
   place: Place;
   /** in the unit of the positions */
@@ -560,6 +561,7 @@ export interface PoseStatistics {
   solveMs: number;
   blendMs: number;
   normalMs: number;
+  /** steps of refine and of limb_refine */
   refineMs: number;
 }
 
@@ -592,10 +594,7 @@ export interface SkinInfo {
   vertexWeights: Float32Array;
 }
 
-/**
- * One proposed handle. position and radius are those of hf_handles_desc: the regions of all proposals are
- * disjoint.
- */
+/** One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint. */
 export interface HandleProposal {
   /** nearest to the position; as given, of welded copies the first */
   vertex: number;
@@ -1030,8 +1029,9 @@ export interface LinksDescGiven {
   /** [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint */
   weights?: Rows | null;
   /**
-   * [jointCount] parent of each joint, constants.HF_NO_INDEX for a root. Pieces of parent and child link wherever
-   * they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing else joins them
+   * [jointCount] parent of each joint, constants.HF_NO_INDEX for a root; needs joints and weights. Pieces of
+   * parent and child link wherever they touch. Pieces of joints farther apart in the skeleton, such as two feet,
+   * link only if nothing else joins them
    */
   jointParents?: Rows | null;
   /**
@@ -1126,7 +1126,7 @@ export interface ProgressClass {
  * surface counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
  * Surface.report gives these counts.
  *
- * A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are
+ * A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
  * doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf,
  * hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any.
  * Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
@@ -1179,7 +1179,8 @@ export interface Surface extends Handle {
   pieces(): { pieces: Uint32Array; light: Int32Array };
   /**
    * Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its
-   * ends are apart than at rest, and 0 if they are nearer.
+   * ends are apart than at rest, and 0 if they are nearer. The gap of a contact (LinksInfo) is measured in the
+   * same way.
    *
    * positions: [vertexCount x 3] of float or double: the deformed mesh, from a pose, a transfer or any other
    *     source.
@@ -1194,9 +1195,9 @@ export interface Surface extends Handle {
    *
    * joints: [vertexCount x influenceCount] of a skin: pieces of the same joint link sooner
    * weights: [vertexCount x influenceCount] of sum 1; where all are 0, a vertex shares no joint
-   * jointParents: [jointCount] parent of each joint, constants.HF_NO_INDEX for a root. Pieces of parent and child
-   *     link wherever they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing
-   *     else joins them
+   * jointParents: [jointCount] parent of each joint, constants.HF_NO_INDEX for a root; needs joints and weights.
+   *     Pieces of parent and child link wherever they touch. Pieces of joints farther apart in the skeleton, such
+   *     as two feet, link only if nothing else joins them
    * tags: [vertexCount]: pieces with different tags do not link, as a rider and a horse. The first vertex of a
    *     piece counts
    * links: [linkCount]
@@ -1209,7 +1210,8 @@ export interface Surface extends Handle {
    *     the diagonal, below 0: no piece is light unless light_vertices say so
    * progress: an object to poll and cancel through.
    *
-   * Throws HF_ERROR_CANCELLED.
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   relink(options?: { joints?: Rows | null; weights?: Rows | null; jointParents?: Rows | null; tags?: Rows | null; links?: Rows | null; lightVertices?: Rows | null; heavyVertices?: Rows | null; mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; progress?: Progress | null }): Surface;
   /** Writes the statistics of a surface and of the factor it was made with. */
@@ -1831,12 +1833,12 @@ export interface Pose extends Recorded {
    */
   setTransform(handle: number, options?: { rotation?: Rows | null; translation?: Rows | null }): void;
   /**
-   * Chooses who gives the rotations of handles: the solve or you. A handle of free rotation is a positional
+   * Frees the rotations of handles, or lets you give them again. A handle of free rotation is a positional
    * constraint (Sorkine and Alexa 2007). Its centroid lands exactly where its transform puts it; the rotation of
    * the transform is ignored. Each Pose.deform finds the rotation together with the pose, and Pose.handle writes
-   * it. The rotation has the least as-rigid-as-possible energy. A group of vertices that is pulled compares itself
-   * with a longer and thinner shape than its rest shape. So the energy is not exactly the energy towards the rest
-   * shape.
+   * it. The rotation has the least as-rigid-as-possible energy. The energy of a pulled group of vertices is
+   * measured from a longer and thinner shape than the rest shape of the group. So the rotation is not exactly the
+   * rotation of least energy from the rest shape.
    *
    * Free the rotation while the user drags a handle: the wrist then follows the hand. Give the rotation while the
    * user turns a ring. A given rotation starts at the present rotation of the handle, so the pose does not change.
@@ -1853,12 +1855,12 @@ export interface Pose extends Recorded {
    */
   setFreeRotations(handles: Rows, freeRotation?: boolean | number): void;
   /**
-   * Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the rest of the surface where
-   * it would be without these handles. So a body does not lean after a dragged hand. Keep 1 for the handles that
-   * hold the body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is
-   * too short gets longer. The limb of a handle is the part where its field is near 1. The next Pose.deform shows
-   * a change at once. Full-mesh steps (refine) ignore the pins; with refine_from_last they let the body lean
-   * again.
+   * Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the surface where it would be
+   * without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field of the handle
+   * is, the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the body, and set less for
+   * a handle that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next
+   * Pose.deform shows a change at once. Full-mesh steps (refine) ignore the pins. Repeated steps
+   * (refine_from_last) let the body lean again.
    *
    * handles: [handleCount].
    * following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the
@@ -1870,24 +1872,24 @@ export interface Pose extends Recorded {
   /**
    * Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The limb
    * is the part of the surface where the field of the handle falls a long way over little area. It ends at the
-   * trunk, or at the next handle on the limb. The steps move the limb alone. The rest of the surface keeps its
-   * bits, and the body does not lean more than without the steps. A limb that is pulled beyond its length is
-   * stretched evenly. With the refine of hf_deform_desc the limbs take their steps after it. If several handles
-   * have a refine, all their limbs take the largest.
+   * trunk, or at the next handle on the limb. The steps move the limb alone. All other vertices keep their bits,
+   * so the body leans no more than without the steps. A limb that is pulled beyond its length is stretched evenly.
+   * The limbs take their steps after the steps of hf_deform_desc.refine. If handles have different counts of
+   * steps, all their limbs take the largest count.
    *
    * handles: [handleCount].
-   * refine: 0 to 64 steps of as-rigid-as-possible at every Pose.deform; 0 = none, as in a new handle. 1 keeps
-   *     bends smooth. 8 and more keep lengths; the limb bends like two bones.
+   * refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. 1
+   *     keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
    */
   setLimbRefine(handles: Rows, refine?: number): void;
   /**
    * Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
-   * moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the
-   * vertices near links most. If the region of a handle touches a rigid piece, the whole piece joins the region
-   * and moves with the handle. A second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this
-   * function before you add such handles. Pose.skin writes the motions before this fit.
+   * moves a rigid piece by the rigid motion that fits the piece best, also after refine. Vertices near links count
+   * most in this fit. If the region of a handle touches a rigid piece, the whole piece joins the region and moves
+   * with the handle. A second handle on the same piece is refused (HF_ERROR_CONFLICT). Call this function before
+   * you add such handles. Pose.skin writes the motions before this fit.
    *
    * vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
    *     replaces the previous list.
@@ -1931,13 +1933,14 @@ export interface Pose extends Recorded {
    *     the same handles, added in the same order, and the same transforms. Without restart a frame continues from
    *     the last one, so it also depends on that
    * refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about
-   *     0.2 us a vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
+   *     0.2 us per vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
    * refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth pose.
    *     Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still, more
    *     calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1 or
-   *     more. Higher layers start at the smooth pose. Memory: 72 bytes a vertex
+   *     more. Higher layers start at the smooth pose. Memory: 72 bytes per vertex
    * firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
-   * vertexCount: positions of a range cost only the range, without higher layers, refine and normals
+   * vertexCount: positions of a range cost only the range; but with higher layers, rigid pieces, refine,
+   *     limb_refine or normals they cost the whole surface
    * out: [vertexCount x 3] of float or double: posed positions
    * normals: [vertexCount x 3] of float or double: unit normals of the posed surface, shared across seams
    * info: filled in when given
@@ -2098,8 +2101,8 @@ export interface FlowClass {
  *
  * Creates a region without vertices.
  *
- * positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. Weight 0 gives the same
- *     bits. null: the positions of the mesh, to 1e-15 of the box. The call copies them
+ * positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. A morph of weight 0 writes
+ *     their bits. null: the positions of the mesh, to 1e-15 of the box. The call copies the array
  * base: HF_BASE_*. If the surface has no factor for it yet, it is made now
  * progress: an object to poll and cancel through
  */

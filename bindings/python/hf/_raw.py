@@ -399,7 +399,7 @@ class hf_surface_info(Struct):
 
 
 class hf_surface_report(Struct):
-    """Counts of what the surface found in the mesh."""
+    """Counts that the surface found in the mesh."""
     struct_size: int
     vertex_count: int
     triangle_count: int

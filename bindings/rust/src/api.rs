@@ -28,8 +28,9 @@ pub struct Links<'a> {
     pub joints: Option<&'a [u16]>,
     /// `[vertex_count x influence_count]` of sum 1; where all are 0, a vertex shares no joint
     pub weights: Option<&'a [f32]>,
-    /// `[joint_count]` parent of each joint, [`raw::HF_NO_INDEX`] for a root. Pieces of parent and child link wherever
-    /// they touch. Pieces of joints that are farther apart, such as two feet, link only if nothing else joins them
+    /// `[joint_count]` parent of each joint, [`raw::HF_NO_INDEX`] for a root; needs joints and weights. Pieces of parent
+    /// and child link wherever they touch. Pieces of joints farther apart in the skeleton, such as two feet, link only if
+    /// nothing else joins them
     pub joint_parents: Option<&'a [u32]>,
     /// `[vertex_count]`: pieces with different tags do not link, as a rider and a horse. The first vertex of a piece
     /// counts
@@ -574,17 +575,18 @@ pub struct DeformOptions {
     /// handles, added in the same order, and the same transforms. Without restart a frame continues from the last
     /// one, so it also depends on that
     pub restart: bool,
-    /// 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about 0.2 us a
+    /// 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about 0.2 us per
     /// vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
     pub refine: i32,
     /// 1: the steps go on from the surface of the last call, instead of starting at the smooth pose. Then one step a
     /// frame keeps lengths in a drag as well as 8 do without. If the handles stand still, more calls go on to the
     /// minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1 or more. Higher layers
-    /// start at the smooth pose. Memory: 72 bytes a vertex
+    /// start at the smooth pose. Memory: 72 bytes per vertex
     pub refine_from_last: bool,
     /// outputs hold vertex_count vertices from this one on; 0 and 0: all
     pub first_vertex: u32,
-    /// positions of a range cost only the range, without higher layers, refine and normals
+    /// positions of a range cost only the range; but with higher layers, rigid pieces, refine, limb_refine or normals
+    /// they cost the whole surface
     pub vertex_count: u32,
 }
 impl DeformOptions {
@@ -723,8 +725,8 @@ impl<'a> QuadsOptions<'a> {
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RegionOptions<'a> {
-    /// `None`, or `[vertex_count x 3]` of float or double: positions of the mesh or of a pose. Weight 0 gives the same
-    /// bits. `None`: the positions of the mesh, to 1e-15 of the box. The call copies them
+    /// `None`, or `[vertex_count x 3]` of float or double: positions of the mesh or of a pose. A morph of weight 0 writes
+    /// their bits. `None`: the positions of the mesh, to 1e-15 of the box. The call copies the array
     pub positions: Option<Reals<'a>>,
     /// `HF_BASE_*`. If the surface has no factor for it yet, it is made now
     pub base: i32,
@@ -1478,10 +1480,10 @@ impl Surface {
     /// surface counts non-manifold edges, flipped, duplicate and zero-area triangles, isolated vertices and components.
     /// `Surface::report` gives these counts.
     ///
-    /// A doubled face counts once: fields, poses, quads and all else are those of the mesh without it. Faces are doubled
-    /// if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf, hair or a
-    /// cape, is one sheet with a border. Results name the first of doubled triangles; you can name any. Vertices of the
-    /// second side alone get opposite normals from poses, and a ray with front_only hits both sides.
+    /// A doubled face counts once: fields, poses, quads and all else are the same on the mesh without it. Faces are
+    /// doubled if they have the same corners after welding, in either direction. So a two-sided sheet, such as a leaf,
+    /// hair or a cape, is one sheet with a border. Results name the first of doubled triangles; you can name any.
+    /// Vertices of the second side alone get opposite normals from poses, and a ray with front_only hits both sides.
     ///
     /// positions: `[vertex_count x 3]` of float or double, any unit, any offset
     /// triangles: `[triangle_count x 3]` of uint32_t or uint16_t, counter-clockwise seen from outside
@@ -1630,7 +1632,8 @@ impl Surface {
     }
 
     /// Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends
-    /// are apart than at rest, and 0 if they are nearer.
+    /// are apart than at rest, and 0 if they are nearer. The gap of a contact ([`raw::hf_links_info`]) is measured in the
+    /// same way.
     ///
     /// positions: `[vertex_count x 3]` of float or double: the deformed mesh, from a pose, a transfer or any other
     /// source.
@@ -1662,7 +1665,9 @@ impl Surface {
     ///
     /// progress: an object to poll and cancel through.
     ///
-    /// Fails with [`raw::HF_ERROR_CANCELLED`].
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
+    /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
+    /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn relink(&self, links: &Links, progress: Option<&Progress>) -> Result<Self> {
         let mut c = Call::new(&self.counts);
         let desc = links.fill(&mut c, "")?;
@@ -2788,11 +2793,12 @@ impl Pose {
         Ok(())
     }
 
-    /// Chooses who gives the rotations of handles: the solve or you. A handle of free rotation is a positional constraint
+    /// Frees the rotations of handles, or lets you give them again. A handle of free rotation is a positional constraint
     /// (Sorkine and Alexa 2007). Its centroid lands exactly where its transform puts it; the rotation of the transform is
     /// ignored. Each Pose.deform finds the rotation together with the pose, and `Pose::handle` writes it. The rotation
-    /// has the least as-rigid-as-possible energy. A group of vertices that is pulled compares itself with a longer and
-    /// thinner shape than its rest shape. So the energy is not exactly the energy towards the rest shape.
+    /// has the least as-rigid-as-possible energy. The energy of a pulled group of vertices is measured from a longer and
+    /// thinner shape than the rest shape of the group. So the rotation is not exactly the rotation of least energy from
+    /// the rest shape.
     ///
     /// Free the rotation while the user drags a handle: the wrist then follows the hand. Give the rotation while the user
     /// turns a ring. A given rotation starts at the present rotation of the handle, so the pose does not change. When you
@@ -2815,11 +2821,12 @@ impl Pose {
         Ok(())
     }
 
-    /// Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the rest of the surface where it
-    /// would be without these handles. So a body does not lean after a dragged hand. Keep 1 for the handles that hold the
-    /// body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is too short
-    /// gets longer. The limb of a handle is the part where its field is near 1. The next Pose.deform shows a change at
-    /// once. Full-mesh steps (refine) ignore the pins; with refine_from_last they let the body lean again.
+    /// Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the surface where it would be
+    /// without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field of the handle is,
+    /// the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the body, and set less for a handle
+    /// that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next Pose.deform
+    /// shows a change at once. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let the body
+    /// lean again.
     ///
     /// handles: `[handle_count]`.
     /// following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the
@@ -2837,14 +2844,14 @@ impl Pose {
 
     /// Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. The limb is
     /// the part of the surface where the field of the handle falls a long way over little area. It ends at the trunk, or
-    /// at the next handle on the limb. The steps move the limb alone. The rest of the surface keeps its bits, and the
-    /// body does not lean more than without the steps. A limb that is pulled beyond its length is stretched evenly. With
-    /// the refine of [`DeformOptions`] the limbs take their steps after it. If several handles have a refine, all their
-    /// limbs take the largest.
+    /// at the next handle on the limb. The steps move the limb alone. All other vertices keep their bits, so the body
+    /// leans no more than without the steps. A limb that is pulled beyond its length is stretched evenly. The limbs take
+    /// their steps after the steps of [`DeformOptions`].refine. If handles have different counts of steps, all their
+    /// limbs take the largest count.
     ///
     /// handles: `[handle_count]`.
-    /// refine: 0 to 64 steps of as-rigid-as-possible at every Pose.deform; 0 = none, as in a new handle. 1 keeps bends
-    /// smooth. 8 and more keep lengths; the limb bends like two bones.
+    /// refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. 1 keeps
+    /// bends smooth. 8 and more keep lengths; the limb bends like two bones.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn set_limb_refine(&mut self, handles: &[u32], refine: i32) -> Result<()> {
@@ -2856,8 +2863,8 @@ impl Pose {
     }
 
     /// Names the rigid pieces of the mesh, such as a sword. A piece is an edge-connected part of the mesh. Each frame
-    /// moves a rigid piece by the rigid motion that fits the piece best, also after refine. The fit counts the vertices
-    /// near links most. If the region of a handle touches a rigid piece, the whole piece joins the region and moves with
+    /// moves a rigid piece by the rigid motion that fits the piece best, also after refine. Vertices near links count
+    /// most in this fit. If the region of a handle touches a rigid piece, the whole piece joins the region and moves with
     /// the handle. A second handle on the same piece is refused ([`raw::HF_ERROR_CONFLICT`]). Call this function before
     /// you add such handles. `Pose::skin` writes the motions before this fit.
     ///

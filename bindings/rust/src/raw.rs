@@ -420,7 +420,7 @@ pub struct hf_surface_info {
     pub corner_count: u32,
 }
 
-/// Counts of what the surface found in the mesh.
+/// Counts that the surface found in the mesh.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_report {

@@ -221,7 +221,7 @@ TEST(ForeignFiles, TexturesThatAreNotKeptAreSaid) {
   text.insert(text.rfind("}"), "  C: \"OP\",30,7, \"DiffuseColor\"\n");
   const Model model = read(text, "a.fbx");
   ASSERT_EQ(model.warnings.size(), 1u);
-  EXPECT_EQ(model.warnings[0], "textures are not kept; 1 materials keep their colour alone");
+  EXPECT_EQ(model.warnings[0], "textures of 1 materials are left out; glTF exported from Blender keeps them");
 }
 
 TEST(ForeignFiles, InThisProcessTheSameBytesAreMade) {

@@ -209,7 +209,7 @@ TEST(RobotLinks, an_open_contact_is_measured) {
   EXPECT_NEAR(widest, 0.125, 1e-6);
 }
 
-// What the skeleton is for: without it, feet that touch are nearer than a knee.
+// The skeleton is needed: without it, feet that touch are nearer than a knee.
 TEST(RobotLinks, without_a_skeleton_strangers_take_the_place_of_a_knee) {
   Robot robot(3);
   const auto links = robot.link(false);
