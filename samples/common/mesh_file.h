@@ -33,6 +33,7 @@ struct SurfaceMesh {
   std::vector<glm::vec3> normals;  // per vertex, or empty
   std::vector<glm::vec4> colors;   // per vertex, rgba 0..1, or empty
   std::vector<std::string> warnings;
+  std::vector<std::string> ignored;  // what the file has beside these, such as "materials"
 
   size_t face_count() const { return face_sizes.empty() ? triangles.size() / 3 : face_sizes.size(); }
 };
@@ -48,8 +49,8 @@ SurfaceMesh read_mesh_file(const std::filesystem::path& file, const MeshLimits& 
 SurfaceMesh read_mesh_bytes(const std::vector<uint8_t>& bytes, const std::string& extension, const std::string& name,
                             const MeshLimits& limits = {});
 
-// .obj, .off and .ply (binary little endian), .gltf and .glb (triangles). Numbers are written so that they read back
-// exactly as doubles (.ply, .obj, .off) or floats (.gltf, .glb).
+// .obj, .off and .ply (binary little endian), .stl (binary), .gltf and .glb (triangles). Numbers are written so that
+// they read back exactly as doubles (.ply, .obj, .off) or floats (.stl, .gltf, .glb).
 void write_mesh_file(const SurfaceMesh& mesh, const std::filesystem::path& file);
 
 // A FlatMesh of one part, welded, for the functions that take one; and the other way round.

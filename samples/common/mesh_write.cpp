@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/mesh_file.h"
+#include "gltf/file_name.h"
 #include "gltf/file_write.h"
 #include "gltf/gltf_write.h"
 
@@ -161,27 +162,48 @@ std::string ply_bytes(const SurfaceMesh& mesh) {
   return out.str();
 }
 
+// Binary. A triangle has a normal of its own, and three corners that it shares with no other.
+std::string stl_bytes(const SurfaceMesh& mesh) {
+  Text out;
+  out << std::string(80, ' ');
+  out.raw(static_cast<uint32_t>(mesh.triangles.size() / 3));
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const glm::dvec3 corners[3] = {mesh.positions[mesh.triangles[t]], mesh.positions[mesh.triangles[t + 1]],
+                                   mesh.positions[mesh.triangles[t + 2]]};
+    const glm::dvec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double twice_area = length(normal);
+    const auto add = [&](const glm::dvec3& v) {
+      for (int c = 0; c < 3; ++c) out.raw(static_cast<float>(v[c]));
+    };
+    add(twice_area > 0 ? normal / twice_area : glm::dvec3(0));
+    for (const glm::dvec3& corner : corners) add(corner);
+    out.raw(uint16_t{0});
+  }
+  return out.str();
+}
+
 }  // namespace
 
 void write_mesh_file(const SurfaceMesh& mesh, const std::filesystem::path& file) {
   check(mesh, file.string());
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = ending_of(file);
   if (extension == ".obj") {
     write_bytes(file, obj_text(mesh));
   } else if (extension == ".off") {
     write_bytes(file, off_text(mesh));
   } else if (extension == ".ply") {
     write_bytes(file, ply_bytes(mesh));
-  } else if (extension == ".glb" || extension == ".gltf") {
+  } else if (extension == ".stl") {
+    write_bytes(file, stl_bytes(mesh));
+  } else if (extension == ".glb" || extension == ".gltf" || extension == ".vrm") {
     Model model = make_model(file.stem().string(), mesh.positions, mesh.triangles);
     Primitive& primitive = model.meshes[0].primitives[0];
     if (!mesh.normals.empty()) primitive.normals = mesh.normals;
     primitive.colors = mesh.colors;
     write_gltf(model, file);
   } else {
-    throw std::runtime_error(file.string() + ": the format is not written; .obj, .off, .ply, .gltf and .glb are.");
+    throw std::runtime_error(file.string() +
+                             ": the format is not written; .obj, .off, .ply, .stl, .gltf and .glb are.");
   }
 }
 

@@ -27,6 +27,10 @@ class ObjReader {
         ++normals_;
       } else if (key == "g" || key == "o") {
         begin_group(std::string(in_.rest_of_line()));
+      } else if (key == "usemtl" || key == "mtllib") {
+        materials_ = true;
+      } else if (key == "l" || key == "p" || key == "curv" || key == "surf") {
+        lines_ = true;
       }
       in_.skip_line();
     }
@@ -112,6 +116,10 @@ class ObjReader {
   }
 
   void build() {
+    if (texcoords_ > 0) mesh_.ignored.push_back("texture coordinates");
+    if (normals_ > 0) mesh_.ignored.push_back("normals");
+    if (materials_) mesh_.ignored.push_back("materials");
+    if (lines_) mesh_.ignored.push_back("lines, points or curves");
     if (!mesh_.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), glm::vec4(1));
     if (highest_[1] > static_cast<int64_t>(texcoords_) || highest_[2] > static_cast<int64_t>(normals_)) {
       mesh_.warnings.push_back("some faces name texture coordinates or normals that do not exist");
@@ -137,6 +145,7 @@ class ObjReader {
   SurfaceMesh mesh_;
   FaceCollector faces_;
   size_t texcoords_ = 0, normals_ = 0;
+  bool materials_ = false, lines_ = false;
   int64_t highest_[3] = {0, 0, 0};
   uint32_t group_ = 0;
   std::vector<int64_t> corners_;

@@ -21,6 +21,8 @@ class OffReader {
     for (int64_t v = 0; v < vertex_count_; ++v) read_vertex(v);
     check_count(face_count_, 1, limits_.max_triangles, "faces");
     for (int64_t f = 0; f < face_count_; ++f) read_face(f);
+    if (texcoords_) mesh_.ignored.push_back("texture coordinates");
+    if (face_colors_) mesh_.ignored.push_back("colours of faces");
     faces_.finish();
     return std::move(mesh_);
   }
@@ -121,6 +123,7 @@ class OffReader {
     }
     corners_.clear();
     for (int64_t c = 0; c < size; ++c) corners_.push_back(integer("a face corner"));
+    face_colors_ = face_colors_ || !in_.token_on_line().empty();
     faces_.add(corners_, mesh_.positions.size(), name_ + ": line " + std::to_string(in_.line()));
     in_.skip_line();
   }
@@ -131,7 +134,7 @@ class OffReader {
   SurfaceMesh mesh_;
   FaceCollector faces_;
   int64_t vertex_count_ = 0, face_count_ = 0;
-  bool normals_ = false, colors_ = false, texcoords_ = false;
+  bool normals_ = false, colors_ = false, texcoords_ = false, face_colors_ = false;
   std::vector<int64_t> corners_;
 };
 

@@ -259,6 +259,7 @@ class PlyReader {
       }
       slots.push_back(slot);
       if (slot >= 0) has[slot] = true;
+      if (slot < 0) ignore(element, o);
     }
     if (!has[0] || !has[1] || !has[2]) fail("the vertices have no x, y and z");
     if (!mesh_.positions.empty()) fail("the header has two vertex elements");
@@ -280,6 +281,10 @@ class PlyReader {
     }
   }
 
+  static bool is_corners(const Property& o) {
+    return o.count_type != Type::none && (o.name == "vertex_indices" || o.name == "vertex_index");
+  }
+
   std::vector<int64_t> read_list(const Property& property, const Element& element, uint64_t row) {
     std::vector<int64_t> list(static_cast<size_t>(list_length(property, element, row)));
     for (int64_t& item : list) {
@@ -290,11 +295,17 @@ class PlyReader {
     return list;
   }
 
+  void ignore(const Element& element, const Property& property) {
+    mesh_.ignored.push_back("\"" + printable(property.name) + "\" of " + printable(element.name));
+  }
+
   void read_faces(const Element& element) {
+    for (const Property& o : element.properties) {
+      if (!is_corners(o)) ignore(element, o);
+    }
     for (uint64_t f = 0; f < element.count; ++f) {
       for (const Property& o : element.properties) {
-        const bool corners = o.count_type != Type::none && (o.name == "vertex_indices" || o.name == "vertex_index");
-        if (corners) {
+        if (is_corners(o)) {
           rows_.push_back(read_list(o, element, f));
         } else {
           pass_over(o, element, f);
@@ -304,10 +315,12 @@ class PlyReader {
   }
 
   void read_others(const Element& element) {
+    for (const Property& o : element.properties) {
+      if (element.name != "tristrips" || !is_corners(o)) ignore(element, o);
+    }
     for (uint64_t row = 0; row < element.count; ++row) {
       for (const Property& o : element.properties) {
-        const bool corners = o.count_type != Type::none && (o.name == "vertex_indices" || o.name == "vertex_index");
-        if (element.name == "tristrips" && corners) {
+        if (element.name == "tristrips" && is_corners(o)) {
           add_strip(read_list(o, element, row));
         } else {
           pass_over(o, element, row);

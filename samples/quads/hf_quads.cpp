@@ -274,8 +274,7 @@ void measure(const Command& options, const SurfaceMesh& input, double diagonal) 
 }
 
 bool is_gltf(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = ending_of(file);
   return extension == ".glb" || extension == ".gltf";
 }
 

@@ -16,6 +16,15 @@ inline std::filesystem::path file_named(const std::string& utf8) {
 #endif
 }
 
+// The ending in lower case, such as ".glb".
+inline std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return ending;
+}
+
 }  // namespace hf_gltf
 
 #endif

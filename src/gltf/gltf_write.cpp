@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "gltf/file_bytes.h"
+#include "gltf/file_name.h"
 #include "gltf/file_write.h"
 #include "gltf/gltf_accessor_write.h"
 #include "gltf/gltf_appearance.h"
@@ -444,15 +445,20 @@ std::string gltf_bytes(const Model& model, bool binary) {
 }
 
 bool is_binary_name(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".glb" || extension == ".gltf") return extension == ".glb";
-  throw std::runtime_error(file.string() + ": models are written as glTF; give a name that ends in .glb or .gltf.");
+  const std::string extension = ending_of(file);
+  if (extension == ".glb" || extension == ".gltf" || extension == ".vrm") return extension != ".gltf";
+  throw std::runtime_error(file.string() +
+                           ": models are written as glTF; give a name that ends in .glb, .gltf or .vrm.");
 }
 
 void write_gltf(const Model& model, const std::filesystem::path& file) {
   const bool binary = is_binary_name(file);
+  const std::string& extensions = model.carried.extensions;
+  const bool avatar =
+      extensions.find("\"VRM\"") != std::string::npos || extensions.find("\"VRMC_vrm\"") != std::string::npos;
+  if (ending_of(file) == ".vrm" && !avatar)
+    throw std::runtime_error(file.string() +
+                             ": the model has no humanoid map and no licence as a .vrm file needs them; write .glb.");
   write_bytes(file, gltf_bytes(model, binary));
 }
 

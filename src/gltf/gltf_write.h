@@ -1,4 +1,5 @@
-// glTF 2.0 out: .glb (one binary chunk) or .gltf (one text file with the buffer embedded), chosen by the extension.
+// glTF 2.0 out: .glb (one binary chunk) or .gltf (one text file with the buffer embedded), chosen by the extension. A
+// .vrm is a .glb; only a model that was read with the extension VRM or VRMC_vrm is written as one.
 //
 // Written: scenes, node hierarchy, meshes with all attributes of the model, lines, points, vertex colours, skins,
 // morph targets, animations, and the looks carried through (image bytes are embedded; an image whose bytes were not
@@ -21,7 +22,8 @@ namespace hf_gltf {
 
 void write_gltf(const Model& model, const std::filesystem::path& file);
 
-// Whether a model is written as .glb under this name. Throws std::runtime_error if the name is neither .glb nor .gltf.
+// Whether a model is written as .glb under this name. Throws std::runtime_error if the name is neither .glb, .gltf nor
+// .vrm.
 bool is_binary_name(const std::filesystem::path& file);
 
 // The bytes of the file, binary or text.

@@ -1,0 +1,140 @@
+// hf_convert run as a user runs it: what arrives in each format, and what the line says of it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/mesh_file.h"
+#include "gltf/file_bytes.h"
+#include "gltf/gltf_write.h"
+#include "support/program_support.h"
+#include "unit/gltf/gltf_support.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace samples;
+using samples_test::TemporaryFolder;
+
+class ConvertProgram : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path / name).string(); }
+  int convert(const std::string& in, const std::string& out) {
+    return hf_test::run(
+        hf_test::quoted(HF_CONVERT_PROGRAM) + " " + hf_test::quoted(path(in)) + " " + hf_test::quoted(path(out)),
+        said_);
+  }
+  void expect_said(const std::string& words) { EXPECT_NE(said_.find(words), std::string::npos) << said_; }
+
+  // A square of two groups with a lid: a quad and two triangles.
+  void write_obj() {
+    std::ofstream(path("a.obj")) << "mtllib a.mtl\n"
+                                    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.1 0.2 1\nv 9 9 9\nvt 0 0\n"
+                                    "g floor\nusemtl grey\nf 1/1 2/1 3/1 4/1\ng lid\nf 1 2 5\nf 2 3 5\n";
+  }
+
+  const TemporaryFolder folder_;
+  std::string said_;
+};
+
+TEST_F(ConvertProgram, EveryFormatHoldsTheTrianglesInTheirOrder) {
+  write_obj();
+  const SurfaceMesh from = read_mesh_file(path("a.obj"));
+  for (const char* name : {"a.ply", "a.off", "b.obj", "a.stl", "a.glb", "a.GLTF"}) {
+    ASSERT_EQ(convert("a.obj", name), 0) << said_;
+    EXPECT_EQ(std::count(said_.begin(), said_.end(), '\n'), 1) << said_;
+    const SurfaceMesh to = read_mesh_file(path(name));
+    ASSERT_EQ(to.triangles.size(), from.triangles.size()) << name;
+    for (size_t i = 0; i < from.triangles.size(); ++i)
+      EXPECT_EQ(glm::vec3(to.positions[to.triangles[i]]), glm::vec3(from.positions[from.triangles[i]])) << name;
+  }
+}
+
+TEST_F(ConvertProgram, SaysWhatAFormatKeepsAndLoses) {
+  write_obj();
+  ASSERT_EQ(convert("a.obj", "a.ply"), 0);
+  expect_said("a.ply: kept 6 vertices, 3 faces, 1 polygon, ");
+  expect_said("lost 2 groups, texture coordinates, materials\n");
+  ASSERT_EQ(convert("a.obj", "a.stl"), 0);
+  expect_said("lost 1 polygon (cut into triangles), 2 groups, 1 isolated vertex, digits of positions beyond float");
+  ASSERT_EQ(convert("a.ply", "b.ply"), 0);
+  expect_said("lost nothing");
+  std::ofstream(path("c.ply")) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                  "property float z\nproperty float quality\nelement face 1\n"
+                                  "property list uchar int vertex_indices\nelement tail 1\nproperty int n\nend_header\n"
+                                  "0 0 0 7\n1 0 0 7\n0 1 0 7\n3 0 1 2\n4\n";
+  ASSERT_EQ(convert("c.ply", "c.off"), 0);
+  expect_said("lost \"quality\" of vertex, \"n\" of tail");
+  std::ofstream(path("d.off")) << "STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 0 0\n0 1 0 0 0\n3 0 1 2 255 0 0\n";
+  ASSERT_EQ(convert("d.off", "d.obj"), 0);
+  expect_said("lost texture coordinates, colours of faces");
+}
+
+Model bone_model() {
+  Model model = make_model("bone", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
+  model.nodes.emplace_back();
+  model.nodes.back().name = "bone";
+  model.scene_roots.push_back(1);
+  Skin skin;
+  skin.joints = {1};
+  skin.inverse_bind.emplace_back(1.0f);
+  model.skins.push_back(skin);
+  model.nodes[0].skin = 0;
+  Influences one;
+  one.weights[0] = 1;
+  model.meshes[0].primitives[0].influences.assign(3, one);
+  Channel turn;
+  turn.node = 1;
+  turn.times = {0, 1};
+  turn.values = {0, 0, 0, 0, 2, 0};
+  Animation clip;
+  clip.name = "up";
+  clip.channels.push_back(turn);
+  model.animations.push_back(clip);
+  return model;
+}
+
+TEST_F(ConvertProgram, AModelKeepsItsSkinAndClips) {
+  write_gltf(bone_model(), path("a.glb"));
+  ASSERT_EQ(convert("a.glb", "b.gltf"), 0) << said_;
+  expect_said("1 skin, 1 joint, 1 clip");
+  expect_said("lost nothing");
+  ASSERT_EQ(convert("b.gltf", "c.glb"), 0) << said_;
+  EXPECT_EQ(read_bytes(path("a.glb"), 1 << 20), read_bytes(path("c.glb"), 1 << 20));
+  ASSERT_EQ(convert("a.glb", "a.obj"), 0) << said_;
+  expect_said("lost 2 nodes, 1 skin, 1 joint, 1 clip");
+}
+
+TEST_F(ConvertProgram, AnAvatarStaysOneAndNothingElseBecomesOne) {
+  Model model = bone_model();
+  write_gltf(model, path("plain.glb"));
+  EXPECT_EQ(convert("plain.glb", "plain.vrm"), 1);
+  expect_said("plain.vrm: the model has no humanoid map");
+  EXPECT_FALSE(fs::exists(path("plain.vrm")));
+  for (const std::string extension : {R"({"VRM":{"humanoid":{"humanBones":[{"bone":"hips","node":1}]}}})",
+                                      R"({"VRMC_vrm":{"humanoid":{"humanBones":{"hips":{"node":1}}}}})"}) {
+    model.carried.extensions = extension;
+    write_gltf(model, path("a.vrm"));
+    ASSERT_EQ(convert("a.vrm", "b.vrm"), 0) << said_;
+    EXPECT_EQ(read_gltf(path("b.vrm")).carried.extensions, extension);
+  }
+}
+
+TEST_F(ConvertProgram, RefusesWhatItDoesNotWriteOrRead) {
+  write_obj();
+  EXPECT_EQ(convert("a.obj", "a.fbx"), 1);
+  expect_said("a.fbx: the format is not written; .gltf");
+  EXPECT_EQ(convert("none.obj", "a.ply"), 1);
+  expect_said("none.obj");
+  EXPECT_FALSE(fs::exists(path("a.ply")));
+  Model joints = bone_model();
+  joints.meshes.clear();
+  joints.nodes[0].mesh = joints.nodes[0].skin = -1;
+  write_gltf(joints, path("joints.glb"));
+  EXPECT_EQ(convert("joints.glb", "joints.stl"), 1);
+  expect_said("joints.glb has no triangles");
+  EXPECT_EQ(hf_test::run(hf_test::quoted(HF_CONVERT_PROGRAM) + " " + path("a.obj"), said_), 1);
+  expect_said("name a file to write");
+}
+
+}  // namespace
