@@ -30,7 +30,7 @@ static void* grown(void* block, size_t bytes) {
 }
 
 static void mesh_add_vertex(Mesh* mesh, float x, float y, float z) {
-  mesh->positions = grown(mesh->positions, sizeof(float) * 3 * ((size_t)mesh->vertex_count + 1));
+  mesh->positions = (float*)grown(mesh->positions, sizeof(float) * 3 * ((size_t)mesh->vertex_count + 1));
   float* p = mesh->positions + 3 * (size_t)mesh->vertex_count++;
   p[0] = x;
   p[1] = y;
@@ -38,7 +38,7 @@ static void mesh_add_vertex(Mesh* mesh, float x, float y, float z) {
 }
 
 static void mesh_add_triangle(Mesh* mesh, uint32_t a, uint32_t b, uint32_t c) {
-  mesh->triangles = grown(mesh->triangles, sizeof(uint32_t) * 3 * ((size_t)mesh->triangle_count + 1));
+  mesh->triangles = (uint32_t*)grown(mesh->triangles, sizeof(uint32_t) * 3 * ((size_t)mesh->triangle_count + 1));
   uint32_t* corner = mesh->triangles + 3 * (size_t)mesh->triangle_count++;
   corner[0] = a;
   corner[1] = b;

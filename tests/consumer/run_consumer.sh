@@ -24,9 +24,12 @@ case "$kind" in
     pc=$(find "$work/prefix" -name hf.pc)
     # CHOLMOD's own needs (BLAS, METIS) are not in hf.pc: a static program is made of what ships
     targets=("$work/consumer")
-    [ "$gpl" = ON ] || targets+=("$work/consumer_static")
+    [ "$gpl" = ON ] || targets+=("$work/consumer_static" "$work/consumer_archive")
     PKG_CONFIG_PATH=$(dirname "$pc") quiet make -C "$here/pkg_config" OUT="$work/consumer" "${targets[@]}"
     for program in "${targets[@]}"; do "$program"; done
+    if [ "$gpl" != ON ] && readelf -d "$work/consumer_archive" | grep -q 'libhf'; then echo "hf_static.pc links the shared library"; exit 1; fi
+    for file in LICENSE licences.txt; do [ -s "$work/prefix/share/doc/hf/$file" ] || { echo "no $file is installed"; exit 1; }; done
+    for program in "$work"/prefix/bin/hf_*; do "$program" --help | grep -q '^usage: ' || { echo "$program does not start"; exit 1; }; done
     ;;
   fetch_content)
     # the files of a room compiled together: names of two files must not meet

@@ -1,0 +1,68 @@
+// A hundred characters of one body, each with a pose of its own, posed by all threads of the machine in every frame.
+#include <hf/hf.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+#include "mesh.h"
+
+namespace {
+
+struct Character {
+  hf_pose pose;
+  std::vector<float> positions;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Mesh mesh = mesh_load(argc, argv);
+  hf_surface surface = mesh_surface(&mesh);  // once for all characters; threads may read it together
+
+  hf_pose first;
+  ok(hf_pose_create(surface, nullptr, &first));
+  double low[3], high[3];
+  mesh_ends(&mesh, low, high);
+  const double size = high[1] - low[1];
+  uint32_t foot, hip;
+  ok(hf_pose_add_handle_at(first, low, 0.15 * size, &foot));
+  ok(hf_pose_add_handle_at(first, high, 0.15 * size, &hip));
+
+  std::vector<Character> crowd(100);
+  for (Character& character : crowd) {
+    ok(hf_pose_clone(first, &character.pose));  // shares what does not move with the first one
+    character.positions.resize(3 * static_cast<size_t>(mesh.vertex_count));
+  }
+
+  const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  const int frames = 20;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int frame = 0; frame < frames; ++frame) {
+    std::atomic<size_t> next{0};
+    const auto work = [&] {
+      for (size_t i = next++; i < crowd.size(); i = next++) {
+        hf_transform moved = {{0, 0, 0, 1}, {0, 0, 0}};
+        moved.translation[0] = 0.2 * size * std::sin(0.1 * frame + 0.7 * static_cast<double>(i));
+        ok(hf_pose_set_transform(crowd[i].pose, hip, &moved));
+        ok(hf_deform(crowd[i].pose, crowd[i].positions.data(), nullptr));
+      }
+    };
+    std::vector<std::thread> others;  // an engine gives its own workers here; examples/jobs.cpp has a few
+    for (unsigned t = 1; t < threads; ++t) others.emplace_back(work);
+    work();
+    for (std::thread& other : others) other.join();
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::printf("100 characters of %u vertices on %u threads: %.1f ms a frame\n", mesh.vertex_count, threads,
+              1000 * seconds / frames);
+
+  for (Character& character : crowd) hf_pose_destroy(character.pose);
+  hf_pose_destroy(first);
+  hf_surface_destroy(surface);
+  mesh_free(&mesh);
+}
