@@ -731,6 +731,22 @@ struct SkinInfo {
   uint32_t influence_count = 0;
 };
 
+// Receives the rows of a blend. The arrays are yours; each may be none.
+struct BlendRows {
+  // `[vertex_capacity x 2]` number of the first entry of the vertex, and count of its entries
+  std::vector<uint32_t> rows;
+  // `[entry_capacity]`
+  std::vector<uint16_t> clusters;
+  // `[entry_capacity]` multiples of 2^-24; those of a vertex sum to 1
+  std::vector<float> weights;
+  // `[vertex_capacity x 3]` at rest
+  std::vector<float> positions;
+  // `[vertex_capacity x 3]`
+  std::vector<float> offsets;
+  // entries of the vertex that has the most
+  uint32_t longest_row = 0;
+};
+
 // Quads::mesh writes the quad mesh to these arrays. They are yours: each is none or as large as its capacity.
 struct QuadsMesh {
   // `[vertex_capacity x 3]` in the unit and frame of the mesh as given
@@ -2289,6 +2305,70 @@ class Pose {
         {"joint_count", skin.joint_count}, {"vertex_count", skin.vertex_count}}));
     found.influence_count = skin.influence_count;
     return found;
+  }
+
+  // Writes the info of a blend.
+  //
+  // Fails with HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+  hf_blend_info blend_info() const {
+    Call c(counts_);
+    auto info = make<hf_blend_info>();
+    check(hf_pose_get_blend_info(get(), &info));
+    return info;
+  }
+
+  // Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last cluster that
+  // never moves holds them.
+  //
+  // Fails with HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+  BlendRows blend_rows() const {
+    Call c(counts_);
+    auto rows = make<hf_blend_rows>();
+    Room room({{"vertex_capacity", c.size("vertex_count")}, {"entry_capacity", -1}});
+    BlendRows found;
+    room.array(found.rows, {"vertex_capacity", "2"}, &rows.rows);
+    room.array(found.clusters, {"entry_capacity"}, &rows.clusters);
+    room.array(found.weights, {"entry_capacity"}, &rows.weights);
+    room.array(found.positions, {"vertex_capacity", "3"}, &rows.positions);
+    room.array(found.offsets, {"vertex_capacity", "3"}, &rows.offsets);
+    do {
+      room.begin(c);
+      rows.vertex_capacity = room.get("vertex_capacity");
+      rows.entry_capacity = room.get("entry_capacity");
+      room.code = hf_pose_get_blend_rows(get(), &rows);
+    } while (!room.enough(c, {{"vertex_capacity", rows.vertex_count}, {"entry_capacity", rows.entry_count},
+        {"vertex_count", rows.vertex_count}}));
+    found.longest_row = rows.longest_row;
+    return found;
+  }
+
+  // Solves the pose as Pose::deform does, and writes no vertex: the work of a frame whose vertices a shader computes.
+  //
+  // iteration_count: 1 to 1000; 0 = the pose's.
+  // restart: 1: as in DeformOptions.
+  // info: filled in when given
+  //
+  // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.
+  void solve(uint32_t iteration_count = 0, bool restart = false, hf_deform_info* info = nullptr) {
+    Call c(counts_);
+    check(hf_pose_solve(get(), iteration_count, restart ? 1 : 0, info));
+  }
+
+  // Writes the transforms of the clusters in the last Pose::solve or Pose.deform, without its refine. Before the first
+  // they are identities. The call allocates nothing.
+  //
+  // Fails with HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+  std::vector<float> blend_transforms() const {
+    Call c(counts_);
+    uint32_t count = 0;
+    Room room({{"capacity", -1}});
+    std::vector<float> transforms;
+    room.array(transforms, {"capacity", "12"});
+    do {
+      room.begin(c);
+      room.code = hf_pose_get_blend_transforms(get(), room.get("capacity"), room.at(transforms), &count);
+    } while (!room.enough(c, {{"capacity", count}}));
+    return transforms;
   }
 
   // With the struct of C.

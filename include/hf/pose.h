@@ -141,8 +141,8 @@ HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_t
  * free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move, as with
  * in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at the next
  * frame. A handle alone in its component keeps its rotation. The first frame of a pose, and a frame with restart, take
- * free handles to their places in 8 steps, as a drag does; such a frame costs about 8 more. refine keeps the rotation of
- * the smooth pose. Cost: one iteration of a solve for each free handle, at this call and when handles are added or
+ * free handles to their places in 8 steps, as a drag does; such a frame costs about 8 more. refine keeps the rotation
+ * of the smooth pose. Cost: one iteration of a solve for each free handle, at this call and when handles are added or
  * removed; little in a frame. Errors: HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (free_rotation). Thread safety:
  * changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
@@ -321,6 +321,58 @@ typedef struct hf_skin_info {
  * HF_ERROR_EMPTY (no handle), HF_ERROR_UNSUPPORTED (handles on higher layers: their surface is not a blend of
  * clusters). Thread safety: reads `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
+
+/* ---- on a GPU ----
+ *
+ * A pose blends the transforms of clusters by fixed weights, so a shader can compute the vertices of a frame. A vertex
+ * with the rest position p goes to the sum of w A (p, 1) over its row, plus offset_share times its offset. A row lists
+ * clusters with their weights w; A is the transform of a cluster. The row is fixed, the transform is that of the frame.
+ * Rest positions, transforms and posed positions are relative to `centre`, so floats keep their digits far from 0. */
+
+/* The blend of a pose in the last frame. */
+typedef struct hf_blend_info {
+  uint32_t struct_size;
+  uint32_t cluster_count; /* of hf_pose_get_blend_transforms */
+  uint32_t revision;      /* changes when rows or offsets change: call hf_pose_get_blend_rows again */
+  uint32_t reserved;      /* 0 */
+  double offset_share; /* 0 to 1; 0 unless handles were added in place or rotations freed. It falls as handles move */
+  double centre[3];    /* positions are relative to this point */
+} hf_blend_info;
+
+/* Writes the info of a blend. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_UNSUPPORTED (higher layers, rigid pieces or
+ * limb_refine: the surface is no blend), HF_ERROR_TOO_LARGE (for floats). Thread safety: reads `pose`. Since 0.1. */
+HF_API hf_result hf_pose_get_blend_info(hf_pose pose, hf_blend_info* out_info);
+
+/* Receives the rows of a blend. The arrays are yours; each may be NULL. */
+typedef struct hf_blend_rows {
+  uint32_t struct_size;
+  uint32_t vertex_capacity; /* in: vertices the arrays can take */
+  uint32_t entry_capacity;  /* in: entries the arrays can take */
+  uint32_t vertex_count;    /* out */
+  uint32_t entry_count;     /* out */
+  uint32_t longest_row;     /* out: entries of the vertex that has the most */
+  uint32_t* rows;           /* [vertex_capacity][2] number of the first entry of the vertex, and count of its entries */
+  uint16_t* clusters;       /* [entry_capacity] */
+  float* weights;           /* [entry_capacity] multiples of 2^-24; those of a vertex sum to 1 */
+  float* positions;         /* [vertex_capacity][3] at rest */
+  float* offsets;           /* [vertex_capacity][3] */
+} hf_blend_rows;
+
+/* Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last cluster that
+ * never moves holds them. Errors: as hf_pose_get_blend_info. Thread safety: reads `pose`. Since 0.1. */
+HF_API hf_result hf_pose_get_blend_rows(hf_pose pose, hf_blend_rows* inout_rows);
+
+/* Solves the pose as hf_pose_deform does, and writes no vertex: the work of a frame whose vertices a shader computes.
+ * iteration_count: 1 to 1000; 0 = the pose's. restart: 1: as in hf_deform_desc. out_info: NULL, or a struct. Errors:
+ * HF_ERROR_EMPTY (no handle), HF_ERROR_INVALID_ARGUMENT. Thread safety: changes `pose`. Since 0.1. */
+HF_API hf_result hf_pose_solve(hf_pose pose, uint32_t iteration_count, int32_t restart, hf_deform_info* out_info);
+
+/* Writes the transforms of the clusters in the last hf_pose_solve or hf_deform, without its refine. Before the first
+ * they are identities. The call allocates nothing. out_transforms: NULL, or float[capacity][12], 3 x 4 matrices row by
+ * row. out_count: NULL, or receives cluster_count. Errors: as hf_pose_get_blend_info. Thread safety: reads `pose`.
+ * Since 0.1. */
+HF_API hf_result hf_pose_get_blend_transforms(hf_pose pose, uint32_t capacity, float* out_transforms,
+                                              uint32_t* out_count);
 
 /* ---- proposed handles ---- */
 

@@ -1,9 +1,8 @@
 // Implements hf/pose.h: poses.
 #include <algorithm>
-#include <atomic>
 
 #include "capi/create.h"
-#include "capi/objects.h"
+#include "capi/pose_object.h"
 #include "capi/skin_out.h"
 #include "capi/vertex_writer.h"
 #include "deform/intake.h"
@@ -14,20 +13,6 @@ namespace hf_inner::capi {
 namespace {
 
 static_assert(HF_HANDLE_LIMIT == handle_limit && HF_LAYER_COUNT == layer_limit, "hf/pose.h states other limits");
-
-struct PoseObject final : Object {
-  static constexpr Kind kind_of = Kind::pose;
-  PoseObject(std::shared_ptr<Memory> owner, std::shared_ptr<PoseStack> given)
-      : Object(kind_of, std::move(owner)),
-        pose(std::move(given)),
-        keeps_order(keeps_vertices(pose->core().mesh)),
-        handle_count(pose->handle_count()) {}
-  std::shared_ptr<PoseStack> pose;
-  hf_pose_statistics last{};  // of the last deform
-  bool keeps_order;           // the library's vertices are the caller's: none welded, none isolated
-  // The handle count after the last finished change. Another thread may read it while a change runs.
-  std::atomic<std::uint32_t> handle_count;
-};
 
 std::shared_ptr<PoseObject> make_object(std::shared_ptr<PoseStack> pose) {
   const std::shared_ptr<Memory> memory = pose->core().memory;
@@ -104,6 +89,20 @@ void write_deformed(const PoseObject& object, const VertexRange& range, const Po
   if (out.normals && !straight_normals) write_points(core, object.keeps_order, report.normals, out.normals, put_up);
 }
 
+void tell(PoseObject& object, const DeformReport& report, hf_deform_info* out_info) {
+  object.last.cluster_count = report.cluster_count;
+  object.last.solve_ms = report.solve_ms;
+  object.last.blend_ms = report.blend_ms;
+  object.last.normal_ms = report.normal_ms;
+  object.last.refine_ms = report.refine_ms;
+  if (!out_info) return;
+  hf_deform_info info{};
+  info.iteration_count = report.iteration_count;
+  info.unreached_vertex_count = report.unreached_vertex_count + object.pose->core().mesh.report.isolated_vertex_count;
+  info.last_change = report.last_change;
+  write_struct(out_info, info);
+}
+
 void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info) {
   const auto pose = get<PoseObject>(handle, "pose");
   if (out_info) check_struct(out_info, "out_info");
@@ -124,17 +123,7 @@ void deform(hf_pose handle, const hf_deform_desc& desc, hf_deform_info* out_info
   const DeformReport report = pose->pose->deform(request);
   write_deformed(*pose, range, out, request.surface, straight_normals, report);
   turn_normals(core.mesh, range, out.normals);
-  pose->last.cluster_count = report.cluster_count;
-  pose->last.solve_ms = report.solve_ms;
-  pose->last.blend_ms = report.blend_ms;
-  pose->last.normal_ms = report.normal_ms;
-  pose->last.refine_ms = report.refine_ms;
-  if (!out_info) return;
-  hf_deform_info info{};
-  info.iteration_count = report.iteration_count;
-  info.unreached_vertex_count = report.unreached_vertex_count + core.mesh.report.isolated_vertex_count;
-  info.last_change = report.last_change;
-  write_struct(out_info, info);
+  tell(*pose, report, out_info);
 }
 
 }  // namespace
@@ -330,6 +319,20 @@ hf_result hf_pose_deform(hf_pose pose, const hf_deform_desc* desc, hf_deform_inf
   return guarded("hf_pose_deform", [&] {
     get<PoseObject>(pose, "pose");
     deform(pose, read_struct(desc, "desc"), out_info);
+  });
+}
+
+hf_result hf_pose_solve(hf_pose handle, uint32_t iteration_count, int32_t restart, hf_deform_info* out_info) {
+  return guarded("hf_pose_solve", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    if (out_info) check_struct(out_info, "out_info");
+    hf_deform_desc desc = HF_INIT(hf_deform_desc);
+    desc.iteration_count = iteration_count;
+    desc.restart = restart;
+    DeformRequest request = read_request(desc);
+    const Changing changing(*pose);
+    request.surface = pose->pose->needs_surface();
+    tell(*pose, pose->pose->deform(request), out_info);
   });
 }
 

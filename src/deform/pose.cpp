@@ -55,6 +55,7 @@ std::shared_ptr<Pose> Pose::clone() const {
   auto copy = make_owner_in<Pose>(core_->memory, core_, options_, rest_);
   copy->groups_ = groups_;
   copy->layout_ = layout_;
+  copy->blend_revision_ = blend_revision_;
   copy->previous_layout_ = previous_layout_;
   if (state_) copy->state_ = make_shared_in<State>(memory(), *state_, memory());
   copy->previous_state_ = previous_state_;
@@ -212,6 +213,7 @@ bool Pose::restore_previous(const Handles& remaining) {
 }
 
 void Pose::install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept {
+  ++blend_revision_;
   layout_ = std::move(layout);
   state_ = std::move(state);
   if (layout_ && layout_->groups) groups_ = layout_->groups;

@@ -127,6 +127,11 @@ class Pose {
   const ClusterWeights* weights() const noexcept;
   Span<const Affine> cluster_transforms() const noexcept;
   bool posed() const noexcept { return posed_; }  // transforms() holds a pose
+  // The surface is the blend of clusters plus this share of crossfade().offset. Needs a handle.
+  double crossfade_share() const noexcept;
+  const Crossfade* crossfade() const noexcept { return state_->crossfade.get(); }
+  // Counts the changes of weights and offsets.
+  std::uint32_t blend_revision() const noexcept { return blend_revision_; }
 
   // The pieces that every frame makes rigid; null: none.
   void set_rigid(std::shared_ptr<const RigidPieces> rigid);
@@ -231,7 +236,6 @@ class Pose {
   void keep_in_place(const Layout& layout, State& state, bool fades_at_rest);
   void place_handles(const Layout& layout, State& state) const noexcept;
   Span<const RigidMotion> placed(const State& state) const noexcept;
-  double crossfade_share() const noexcept;
   void make_refinement(const Layout& layout, std::uint32_t steps, const Followed* followed);
   void refine(const Layout& layout, const State& state, std::uint32_t steps, const Limbs* limbs, Vec3* positions);
   void install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept;
@@ -256,10 +260,11 @@ class Pose {
   mutable Buffer<Vec3> rigid_scratch_;
   Buffer<Normal> normals_;
   Buffer<NormalSum> normal_sums_;
-  Buffer<Vec3> turns_;                      // scratch for handle_limit handles
-  mutable Vector<RigidMotion> placed_;      // the same
-  bool posed_ = false;                      // there is a last pose
-  std::uint32_t refined_ = 0;               // full-mesh steps it had
+  Buffer<Vec3> turns_;                  // scratch for handle_limit handles
+  mutable Vector<RigidMotion> placed_;  // the same
+  bool posed_ = false;                  // there is a last pose
+  std::uint32_t refined_ = 0;           // full-mesh steps it had
+  std::uint32_t blend_revision_ = 0;
   mutable bool stale_ = false;              // positions_ are older than the last pose, which only wrote transforms
   std::shared_ptr<Refinement> refinement_;  // made at the first refined frame
   GroupStart start_;

@@ -68,6 +68,12 @@ static void deform(hf_pose pose, uint32_t frame, int refine) {
   assert_ok(hf_pose_deform(pose, &desc, NULL));
 }
 static void a_pose_with_normals(uint32_t frame) { deform(w.pose, frame, 0); }
+static void a_pose_without_vertices(uint32_t frame) {
+  const hf_transform moved = {{0, 0, 0, 1}, {0.01 * frame, 0, 0}};
+  assert_ok(hf_pose_set_transform(w.pose, w.handles[0], &moved));
+  assert_ok(hf_pose_solve(w.pose, 0, 0, NULL));
+  assert_ok(hf_pose_get_blend_transforms(w.pose, COUNT_OF(w.values) / 12, w.values, NULL));
+}
 static void a_pose_with_a_full_mesh_step(uint32_t frame) { deform(w.refined, frame, 1); }
 static void a_transfer_with_normals(uint32_t frame) {
   hf_transfer_frame desc = HF_INIT(hf_transfer_frame);
@@ -178,6 +184,7 @@ static const struct Row {
     {"a field of vectors", a_field_of_vectors, 1},
     {"a site moved, and a preview", a_preview, 1},
     {"a pose, with normals", a_pose_with_normals, 1},
+    {"a pose without vertices", a_pose_without_vertices, 1},
     {"a pose with a full-mesh step", a_pose_with_a_full_mesh_step, 1},
     {"a transfer, with normals", a_transfer_with_normals, 1},
     {"a retarget", a_retarget, 1},

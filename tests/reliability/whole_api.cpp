@@ -185,6 +185,14 @@ void Run::other_kinds() {
   call(hf_pose_set_transform(pose, handle, &turned), "hf_pose_set_transform");
   call(hf_deform(pose, floats.data(), nullptr), "hf_deform");
   take_floats();
+  call(hf_pose_solve(pose, 0, 0, nullptr), "hf_pose_solve");
+  hf_blend_info blend = desc<hf_blend_info>();
+  call(hf_pose_get_blend_info(pose, &blend), "hf_pose_get_blend_info");
+  hf_blend_rows rows = desc<hf_blend_rows>();
+  call(hf_pose_get_blend_rows(pose, &rows), "hf_pose_get_blend_rows");
+  call(hf_pose_get_blend_transforms(pose, static_cast<std::uint32_t>(floats.size() / 12), floats.data(), nullptr),
+       "hf_pose_get_blend_transforms");
+  take_floats();
   hf_pose_info info = desc<hf_pose_info>();
   call(hf_pose_get_info(pose, &info), "hf_pose_get_info");
   take(&info, 1);

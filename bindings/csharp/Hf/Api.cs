@@ -1154,6 +1154,27 @@ namespace Hf
         }
     }
 
+    /// <summary>The blend of a pose in the last frame.</summary>
+    public sealed unsafe partial class BlendInfo
+    {
+        /// <summary>of Pose.BlendTransforms</summary>
+        public uint ClusterCount;
+        /// <summary>changes when rows or offsets change: call Pose.BlendRows again</summary>
+        public uint Revision;
+        /// <summary>0 to 1; 0 unless handles were added in place or rotations freed. It falls as handles move</summary>
+        public double OffsetShare;
+        /// <summary>positions are relative to this point</summary>
+        public double[] Centre = new double[3];
+
+        internal BlendInfo(hf_blend_info* raw)
+        {
+            ClusterCount = raw->cluster_count;
+            Revision = raw->revision;
+            OffsetShare = raw->offset_share;
+            for (int i = 0; i < 3; ++i) Centre[i] = raw->centre[i];
+        }
+    }
+
     /// <summary>One proposed handle. position and radius are as in HandlesDesc: the regions of all proposals are disjoint.</summary>
     public sealed unsafe partial class HandleProposal
     {
@@ -1809,6 +1830,23 @@ namespace Hf
         public float[] VertexWeights;
         /// <summary>joints per vertex, 4 or 8; 0 = 4</summary>
         public uint InfluenceCount;
+    }
+
+    /// <summary>Receives the rows of a blend. The arrays are yours; each may be null.</summary>
+    public sealed class BlendRows
+    {
+        /// <summary>[vertexCapacity x 2] number of the first entry of the vertex, and count of its entries</summary>
+        public uint[] Rows;
+        /// <summary>[entryCapacity]</summary>
+        public ushort[] Clusters;
+        /// <summary>[entryCapacity] multiples of 2^-24; those of a vertex sum to 1</summary>
+        public float[] Weights;
+        /// <summary>[vertexCapacity x 3] at rest</summary>
+        public float[] Positions;
+        /// <summary>[vertexCapacity x 3]</summary>
+        public float[] Offsets;
+        /// <summary>entries of the vertex that has the most</summary>
+        public uint LongestRow;
     }
 
     /// <summary>Quads.Mesh writes the quad mesh to these arrays. They are yours: each is null or as large as its capacity.</summary>
@@ -4558,6 +4596,105 @@ namespace Hf
                     Axes = found.Take<double>("axes"), Scales = found.Take<double>("scales"),
                     VertexJoints = found.Take<uint>("vertex_joints"),
                     VertexWeights = found.Take<float>("vertex_weights") };
+            }
+        }
+
+        /// <summary>Writes the info of a blend.
+        ///
+        /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        public BlendInfo BlendInfo
+        {
+            get
+            {
+                using (var c = new Call(this))
+                {
+                    var infoStruct = new hf_blend_info { struct_size = (uint)sizeof(hf_blend_info) };
+                    hf_blend_info* info = &infoStruct;
+                    HfException.Check(Functions.hf_pose_get_blend_info(RawHandle, info));
+                    return new BlendInfo(info);
+                }
+            }
+        }
+
+        /// <summary>Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last
+        /// cluster that never moves holds them.
+        ///
+        /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        public BlendRows BlendRows()
+        {
+            using (var c = new Call(this))
+            {
+                var rowsStruct = new hf_blend_rows { struct_size = (uint)sizeof(hf_blend_rows) };
+                hf_blend_rows* rows = &rowsStruct;
+                var found = new Growth(c, this, "hf_pose_get_blend_rows");
+                found.Room("vertex_capacity", "vertex_count");
+                found.Room("entry_capacity", null);
+                found.Array<uint>("rows", "vertex_capacity", "2");
+                found.Array<ushort>("clusters", "entry_capacity");
+                found.Array<float>("weights", "entry_capacity");
+                found.Array<float>("positions", "vertex_capacity", "3");
+                found.Array<float>("offsets", "vertex_capacity", "3");
+                do
+                {
+                        found.Begin();
+                        rows->vertex_capacity = (uint)found["vertex_capacity"];
+                        rows->entry_capacity = (uint)found["entry_capacity"];
+                        rows->rows = (IntPtr)found.Place("rows");
+                        rows->clusters = (IntPtr)found.Place("clusters");
+                        rows->weights = (IntPtr)found.Place("weights");
+                        rows->positions = (IntPtr)found.Place("positions");
+                        rows->offsets = (IntPtr)found.Place("offsets");
+                        found.Result = Functions.hf_pose_get_blend_rows(RawHandle, rows);
+                        found.Told("vertex_capacity", rows->vertex_count);
+                        found.Told("entry_capacity", rows->entry_count);
+                        found.Told("vertex_count", rows->vertex_count);
+                }
+                while (found.Again());
+                return new BlendRows { LongestRow = rows->longest_row, Rows = found.Take<uint>("rows"),
+                    Clusters = found.Take<ushort>("clusters"), Weights = found.Take<float>("weights"),
+                    Positions = found.Take<float>("positions"), Offsets = found.Take<float>("offsets") };
+            }
+        }
+
+        /// <summary>Solves the pose as Pose.Deform does, and writes no vertex: the work of a frame whose vertices a shader
+        /// computes.
+        ///
+        /// iterationCount: 1 to 1000; 0 = the pose's.
+        /// restart: 1: as in DeformDesc.
+        /// info: filled in when given
+        ///
+        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.</summary>
+        public void Solve(uint iterationCount = 0, bool restart = false)
+        {
+            using (var c = new Call(this))
+            {
+                var info = new hf_deform_info { struct_size = (uint)sizeof(hf_deform_info) };
+                HfException.Check(Functions.hf_pose_solve(RawHandle, iterationCount, restart ? 1 : 0, &info));
+                lastDeformInfo = info;
+            }
+        }
+
+        /// <summary>Writes the transforms of the clusters in the last Pose.Solve or Pose.Deform, without its refine. Before
+        /// the first they are identities. The call allocates nothing.
+        ///
+        /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        public float[] BlendTransforms()
+        {
+            using (var c = new Call(this))
+            {
+                uint count = 0;
+                var found = new Growth(c, this, "hf_pose_get_blend_transforms");
+                found.Room("capacity", null);
+                found.Array<float>("transforms", "capacity", "12");
+                do
+                {
+                        found.Begin();
+                        found.Result = Functions.hf_pose_get_blend_transforms(RawHandle, (uint)found["capacity"],
+                            found.Place("transforms"), &count);
+                        found.Told("capacity", count);
+                }
+                while (found.Again());
+                return found.Take<float>("transforms");
             }
         }
 

@@ -812,6 +812,33 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_blend_info
+    {
+        public uint struct_size;
+        public uint cluster_count;
+        public uint revision;
+        public uint reserved;
+        public double offset_share;
+        public fixed double centre[3];
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_blend_rows
+    {
+        public uint struct_size;
+        public uint vertex_capacity;
+        public uint entry_capacity;
+        public uint vertex_count;
+        public uint entry_count;
+        public uint longest_row;
+        public IntPtr rows;
+        public IntPtr clusters;
+        public IntPtr weights;
+        public IntPtr positions;
+        public IntPtr offsets;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_handle_proposals_desc
     {
         public uint struct_size;
@@ -1451,6 +1478,10 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_deform(IntPtr pose, void* desc, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_statistics(IntPtr pose, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* inout_skin);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_blend_info(IntPtr pose, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_blend_rows(IntPtr pose, void* inout_rows);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_solve(IntPtr pose, uint iteration_count, int restart, void* out_info);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_blend_transforms(IntPtr pose, uint capacity, void* out_transforms, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_propose_handles(IntPtr surface, void* desc, uint capacity, void* out_proposals, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_create(IntPtr surface, void* desc, void* out_quads);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_quads_update(IntPtr quads, void* desc);

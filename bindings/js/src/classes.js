@@ -1157,6 +1157,41 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return { ...found, jointCount: skin.get('joint_count'), vertexCount: skin.get('vertex_count') };
     }
 
+    get blendInfo() {
+      const c = new Call(this);
+      const info = c.struct('hf_blend_info', {});
+      call('hf_pose_get_blend_info', this._handle, info);
+      return info.toObject();
+    }
+
+    blendRows() {
+      const c = new Call(this);
+      const rows = c.struct('hf_blend_rows', {});
+      const found = c.grow(this, 'hf_pose_get_blend_rows', (room, made) => (c.into(rows, room, made),
+              call('hf_pose_get_blend_rows', this._handle, rows)), () => ({ vertex_capacity: rows.get('vertex_count'),
+              entry_capacity: rows.get('entry_count'), vertex_count: rows.get('vertex_count') }),
+              { vertex_capacity: c.n.vertex_count, entry_capacity: null }, { rows: ['u4', ['vertex_capacity', 2]],
+              clusters: ['u2', ['entry_capacity']], weights: ['f4', ['entry_capacity']], positions: ['f4',
+              ['vertex_capacity', 3]], offsets: ['f4', ['vertex_capacity', 3]] });
+      return { ...found, vertexCount: rows.get('vertex_count'), entryCount: rows.get('entry_count'),
+              longestRow: rows.get('longest_row') };
+    }
+
+    solve(iterationCount = 0, restart = false) {
+      const c = new Call(this);
+      const info = c.told(this, 'hf_deform_info');
+      call('hf_pose_solve', this._handle, iterationCount, restart, info);
+    }
+
+    blendTransforms() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_pose_get_blend_transforms', (room, made) => call('hf_pose_get_blend_transforms',
+              this._handle, room.capacity, written(made.transforms), written(count)), () => ({ capacity: count[0] }),
+              { capacity: null }, { transforms: ['f4', ['capacity', 12]] });
+      return found.transforms;
+    }
+
     get deformInfo() {
       return Call.told(this, 'hf_deform_info');
     }

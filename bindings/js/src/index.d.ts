@@ -594,6 +594,36 @@ export interface SkinInfo {
   vertexWeights: Float32Array;
 }
 
+/** The blend of a pose in the last frame. */
+export interface BlendInfo {
+  /** of Pose.blendTransforms */
+  clusterCount: number;
+  /** changes when rows or offsets change: call Pose.blendRows again */
+  revision: number;
+  /** 0 to 1; 0 unless handles were added in place or rotations freed. It falls as handles move */
+  offsetShare: number;
+  /** positions are relative to this point */
+  centre: number[];
+}
+
+/** Receives the rows of a blend. The arrays are yours; each may be null. */
+export interface BlendRows {
+  vertexCount: number;
+  entryCount: number;
+  /** entries of the vertex that has the most */
+  longestRow: number;
+  /** [vertexCapacity x 2] number of the first entry of the vertex, and count of its entries */
+  rows: Uint32Array;
+  /** [entryCapacity] */
+  clusters: Uint16Array;
+  /** [entryCapacity] multiples of 2^-24; those of a vertex sum to 1 */
+  weights: Float32Array;
+  /** [vertexCapacity x 3] at rest */
+  positions: Float32Array;
+  /** [vertexCapacity x 3] */
+  offsets: Float32Array;
+}
+
 /** One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint. */
 export interface HandleProposal {
   /** nearest to the position; as given, of welded copies the first */
@@ -1967,6 +1997,37 @@ export interface Pose extends Recorded {
    * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_UNSUPPORTED.
    */
   skin(options?: { influenceCount?: number; scales?: boolean }): SkinInfo;
+  /**
+   * Writes the info of a blend.
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   */
+  readonly blendInfo: BlendInfo;
+  /**
+   * Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last cluster
+   * that never moves holds them.
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   */
+  blendRows(): BlendRows;
+  /**
+   * Solves the pose as Pose.deform does, and writes no vertex: the work of a frame whose vertices a shader
+   * computes.
+   *
+   * iterationCount: 1 to 1000; 0 = the pose's.
+   * restart: 1: as in hf_deform_desc.
+   * info: filled in when given
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT.
+   */
+  solve(iterationCount?: number, restart?: boolean | number): void;
+  /**
+   * Writes the transforms of the clusters in the last Pose.solve or Pose.deform, without its refine. Before the
+   * first they are identities. The call allocates nothing.
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   */
+  blendTransforms(): Float32Array;
   /** What the last call told that writes it. */
   readonly deformInfo: DeformInfo;
 }

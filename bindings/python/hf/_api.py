@@ -38,6 +38,7 @@ Transform = _raw.hf_transform
 HandleInfo = _raw.hf_handle_info
 DeformInfo = _raw.hf_deform_info
 PoseStatistics = _raw.hf_pose_statistics
+BlendInfo = _raw.hf_blend_info
 HandleProposal = _raw.hf_handle_proposal
 QuadsInfo = _raw.hf_quads_info
 RegionInfo = _raw.hf_region_info
@@ -552,6 +553,23 @@ class SkinInfo(NamedTuple):
     """(vertex_capacity, influence_count) of sum 1, descending"""
     scales: Optional[np.ndarray] = None
     """(joint_capacity, 3) along the axes in the last frame; None = joints are rigid"""
+
+
+class BlendRows(NamedTuple):
+    """Receives the rows of a blend. The arrays are yours; each may be None."""
+
+    rows: np.ndarray
+    """(vertex_capacity, 2) number of the first entry of the vertex, and count of its entries"""
+    clusters: np.ndarray
+    """(entry_capacity,)"""
+    weights: np.ndarray
+    """(entry_capacity,) multiples of 2^-24; those of a vertex sum to 1"""
+    positions: np.ndarray
+    """(vertex_capacity, 3) at rest"""
+    offsets: np.ndarray
+    """(vertex_capacity, 3)"""
+    longest_row: int
+    """entries of the vertex that has the most"""
 
 
 class QuadsMesh(NamedTuple):
@@ -2408,6 +2426,69 @@ class Pose(Recorded):
                 'vertex_weights': (np.float32, ('vertex_capacity', 'influence_count'))})
         return SkinInfo(**found)
 
+    @property
+    def blend_info(self) -> BlendInfo:
+        """Writes the info of a blend.
+
+        Raises EmptyError, TooLargeError, UnsupportedError.
+        """
+        c = Call(self)
+        info = c.struct(_raw.hf_blend_info, {})
+        call('hf_pose_get_blend_info', self._handle, ref(info))
+        return info
+
+    def blend_rows(self) -> BlendRows:
+        """Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last cluster
+        that never moves holds them.
+
+        Raises EmptyError, TooLargeError, UnsupportedError.
+        """
+        c = Call(self)
+        rows = c.struct(_raw.hf_blend_rows, {})
+
+        def run(room: Any, made: Any) -> None:
+            c.into(rows, room, made)
+            call('hf_pose_get_blend_rows', self._handle, ref(rows))
+
+        found = c.grow(self, 'hf_pose_get_blend_rows', run, lambda: {'vertex_capacity': rows.vertex_count,
+                'entry_capacity': rows.entry_count, 'vertex_count': rows.vertex_count},
+                {'vertex_capacity': c.n.get('vertex_count'), 'entry_capacity': None}, {'rows': (np.uint32,
+                ('vertex_capacity', 2)), 'clusters': (np.uint16, ('entry_capacity',)), 'weights': (np.float32,
+                ('entry_capacity',)), 'positions': (np.float32, ('vertex_capacity', 3)), 'offsets': (np.float32,
+                ('vertex_capacity', 3))})
+        return BlendRows(longest_row=rows.longest_row, **found)
+
+    def solve(self, iteration_count: int = 0, restart: bool = False, *, info: Optional[DeformInfo] = None) -> None:
+        """Solves the pose as Pose.deform does, and writes no vertex: the work of a frame whose vertices a shader
+        computes.
+
+        iteration_count: 1 to 1000; 0 = the pose's.
+        restart: 1: as in hf_deform_desc.
+        info: filled in when given
+
+        Raises EmptyError, InvalidArgumentError.
+        """
+        c = Call(self)
+        call('hf_pose_solve', self._handle, number(iteration_count, 'iteration_count', ctypes.c_uint32), number(restart,
+                'restart', ctypes.c_int32), c.info(info, _raw.hf_deform_info))
+
+    def blend_transforms(self) -> np.ndarray:
+        """Writes the transforms of the clusters in the last Pose.solve or Pose.deform, without its refine. Before the
+        first they are identities. The call allocates nothing.
+
+        Raises EmptyError, TooLargeError, UnsupportedError.
+        """
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_pose_get_blend_transforms', self._handle, room['capacity'], address(made['transforms']),
+                    ref(count))
+
+        found = c.grow(self, 'hf_pose_get_blend_transforms', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'transforms': (np.float32, ('capacity', 12))})
+        return found['transforms']
+
 
 class Quads(Object):
     """Makes a quad mesh of a surface. Every face is a quad. Edges follow smooth crosses along the curvature. Creases and
@@ -3480,17 +3561,17 @@ class Weights(Recorded):
 
 
 __all__ = [
-    'Base', 'BodySide', 'Certificate', 'Chain', 'ChainMatch', 'Critical', 'CriticalInfo', 'CriticalPoint',
-    'CurveKind', 'DeformInfo', 'Detail', 'Direction', 'DirectionStatistics', 'DistanceMethod', 'Extremity',
-    'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal',
-    'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo', 'JointKind', 'Levels', 'Link',
-    'LinkMode', 'LinksInfo', 'MeshStatistics', 'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering',
-    'PairFlag', 'PairInfo', 'Path', 'Place', 'Pose', 'PoseInfo', 'PoseStatistics', 'PreviewInfo', 'Progress',
-    'Quads', 'QuadsInfo', 'QuadsMesh', 'Region', 'RegionInfo', 'RegionList', 'RegionStatistics', 'Retarget',
-    'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion', 'Route', 'ScaleFrom', 'Side', 'Singularity',
-    'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo', 'Solver', 'SolverInfo', 'SolverStatistics',
-    'Streamlines', 'Surface', 'SurfaceInfo', 'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials',
-    'TransferInfo', 'TransferMode', 'TransferStatistics', 'Transform', 'Weights', 'WeightsInfo',
-    'WeightsMirrorInfo', 'WeightsMirrorStatistics', 'WeightsOrigin', 'WeightsOut', 'WeightsStatistics',
-    'WeightsTransferInfo', 'Weld'
+    'Base', 'BlendInfo', 'BlendRows', 'BodySide', 'Certificate', 'Chain', 'ChainMatch', 'Critical',
+    'CriticalInfo', 'CriticalPoint', 'CurveKind', 'DeformInfo', 'Detail', 'Direction', 'DirectionStatistics',
+    'DistanceMethod', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground',
+    'HandleInfo', 'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo',
+    'JointKind', 'Levels', 'Link', 'LinkMode', 'LinksInfo', 'MeshStatistics', 'MirrorPairing', 'MirrorPlane',
+    'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo', 'Path', 'Place', 'Pose', 'PoseInfo',
+    'PoseStatistics', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh', 'Region', 'RegionInfo',
+    'RegionList', 'RegionStatistics', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion', 'Route',
+    'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo',
+    'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo', 'SurfaceReport',
+    'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode', 'TransferStatistics',
+    'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo', 'WeightsMirrorStatistics', 'WeightsOrigin',
+    'WeightsOut', 'WeightsStatistics', 'WeightsTransferInfo', 'Weld'
 ]

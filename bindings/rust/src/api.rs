@@ -1391,6 +1391,23 @@ pub struct SkinInfo {
     pub influence_count: u32,
 }
 
+/// Receives the rows of a blend. The arrays are yours; each may be `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BlendRows {
+    /// `[vertex_capacity x 2]` number of the first entry of the vertex, and count of its entries
+    pub rows: Vec<u32>,
+    /// `[entry_capacity]`
+    pub clusters: Vec<u16>,
+    /// `[entry_capacity]` multiples of 2^-24; those of a vertex sum to 1
+    pub weights: Vec<f32>,
+    /// `[vertex_capacity x 3]` at rest
+    pub positions: Vec<f32>,
+    /// `[vertex_capacity x 3]`
+    pub offsets: Vec<f32>,
+    /// entries of the vertex that has the most
+    pub longest_row: u32,
+}
+
 /// `Quads::mesh` writes the quad mesh to these arrays. They are yours: each is `None` or as large as its capacity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuadsMesh {
@@ -3049,6 +3066,100 @@ impl Pose {
         Ok(SkinInfo { influence_count: skin.influence_count, pivots: all_pivots, rotations: all_rotations,
             translations: all_translations, axes: all_axes, scales: all_scales, vertex_joints: all_vertex_joints,
             vertex_weights: all_vertex_weights })
+    }
+
+    /// Writes the info of a blend.
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    pub fn blend_info(&self) -> Result<raw::hf_blend_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_blend_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_get_blend_info(self.handle, &mut info) })?;
+        Ok(info)
+    }
+
+    /// Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last cluster that
+    /// never moves holds them.
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    pub fn blend_rows(&self) -> Result<BlendRows> {
+        let mut c = Call::new(&self.counts);
+        let mut rows = raw::hf_blend_rows { ..Default::default() };
+        let mut room = Room::new(&[("vertex_capacity", c.size("vertex_count")), ("entry_capacity", None)]);
+        let mut all_rows: Vec<u32> = Vec::new();
+        let mut all_clusters: Vec<u16> = Vec::new();
+        let mut all_weights: Vec<f32> = Vec::new();
+        let mut all_positions: Vec<f32> = Vec::new();
+        let mut all_offsets: Vec<f32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["vertex_capacity", "2"], &["entry_capacity"], &["entry_capacity"],
+                &["vertex_capacity", "3"], &["vertex_capacity", "3"]]);
+            room.make(&c, &mut all_rows, &["vertex_capacity", "2"]);
+            room.make(&c, &mut all_clusters, &["entry_capacity"]);
+            room.make(&c, &mut all_weights, &["entry_capacity"]);
+            room.make(&c, &mut all_positions, &["vertex_capacity", "3"]);
+            room.make(&c, &mut all_offsets, &["vertex_capacity", "3"]);
+            rows.vertex_capacity = room.get("vertex_capacity");
+            rows.entry_capacity = room.get("entry_capacity");
+            rows.rows = room.at(&mut all_rows);
+            rows.clusters = room.at(&mut all_clusters);
+            rows.weights = room.at(&mut all_weights);
+            rows.positions = room.at(&mut all_positions);
+            rows.offsets = room.at(&mut all_offsets);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_pose_get_blend_rows(self.handle, &mut rows) };
+            if room.enough(&mut c, code, &[("vertex_capacity", rows.vertex_count), ("entry_capacity", rows.entry_count),
+                ("vertex_count", rows.vertex_count)])? {
+                break;
+            }
+        }
+        all_rows.truncate(c.product(&["vertex_capacity", "2"]));
+        all_clusters.truncate(c.product(&["entry_capacity"]));
+        all_weights.truncate(c.product(&["entry_capacity"]));
+        all_positions.truncate(c.product(&["vertex_capacity", "3"]));
+        all_offsets.truncate(c.product(&["vertex_capacity", "3"]));
+        Ok(BlendRows { longest_row: rows.longest_row, rows: all_rows, clusters: all_clusters, weights: all_weights,
+            positions: all_positions, offsets: all_offsets })
+    }
+
+    /// Solves the pose as `Pose::deform` does, and writes no vertex: the work of a frame whose vertices a shader
+    /// computes.
+    ///
+    /// iteration_count: 1 to 1000; 0 = the pose's.
+    /// restart: 1: as in [`DeformOptions`].
+    /// info: filled in when given
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
+    pub fn solve(&mut self, iteration_count: u32, restart: bool) -> Result<raw::hf_deform_info> {
+        let mut c = Call::new(&self.counts);
+        let mut info = raw::hf_deform_info::default();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_solve(self.handle, iteration_count, i32::from(restart), &mut info) })?;
+        Ok(info)
+    }
+
+    /// Writes the transforms of the clusters in the last `Pose::solve` or Pose.deform, without its refine. Before the
+    /// first they are identities. The call allocates nothing.
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
+    pub fn blend_transforms(&self) -> Result<Vec<f32>> {
+        let mut c = Call::new(&self.counts);
+        let mut count = 0;
+        let mut room = Room::new(&[("capacity", None)]);
+        let mut transforms: Vec<f32> = Vec::new();
+        loop {
+            room.begin(&mut c, &[&["capacity", "12"]]);
+            room.make(&c, &mut transforms, &["capacity", "12"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_pose_get_blend_transforms(self.handle, room.get("capacity"),
+                room.at(&mut transforms), &mut count) };
+            if room.enough(&mut c, code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        transforms.truncate(c.product(&["capacity", "12"]));
+        Ok(transforms)
     }
 
     /// Vertices of the surface, as given.

@@ -918,6 +918,35 @@ pub struct hf_skin_info {
     pub vertex_weights: *mut f32,
 }
 
+/// The blend of a pose in the last frame.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_blend_info {
+    pub struct_size: u32,
+    pub cluster_count: u32,
+    pub revision: u32,
+    pub reserved: u32,
+    pub offset_share: f64,
+    pub centre: [f64; 3],
+}
+
+/// Receives the rows of a blend.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_blend_rows {
+    pub struct_size: u32,
+    pub vertex_capacity: u32,
+    pub entry_capacity: u32,
+    pub vertex_count: u32,
+    pub entry_count: u32,
+    pub longest_row: u32,
+    pub rows: *mut u32,
+    pub clusters: *mut u16,
+    pub weights: *mut f32,
+    pub positions: *mut f32,
+    pub offsets: *mut f32,
+}
+
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_handle_proposals_desc {
@@ -1538,13 +1567,13 @@ sized! {
         hf_solver_info hf_sites_desc hf_edit_desc hf_sites_info hf_solve_info hf_preview_info hf_certificate
         hf_solver_statistics hf_isolines hf_critical_info hf_geodesics_desc hf_path hf_extremities_desc
         hf_direction_desc hf_direction_statistics hf_pose_desc hf_pose_info hf_handles_desc hf_handle_info
-        hf_deform_info hf_deform_desc hf_pose_statistics hf_skin_info hf_handle_proposals_desc hf_quads_desc
-        hf_quads_info hf_quads_mesh hf_streamlines hf_region_desc hf_curve_desc hf_region_edit_desc hf_region_info
-        hf_region_statistics hf_morph_desc hf_detail_desc hf_retarget_desc hf_retarget_info hf_skin_desc
-        hf_skeleton_desc hf_skeleton_info hf_transfer_desc hf_pairs_desc hf_pair_info hf_transfer_info
-        hf_transfer_statistics hf_transfer_dials hf_transfer_frame hf_joints_desc hf_pins_desc hf_weights_out
-        hf_weights_info hf_weights_statistics hf_weights_transfer_desc hf_weights_transfer_info
-        hf_weights_mirror_desc hf_weights_mirror_info hf_weights_mirror_statistics
+        hf_deform_info hf_deform_desc hf_pose_statistics hf_skin_info hf_blend_info hf_blend_rows
+        hf_handle_proposals_desc hf_quads_desc hf_quads_info hf_quads_mesh hf_streamlines hf_region_desc
+        hf_curve_desc hf_region_edit_desc hf_region_info hf_region_statistics hf_morph_desc hf_detail_desc
+        hf_retarget_desc hf_retarget_info hf_skin_desc hf_skeleton_desc hf_skeleton_info hf_transfer_desc
+        hf_pairs_desc hf_pair_info hf_transfer_info hf_transfer_statistics hf_transfer_dials hf_transfer_frame
+        hf_joints_desc hf_pins_desc hf_weights_out hf_weights_info hf_weights_statistics hf_weights_transfer_desc
+        hf_weights_transfer_info hf_weights_mirror_desc hf_weights_mirror_info hf_weights_mirror_statistics
 }
 
 zeroed! {
@@ -1588,6 +1617,7 @@ figures! {
         reserved;
     hf_deform_info: struct_size iteration_count unreached_vertex_count reserved last_change;
     hf_pose_statistics: struct_size cluster_count solve_ms blend_ms normal_ms refine_ms;
+    hf_blend_info: struct_size cluster_count revision reserved offset_share;
     hf_quads_info: struct_size vertex_count face_count euler_characteristic edge_length;
     hf_region_info: struct_size field_kind vertex_count rim_count site_count reserved area base_area;
     hf_region_statistics: struct_size inserted_count removed_count kept_count factorisation_count path_solve_count
@@ -1705,6 +1735,10 @@ extern "C" {
     pub fn hf_pose_deform(pose: hf_pose, desc: *const hf_deform_desc, out_info: *mut hf_deform_info) -> i32;
     pub fn hf_pose_get_statistics(pose: hf_pose, out_statistics: *mut hf_pose_statistics) -> i32;
     pub fn hf_pose_get_skin(pose: hf_pose, inout_skin: *mut hf_skin_info) -> i32;
+    pub fn hf_pose_get_blend_info(pose: hf_pose, out_info: *mut hf_blend_info) -> i32;
+    pub fn hf_pose_get_blend_rows(pose: hf_pose, inout_rows: *mut hf_blend_rows) -> i32;
+    pub fn hf_pose_solve(pose: hf_pose, iteration_count: u32, restart: i32, out_info: *mut hf_deform_info) -> i32;
+    pub fn hf_pose_get_blend_transforms(pose: hf_pose, capacity: u32, out_transforms: *mut f32, out_count: *mut u32) -> i32;
     pub fn hf_surface_propose_handles(surface: hf_surface, desc: *const hf_handle_proposals_desc, capacity: u32, out_proposals: *mut hf_handle_proposal, out_count: *mut u32) -> i32;
     pub fn hf_quads_create(surface: hf_surface, desc: *const hf_quads_desc, out_quads: *mut hf_quads) -> i32;
     pub fn hf_quads_update(quads: hf_quads, desc: *const hf_quads_desc) -> i32;

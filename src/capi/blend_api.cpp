@@ -1,0 +1,152 @@
+// Implements the blend of hf/pose.h: what a shader needs to compute the vertices of a pose.
+#include <algorithm>
+#include <limits>
+
+#include "capi/boundary.h"
+#include "capi/pose_object.h"
+#include "capi/vertex_writer.h"
+
+namespace hf_inner::capi {
+namespace {
+
+// Returns the pose whose surface is a blend of clusters. Throws HF_ERROR_UNSUPPORTED or HF_ERROR_EMPTY.
+const Pose& blended_pose(const PoseStack& stack) {
+  if (stack.has_layers())
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "the pose has handles on higher layers; the surface they make is not a blend of clusters, use hf_deform");
+  if (stack.needs_surface())
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+         "the pose has rigid pieces or limbs with steps; that surface is not a blend of clusters, use hf_deform");
+  if (stack.handle_count() == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
+  require_float_positions(stack.core().mesh);
+  return stack.base();
+}
+
+// The clusters and, if some vertices have no handle, one that never moves.
+std::uint32_t blend_clusters(const Pose& pose) noexcept {
+  const ClusterWeights& weights = *pose.weights();
+  const bool still = weights.unreached_vertex_count > 0 || !pose.core().mesh.isolated.empty();
+  return static_cast<std::uint32_t>(weights.cluster_count) + still;
+}
+
+void put_floats(Vec3 p, float* out) noexcept {
+  out[0] = static_cast<float>(p.x);
+  out[1] = static_cast<float>(p.y);
+  out[2] = static_cast<float>(p.z);
+}
+
+void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
+  hf_blend_rows out = read_struct(inout, "inout_rows");
+  const ClusterWeights& weights = *pose.weights();
+  const Mesh& mesh = pose.core().mesh;
+  const auto length = [&](std::int32_t inner) {
+    return inner == Mesh::none
+               ? 1u
+               : std::max(1u, static_cast<std::uint32_t>(weights.start[inner + 1] - weights.start[inner]));
+  };
+  std::uint64_t entries = 0;
+  out.longest_row = 0;
+  visit_given(mesh, [&](std::size_t, std::int32_t inner) {
+    out.longest_row = std::max(out.longest_row, length(inner));
+    entries += length(inner);
+  });
+  if (entries > std::numeric_limits<std::uint32_t>::max())
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the blend has more entries than 32 bits count; use fewer handles");
+  out.vertex_count = mesh.report.vertex_count;
+  out.entry_count = static_cast<std::uint32_t>(entries);
+  write_struct(inout, out);
+  check_capacity(out.rows || out.positions || out.offsets, out.vertex_capacity, out.vertex_count, "vertex_capacity");
+  check_capacity(out.clusters || out.weights, out.entry_capacity, out.entry_count, "entry_capacity");
+
+  const Crossfade* glide = pose.crossfade();
+  std::size_t isolated = 0;
+  std::uint32_t entry = 0;
+  visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
+    const bool loose = inner == Mesh::none;
+    if (out.rows) {
+      out.rows[2 * v] = entry;
+      out.rows[2 * v + 1] = length(inner);
+    }
+    if (out.positions)
+      put_floats(loose ? mesh.isolated[isolated].position - mesh.centre : mesh.scale * mesh.positions[inner],
+                 out.positions + 3 * v);
+    if (out.offsets) {
+      for (std::size_t c = 0; c < 3; ++c)
+        out.offsets[3 * v + c] = loose || !glide ? 0 : glide->offset.data()[3 * static_cast<std::size_t>(inner) + c];
+    }
+    isolated += loose;
+    const std::int32_t first = loose ? 0 : weights.start[inner], last = loose ? 0 : weights.start[inner + 1];
+    for (std::int32_t k = first; k < last; ++k, ++entry) {
+      if (out.clusters) out.clusters[entry] = weights.cluster[k];
+      if (out.weights) out.weights[entry] = weights.weight[k];
+    }
+    if (first < last) return;
+    if (out.clusters) out.clusters[entry] = static_cast<std::uint16_t>(blend_clusters(pose) - 1);
+    if (out.weights) out.weights[entry] = 1;
+    ++entry;
+  });
+}
+
+hf_blend_info blend_info(const Pose& pose) noexcept {
+  hf_blend_info info{};
+  info.cluster_count = blend_clusters(pose);
+  info.revision = pose.blend_revision();
+  info.offset_share = pose.posed() ? pose.crossfade_share() : 0;
+  put(pose.core().mesh.centre, info.centre);
+  return info;
+}
+
+void write_blend_transforms(const Pose& pose, float* out) noexcept {
+  const Span<const Affine> moved = pose.cluster_transforms();
+  for (std::uint32_t c = 0; c < blend_clusters(pose); ++c) {
+    const bool still = !pose.posed() || c >= static_cast<std::uint32_t>(pose.weights()->cluster_count);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        const double unit = j == 3 ? pose.core().mesh.scale : 1;  // of translations
+        *out++ = static_cast<float>(still ? (i == j) : unit * moved[c].a[i][j]);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hf_inner::capi
+
+using namespace hf_inner;
+using namespace hf_inner::capi;
+
+extern "C" {
+
+hf_result hf_pose_get_blend_info(hf_pose handle, hf_blend_info* out_info) {
+  return guarded("hf_pose_get_blend_info", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    check_struct(out_info, "out_info");
+    const Reading reading(*pose);
+    write_struct(out_info, blend_info(blended_pose(*pose->pose)));
+  });
+}
+
+hf_result hf_pose_get_blend_rows(hf_pose handle, hf_blend_rows* inout_rows) {
+  return guarded("hf_pose_get_blend_rows", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    check_struct(inout_rows, "inout_rows");
+    const Reading reading(*pose);
+    write_blend_rows(blended_pose(*pose->pose), inout_rows);
+  });
+}
+
+hf_result hf_pose_get_blend_transforms(hf_pose handle, std::uint32_t capacity, float* out_transforms,
+                                       std::uint32_t* out_count) {
+  return guarded("hf_pose_get_blend_transforms", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    const Reading reading(*pose);
+    const Pose& base = blended_pose(*pose->pose);
+    const std::uint32_t count = blend_clusters(base);
+    require_either(out_transforms, out_count, "out_transforms and out_count");
+    write_count(out_count, count);
+    check_capacity(out_transforms != nullptr, capacity, count, "capacity");
+    if (out_transforms) write_blend_transforms(base, out_transforms);
+  });
+}
+
+}  // extern "C"

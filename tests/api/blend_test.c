@@ -1,0 +1,246 @@
+/* The blend of a pose: what a shader computes from rows and transforms is what hf_deform writes. */
+#include "api_support.h"
+
+enum { AROUND = 16, RINGS = 30, TUBE = AROUND * RINGS, ALL = TUBE + CUT_VERTICES };
+
+/* What a host keeps for its shader. */
+typedef struct Blend {
+  hf_blend_info info;
+  hf_blend_rows rows;
+} Blend;
+
+static Blend blend_of(hf_pose pose) {
+  Blend b = {HF_INIT(hf_blend_info), HF_INIT(hf_blend_rows)};
+  assert_ok(hf_pose_get_blend_info(pose, &b.info));
+  assert_ok(hf_pose_get_blend_rows(pose, &b.rows));
+  b.rows.vertex_capacity = b.rows.vertex_count;
+  b.rows.entry_capacity = b.rows.entry_count;
+  b.rows.rows = malloc(sizeof(uint32_t) * 2 * b.rows.vertex_count);
+  b.rows.positions = malloc(sizeof(float) * 3 * b.rows.vertex_count);
+  b.rows.offsets = malloc(sizeof(float) * 3 * b.rows.vertex_count);
+  b.rows.clusters = malloc(sizeof(uint16_t) * b.rows.entry_count);
+  b.rows.weights = malloc(sizeof(float) * b.rows.entry_count);
+  assert_ok(hf_pose_get_blend_rows(pose, &b.rows));
+  return b;
+}
+static void blend_free(Blend* b) {
+  free(b->rows.rows);
+  free(b->rows.positions);
+  free(b->rows.offsets);
+  free(b->rows.clusters);
+  free(b->rows.weights);
+}
+
+/* The vertices in floats, as a shader computes them. */
+static void shade(const Blend* b, const hf_blend_info* frame, const float* transforms, float* out) {
+  for (size_t v = 0; v < b->rows.vertex_count; ++v) {
+    const uint32_t first = b->rows.rows[2 * v], count = b->rows.rows[2 * v + 1];
+    const float* p = b->rows.positions + 3 * v;
+    assert_true(count >= 1 && count <= b->rows.longest_row && first + count <= b->rows.entry_count);
+    float sum = 0, x[3] = {0, 0, 0};
+    for (uint32_t e = first; e < first + count; ++e) {
+      assert_true(b->rows.clusters[e] < frame->cluster_count);
+      const float *a = transforms + 12 * (size_t)b->rows.clusters[e], w = b->rows.weights[e];
+      for (int i = 0; i < 3; ++i)
+        x[i] += w * (a[4 * i] * p[0] + a[4 * i + 1] * p[1] + a[4 * i + 2] * p[2] + a[4 * i + 3]);
+      sum += w;
+    }
+    assert_true(sum == 1);
+    for (size_t i = 0; i < 3; ++i) out[3 * v + i] = x[i] + (float)frame->offset_share * b->rows.offsets[3 * v + i];
+  }
+}
+
+static hf_blend_info frame_of(hf_pose pose, float* transforms, uint32_t capacity) {
+  hf_blend_info info = HF_INIT(hf_blend_info);
+  uint32_t count = 0;
+  assert_ok(hf_pose_get_blend_info(pose, &info));
+  assert_ok(hf_pose_get_blend_transforms(pose, capacity, transforms, &count));
+  assert_int_equal(count, info.cluster_count);
+  return info;
+}
+
+/* A frame of two poses that are alike, one by a shader. Returns how far the vertices are apart. */
+static double off(hf_pose pose, hf_pose twin, const Blend* b) {
+  static float transforms[12 * 4096], shaded[3 * ALL];
+  static double exact[3 * ALL];
+  assert_ok(hf_pose_solve(pose, 0, 0, NULL));
+  const hf_blend_info info = frame_of(pose, transforms, 4096);
+  assert_int_equal(info.revision, b->info.revision);
+  shade(b, &info, transforms, shaded);
+  hf_deform_desc desc = HF_INIT(hf_deform_desc);
+  desc.positions = HF_ARRAY_OUT(exact, b->rows.vertex_count);
+  assert_ok(hf_pose_deform(twin, &desc, NULL));
+  double most = 0;
+  for (size_t i = 0; i < 3 * (size_t)b->rows.vertex_count; ++i)
+    most = fmax(most, fabs(info.centre[i % 3] + (double)shaded[i] - exact[i]));
+  return most;
+}
+
+/* A tube and the cut sheet, a seam, a piece without a handle and an isolated vertex among it, far from 0. */
+static float points[3 * ALL];
+static uint32_t corners[3 * (2 * AROUND * (RINGS - 1) + CUT_TRIANGLES)];
+static hf_surface whole_surface(float far) {
+  Surface tube = surface_tube(AROUND, RINGS), cut = surface_cut();
+  for (size_t i = 0; i < 3 * TUBE; ++i) points[i] = tube.positions[i] + far;
+  for (size_t i = 0; i < 3 * CUT_VERTICES; ++i) points[3 * TUBE + i] = cut.positions[i] + far + (i % 3 ? 0 : 5.0f);
+  memcpy(corners, tube.triangles, sizeof(uint32_t) * 3 * tube.triangle_count);
+  for (size_t i = 0; i < 3 * (size_t)cut.triangle_count; ++i)
+    corners[3 * (size_t)tube.triangle_count + i] = cut.triangles[i] + TUBE;
+  hf_surface_desc desc = HF_INIT(hf_surface_desc);
+  desc.positions = HF_ARRAY(points, ALL);
+  desc.triangles = HF_ARRAY(corners, tube.triangle_count + cut.triangle_count);
+  hf_surface surface;
+  assert_ok(hf_surface_create(&desc, &surface));
+  surface_free(&tube);
+  surface_free(&cut);
+  return surface;
+}
+
+static hf_transform drag(double t) {
+  const hf_transform at = {{0.2 * sin(t), 0, 0.3 * sin(t), 1}, {3 * sin(t), -2 * sin(2 * t), sin(t)}};
+  return at;
+}
+
+static const double close = 1e-5 * 40; /* of the box; floats, and transforms that turn far */
+
+static void a_shader_has_the_vertices_of_hf_deform(void** state) {
+  (void)state;
+  for (int far = 0; far < 2; ++far) {
+    hf_surface surface = whole_surface(far ? 1e4f : 0);
+    uint32_t handles[2], middle;
+    hf_pose pose = tube_pose(surface, AROUND, RINGS, handles), twin;
+    assert_ok(hf_pose_clone(pose, &twin));
+    Blend b = blend_of(pose);
+    assert_int_equal(b.rows.vertex_count, ALL);
+    static float at_rest[12 * 4096];
+    const uint32_t count = frame_of(pose, at_rest, 4096).cluster_count; /* before the first frame */
+    for (uint32_t k = 0; k < 12 * count; ++k) assert_true(at_rest[k] == (k % 12 % 5 == 0 ? 1.0f : 0.0f));
+    for (uint32_t f = 1; f < 8; ++f) {
+      const hf_transform to = drag(0.3 * f);
+      assert_ok(hf_pose_set_transform(pose, handles[1], &to));
+      assert_ok(hf_pose_set_transform(twin, handles[1], &to));
+      assert_true(off(pose, twin, &b) < close);
+    }
+    /* a handle in place: an offset that fades */
+    const double at[3] = {(double)points[3 * 15 * AROUND], (double)points[3 * 15 * AROUND + 1],
+                          (double)points[3 * 15 * AROUND + 2]};
+    const double radius = 1.2;
+    hf_handles_desc desc = HF_INIT(hf_handles_desc);
+    desc.handle_count = 1;
+    desc.points = at;
+    desc.radii = &radius;
+    desc.in_place = 1;
+    assert_ok(hf_pose_add_handles(pose, &desc, &middle));
+    assert_ok(hf_pose_add_handles(twin, &desc, &middle));
+    hf_blend_info info = HF_INIT(hf_blend_info);
+    assert_ok(hf_pose_get_blend_info(pose, &info));
+    assert_int_not_equal(info.revision, b.info.revision);
+    assert_true(info.offset_share == 1);
+    blend_free(&b);
+    b = blend_of(pose);
+    double share = 1;
+    for (uint32_t f = 8; f < 30; ++f) {
+      const hf_transform to = drag(2.1 + 0.01 * (f - 8));
+      assert_ok(hf_pose_set_transform(pose, handles[1], &to));
+      assert_ok(hf_pose_set_transform(twin, handles[1], &to));
+      assert_true(off(pose, twin, &b) < close);
+      assert_ok(hf_pose_get_blend_info(pose, &info));
+      share = fmin(share, info.offset_share);
+    }
+    assert_true(share > 0 && share < 0.5); /* on its way */
+    blend_free(&b);
+    hf_pose_destroy(pose);
+    hf_pose_destroy(twin);
+    hf_surface_destroy(surface);
+  }
+}
+
+static void a_solve_has_the_bits_of_a_deform(void** state) {
+  (void)state;
+  hf_surface surface = whole_surface(0);
+  uint32_t handles[2];
+  hf_pose pose = tube_pose(surface, AROUND, RINGS, handles), other;
+  assert_ok(hf_pose_clone(pose, &other));
+  static float a[3 * ALL], b[3 * ALL];
+  for (uint32_t f = 0; f < 12; ++f) {
+    const hf_transform to = drag(0.3 * f);
+    assert_ok(hf_pose_set_transform(pose, handles[1], &to));
+    assert_ok(hf_pose_set_transform(other, handles[1], &to));
+    hf_deform_desc desc = HF_INIT(hf_deform_desc);
+    hf_deform_info by_deform = HF_INIT(hf_deform_info), by_solve = HF_INIT(hf_deform_info);
+    desc.positions = HF_ARRAY_OUT(a, ALL);
+    desc.restart = f == 6;
+    desc.iteration_count = 3;
+    assert_ok(hf_pose_deform(pose, &desc, &by_deform));
+    assert_ok(hf_pose_solve(other, 3, f == 6, &by_solve));
+    assert_memory_equal(&by_deform, &by_solve, sizeof by_solve);
+    if (f % 4 < 3) continue; /* vertices between solves change nothing */
+    static float ta[12 * 4096], tb[12 * 4096];
+    const hf_blend_info info = frame_of(pose, ta, 4096);
+    frame_of(other, tb, 4096);
+    assert_memory_equal(ta, tb, sizeof(float) * 12 * info.cluster_count);
+    assert_ok(hf_deform(pose, a, NULL));
+    assert_ok(hf_deform(other, b, NULL));
+    assert_memory_equal(a, b, sizeof a);
+  }
+  hf_pose_destroy(pose);
+  hf_pose_destroy(other);
+  hf_surface_destroy(surface);
+}
+
+static void what_is_no_blend_is_refused(void** state) {
+  (void)state;
+  hf_surface surface = whole_surface(0);
+  uint32_t handles[2], fine;
+  hf_blend_info info = HF_INIT(hf_blend_info);
+  hf_blend_rows rows_of = HF_INIT(hf_blend_rows);
+  float transforms[12];
+  uint32_t count = 7;
+  hf_pose empty;
+  assert_ok(hf_pose_create(surface, NULL, &empty));
+  assert_code(HF_ERROR_EMPTY, hf_pose_get_blend_info(empty, &info));
+  assert_code(HF_ERROR_EMPTY, hf_pose_solve(empty, 0, 0, NULL));
+  hf_pose_destroy(empty);
+
+  hf_pose pose = tube_pose(surface, AROUND, RINGS, handles);
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_pose_solve(pose, 1001, 0, NULL));
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_pose_solve(pose, 0, 2, NULL));
+  assert_code(HF_ERROR_NULL_POINTER, hf_pose_get_blend_transforms(pose, 0, NULL, NULL));
+  assert_code(HF_ERROR_TOO_SMALL, hf_pose_get_blend_transforms(pose, 1, transforms, &count));
+  assert_int_not_equal(count, 7);
+  rows_of.weights = transforms;
+  rows_of.entry_capacity = 12;
+  assert_code(HF_ERROR_TOO_SMALL, hf_pose_get_blend_rows(pose, &rows_of));
+  rows_of.weights = NULL;
+
+  const uint32_t island = TUBE + CUT_ISLAND;
+  assert_ok(hf_pose_set_rigid_pieces(pose, 1, &island));
+  assert_code(HF_ERROR_UNSUPPORTED, hf_pose_get_blend_info(pose, &info));
+  assert_ok(hf_pose_set_rigid_pieces(pose, 0, NULL));
+  assert_ok(hf_pose_get_blend_info(pose, &info));
+  assert_ok(hf_pose_set_limb_refine(pose, 1, handles, 4));
+  assert_code(HF_ERROR_UNSUPPORTED, hf_pose_get_blend_transforms(pose, 0, NULL, &count));
+  assert_ok(hf_pose_solve(pose, 0, 0, NULL)); /* it still solves */
+  assert_ok(hf_pose_set_limb_refine(pose, 1, handles, 0));
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
+  const uint32_t size = 3, region[3] = {15 * AROUND, 15 * AROUND + 1, 15 * AROUND + 2};
+  desc.handle_count = 1;
+  desc.region_counts = &size;
+  desc.region_vertices = region;
+  desc.layer = 1;
+  assert_ok(hf_pose_add_handles(pose, &desc, &fine));
+  assert_code(HF_ERROR_UNSUPPORTED, hf_pose_get_blend_rows(pose, &rows_of));
+  assert_ok(hf_pose_remove_handles(pose, 1, &fine));
+  assert_ok(hf_pose_get_blend_rows(pose, &rows_of));
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_shader_has_the_vertices_of_hf_deform),
+      cmocka_unit_test(a_solve_has_the_bits_of_a_deform),
+      cmocka_unit_test(what_is_no_blend_is_refused),
+  };
+  return cmocka_run_group_tests_name("blend", tests, NULL, NULL);
+}
