@@ -739,8 +739,12 @@ struct BlendRows {
   std::vector<uint16_t> clusters;
   // `[entry_capacity]` multiples of 2^-24; those of a vertex sum to 1
   std::vector<float> weights;
+  // `[entry_capacity x 3]` of the weights along the rest surface, for normals
+  std::vector<float> gradients;
   // `[vertex_capacity x 3]` at rest
   std::vector<float> positions;
+  // `[vertex_capacity x 3]` unit, at rest
+  std::vector<float> normals;
   // `[vertex_capacity x 3]`
   std::vector<float> offsets;
   // entries of the vertex that has the most
@@ -2329,7 +2333,9 @@ class Pose {
     room.array(found.rows, {"vertex_capacity", "2"}, &rows.rows);
     room.array(found.clusters, {"entry_capacity"}, &rows.clusters);
     room.array(found.weights, {"entry_capacity"}, &rows.weights);
+    room.array(found.gradients, {"entry_capacity", "3"}, &rows.gradients);
     room.array(found.positions, {"vertex_capacity", "3"}, &rows.positions);
+    room.array(found.normals, {"vertex_capacity", "3"}, &rows.normals);
     room.array(found.offsets, {"vertex_capacity", "3"}, &rows.offsets);
     do {
       room.begin(c);

@@ -327,7 +327,11 @@ HF_API hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
  * A pose blends the transforms of clusters by fixed weights, so a shader can compute the vertices of a frame. A vertex
  * with the rest position p goes to the sum of w A (p, 1) over its row, plus offset_share times its offset. A row lists
  * clusters with their weights w; A is the transform of a cluster. The row is fixed, the transform is that of the frame.
- * Rest positions, transforms and posed positions are relative to `centre`, so floats keep their digits far from 0. */
+ * Rest positions, transforms and posed positions are relative to `centre`, so floats keep their digits far from 0.
+ *
+ * A vector u in the tangent plane at rest goes to J u, with J the sum of w L + (A (p, 1)) g^T over the row: L is the 3
+ * x 3 part of A, g the gradient of the entry. The posed normal is J u x J v for two unit tangents with u x v the rest
+ * normal; tangents of textures go to J u. */
 
 /* The blend of a pose in the last frame. */
 typedef struct hf_blend_info {
@@ -354,7 +358,9 @@ typedef struct hf_blend_rows {
   uint32_t* rows;           /* [vertex_capacity][2] number of the first entry of the vertex, and count of its entries */
   uint16_t* clusters;       /* [entry_capacity] */
   float* weights;           /* [entry_capacity] multiples of 2^-24; those of a vertex sum to 1 */
+  float* gradients;         /* [entry_capacity][3] of the weights along the rest surface, for normals */
   float* positions;         /* [vertex_capacity][3] at rest */
+  float* normals;           /* [vertex_capacity][3] unit, at rest */
   float* offsets;           /* [vertex_capacity][3] */
 } hf_blend_rows;
 

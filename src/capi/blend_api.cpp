@@ -5,6 +5,7 @@
 #include "capi/boundary.h"
 #include "capi/pose_object.h"
 #include "capi/vertex_writer.h"
+#include "deform/graded_rows.h"
 
 namespace hf_inner::capi {
 namespace {
@@ -35,14 +36,24 @@ void put_floats(Vec3 p, float* out) noexcept {
   out[2] = static_cast<float>(p.z);
 }
 
+Vector<Normal> rest_normals(const Pose& pose, Memory& memory) {
+  const Core& core = pose.core();
+  Vector<Vec3> rest(&memory);
+  for (const Vec3& p : core.mesh.positions) rest.push_back(core.mesh.to_given(p));
+  Buffer<NormalSum> sums(memory, rest.size());
+  Vector<Normal> normals(rest.size(), Normal(), &memory);
+  vertex_normals(core.mesh, pose.rest(), rest.data(), sums.data(), normals.data(), *core.jobs);
+  return normals;
+}
+
 void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
   hf_blend_rows out = read_struct(inout, "inout_rows");
-  const ClusterWeights& weights = *pose.weights();
   const Mesh& mesh = pose.core().mesh;
+  Memory& memory = *pose.core().memory;
+  const GradedRows rows = graded_rows(mesh, *pose.weights(), memory);
   const auto length = [&](std::int32_t inner) {
-    return inner == Mesh::none
-               ? 1u
-               : std::max(1u, static_cast<std::uint32_t>(weights.start[inner + 1] - weights.start[inner]));
+    return inner == Mesh::none ? 1u
+                               : std::max(1u, static_cast<std::uint32_t>(rows.start[inner + 1] - rows.start[inner]));
   };
   std::uint64_t entries = 0;
   out.longest_row = 0;
@@ -55,12 +66,22 @@ void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
   out.vertex_count = mesh.report.vertex_count;
   out.entry_count = static_cast<std::uint32_t>(entries);
   write_struct(inout, out);
-  check_capacity(out.rows || out.positions || out.offsets, out.vertex_capacity, out.vertex_count, "vertex_capacity");
-  check_capacity(out.clusters || out.weights, out.entry_capacity, out.entry_count, "entry_capacity");
+  check_capacity(out.rows || out.positions || out.normals || out.offsets, out.vertex_capacity, out.vertex_count,
+                 "vertex_capacity");
+  check_capacity(out.clusters || out.weights || out.gradients, out.entry_capacity, out.entry_count, "entry_capacity");
 
+  Vector<Normal> normals(&memory);
+  if (out.normals) normals = rest_normals(pose, memory);
   const Crossfade* glide = pose.crossfade();
+  const auto still = static_cast<std::uint16_t>(blend_clusters(pose) - 1);
   std::size_t isolated = 0;
   std::uint32_t entry = 0;
+  const auto add = [&](std::uint16_t cluster, float weight, Vec3 gradient) {
+    if (out.clusters) out.clusters[entry] = cluster;
+    if (out.weights) out.weights[entry] = weight;
+    if (out.gradients) put_floats((1 / mesh.scale) * gradient, out.gradients + 3 * std::size_t{entry});
+    ++entry;
+  };
   visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
     const bool loose = inner == Mesh::none;
     if (out.rows) {
@@ -70,21 +91,18 @@ void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
     if (out.positions)
       put_floats(loose ? mesh.isolated[isolated].position - mesh.centre : mesh.scale * mesh.positions[inner],
                  out.positions + 3 * v);
-    if (out.offsets) {
-      for (std::size_t c = 0; c < 3; ++c)
-        out.offsets[3 * v + c] = loose || !glide ? 0 : glide->offset.data()[3 * static_cast<std::size_t>(inner) + c];
-    }
+    if (out.normals) put_floats(loose ? Vec3{0, 0, 1} : to_vec3(normals[inner]), out.normals + 3 * v);
+    for (std::size_t c = 0; c < 3 && out.offsets; ++c)
+      out.offsets[3 * v + c] = loose || !glide ? 0 : glide->offset.data()[3 * static_cast<std::size_t>(inner) + c];
     isolated += loose;
-    const std::int32_t first = loose ? 0 : weights.start[inner], last = loose ? 0 : weights.start[inner + 1];
-    for (std::int32_t k = first; k < last; ++k, ++entry) {
-      if (out.clusters) out.clusters[entry] = weights.cluster[k];
-      if (out.weights) out.weights[entry] = weights.weight[k];
-    }
-    if (first < last) return;
-    if (out.clusters) out.clusters[entry] = static_cast<std::uint16_t>(blend_clusters(pose) - 1);
-    if (out.weights) out.weights[entry] = 1;
-    ++entry;
+    const std::int32_t first = loose ? 0 : rows.start[inner], last = loose ? 0 : rows.start[inner + 1];
+    for (std::int32_t k = first; k < last; ++k) add(rows.cluster[k], rows.weight[k], rows.gradient[k]);
+    if (first == last) add(still, 1, {});
   });
+  for (std::size_t i = 0; i < mesh.turned.size() && out.normals; ++i) {
+    float* normal = out.normals + 3 * static_cast<std::size_t>(mesh.turned[i]);
+    for (int c = 0; c < 3; ++c) normal[c] = -normal[c];
+  }
 }
 
 hf_blend_info blend_info(const Pose& pose) noexcept {

@@ -20,6 +20,8 @@ static Blend blend_of(hf_pose pose) {
   b.rows.offsets = malloc(sizeof(float) * 3 * b.rows.vertex_count);
   b.rows.clusters = malloc(sizeof(uint16_t) * b.rows.entry_count);
   b.rows.weights = malloc(sizeof(float) * b.rows.entry_count);
+  b.rows.normals = malloc(sizeof(float) * 3 * b.rows.vertex_count);
+  b.rows.gradients = malloc(sizeof(float) * 3 * b.rows.entry_count);
   assert_ok(hf_pose_get_blend_rows(pose, &b.rows));
   return b;
 }
@@ -29,6 +31,8 @@ static void blend_free(Blend* b) {
   free(b->rows.offsets);
   free(b->rows.clusters);
   free(b->rows.weights);
+  free(b->rows.normals);
+  free(b->rows.gradients);
 }
 
 /* The vertices in floats, as a shader computes them. */
@@ -155,6 +159,73 @@ static void a_shader_has_the_vertices_of_hf_deform(void** state) {
   }
 }
 
+/* Where the shader takes a tangent: J u of the header. */
+static void push(const Blend* b, const float* transforms, size_t v, const float u[3], float out[3]) {
+  const float* p = b->rows.positions + 3 * v;
+  for (int i = 0; i < 3; ++i) out[i] = 0;
+  for (uint32_t e = b->rows.rows[2 * v]; e < b->rows.rows[2 * v] + b->rows.rows[2 * v + 1]; ++e) {
+    const float *a = transforms + 12 * (size_t)b->rows.clusters[e], *g = b->rows.gradients + 3 * (size_t)e;
+    const float along = g[0] * u[0] + g[1] * u[1] + g[2] * u[2], w = b->rows.weights[e];
+    for (int i = 0; i < 3; ++i)
+      out[i] += w * (a[4 * i] * u[0] + a[4 * i + 1] * u[1] + a[4 * i + 2] * u[2]) +
+                along * (a[4 * i] * p[0] + a[4 * i + 1] * p[1] + a[4 * i + 2] * p[2] + a[4 * i + 3]);
+  }
+}
+
+static void cross_of(const float a[3], const float b[3], float out[3]) {
+  float length = 0;
+  for (int i = 0; i < 3; ++i) {
+    out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+    length += out[i] * out[i];
+  }
+  for (int i = 0; i < 3; ++i) out[i] /= sqrtf(length);
+}
+
+static void normals_of_a_shader_are_those_of_hf_deform(void** state) {
+  (void)state;
+  enum { ROUND = 64, LONG = 120, COUNT = ROUND * LONG };
+  Surface tube = surface_tube(ROUND, LONG);
+  for (size_t v = 0; v < COUNT; ++v) tube.positions[3 * v + 1] *= 0.1f; /* as far along as around */
+  hf_surface surface = surface_on(&tube);
+  uint32_t handles[2];
+  hf_pose pose = tube_pose(surface, ROUND, LONG, handles);
+  Blend b = blend_of(pose);
+  static float transforms[12 * 4096], normals[3 * COUNT];
+  double most = 0, mean = 0;
+  for (uint32_t f = 0; f < 8; ++f) {
+    const hf_transform to = drag(0.3 * f);
+    assert_ok(hf_pose_set_transform(pose, handles[1], &to));
+    hf_deform_desc desc = HF_INIT(hf_deform_desc);
+    desc.normals = HF_ARRAY_OUT(normals, COUNT);
+    assert_ok(hf_pose_deform(pose, &desc, NULL));
+    frame_of(pose, transforms, 4096);
+    for (size_t v = 0; v < COUNT; ++v) {
+      const float *n = b.rows.normals + 3 * v, axis[3] = {fabsf(n[0]) < 0.5f, fabsf(n[0]) >= 0.5f, 0};
+      float u[3], w[3], ju[3], jw[3], shaded[3];
+      cross_of(n, axis, u);
+      cross_of(n, u, w);
+      push(&b, transforms, v, u, ju);
+      push(&b, transforms, v, w, jw);
+      cross_of(ju, jw, shaded);
+      double sine = 0, cosine = 0;
+      for (int i = 0; i < 3; ++i) {
+        const double c = (double)shaded[(i + 1) % 3] * (double)normals[3 * v + (size_t)(i + 2) % 3] -
+                         (double)shaded[(i + 2) % 3] * (double)normals[3 * v + (size_t)(i + 1) % 3];
+        sine += c * c;
+        cosine += (double)(shaded[i] * normals[3 * v + (size_t)i]);
+      }
+      const double angle = atan2(sqrt(sine), cosine) * 57.29577951308232;
+      most = fmax(most, angle);
+      mean += angle / (8.0 * COUNT);
+    }
+  }
+  assert_true(mean < 0.02 && most < 2); /* the largest beside handles of a tube that is bent hard: second order */
+  blend_free(&b);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
+  surface_free(&tube);
+}
+
 static void a_solve_has_the_bits_of_a_deform(void** state) {
   (void)state;
   hf_surface surface = whole_surface(0);
@@ -239,6 +310,7 @@ static void what_is_no_blend_is_refused(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_shader_has_the_vertices_of_hf_deform),
+      cmocka_unit_test(normals_of_a_shader_are_those_of_hf_deform),
       cmocka_unit_test(a_solve_has_the_bits_of_a_deform),
       cmocka_unit_test(what_is_no_blend_is_refused),
   };

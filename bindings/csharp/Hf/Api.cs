@@ -1841,8 +1841,12 @@ namespace Hf
         public ushort[] Clusters;
         /// <summary>[entryCapacity] multiples of 2^-24; those of a vertex sum to 1</summary>
         public float[] Weights;
+        /// <summary>[entryCapacity x 3] of the weights along the rest surface, for normals</summary>
+        public float[] Gradients;
         /// <summary>[vertexCapacity x 3] at rest</summary>
         public float[] Positions;
+        /// <summary>[vertexCapacity x 3] unit, at rest</summary>
+        public float[] Normals;
         /// <summary>[vertexCapacity x 3]</summary>
         public float[] Offsets;
         /// <summary>entries of the vertex that has the most</summary>
@@ -4632,7 +4636,9 @@ namespace Hf
                 found.Array<uint>("rows", "vertex_capacity", "2");
                 found.Array<ushort>("clusters", "entry_capacity");
                 found.Array<float>("weights", "entry_capacity");
+                found.Array<float>("gradients", "entry_capacity", "3");
                 found.Array<float>("positions", "vertex_capacity", "3");
+                found.Array<float>("normals", "vertex_capacity", "3");
                 found.Array<float>("offsets", "vertex_capacity", "3");
                 do
                 {
@@ -4642,7 +4648,9 @@ namespace Hf
                         rows->rows = (IntPtr)found.Place("rows");
                         rows->clusters = (IntPtr)found.Place("clusters");
                         rows->weights = (IntPtr)found.Place("weights");
+                        rows->gradients = (IntPtr)found.Place("gradients");
                         rows->positions = (IntPtr)found.Place("positions");
+                        rows->normals = (IntPtr)found.Place("normals");
                         rows->offsets = (IntPtr)found.Place("offsets");
                         found.Result = Functions.hf_pose_get_blend_rows(RawHandle, rows);
                         found.Told("vertex_capacity", rows->vertex_count);
@@ -4652,7 +4660,8 @@ namespace Hf
                 while (found.Again());
                 return new BlendRows { LongestRow = rows->longest_row, Rows = found.Take<uint>("rows"),
                     Clusters = found.Take<ushort>("clusters"), Weights = found.Take<float>("weights"),
-                    Positions = found.Take<float>("positions"), Offsets = found.Take<float>("offsets") };
+                    Gradients = found.Take<float>("gradients"), Positions = found.Take<float>("positions"),
+                    Normals = found.Take<float>("normals"), Offsets = found.Take<float>("offsets") };
             }
         }
 

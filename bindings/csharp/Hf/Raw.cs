@@ -834,7 +834,9 @@ namespace Hf.Native
         public IntPtr rows;
         public IntPtr clusters;
         public IntPtr weights;
+        public IntPtr gradients;
         public IntPtr positions;
+        public IntPtr normals;
         public IntPtr offsets;
     }
 

@@ -1171,8 +1171,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
               call('hf_pose_get_blend_rows', this._handle, rows)), () => ({ vertex_capacity: rows.get('vertex_count'),
               entry_capacity: rows.get('entry_count'), vertex_count: rows.get('vertex_count') }),
               { vertex_capacity: c.n.vertex_count, entry_capacity: null }, { rows: ['u4', ['vertex_capacity', 2]],
-              clusters: ['u2', ['entry_capacity']], weights: ['f4', ['entry_capacity']], positions: ['f4',
-              ['vertex_capacity', 3]], offsets: ['f4', ['vertex_capacity', 3]] });
+              clusters: ['u2', ['entry_capacity']], weights: ['f4', ['entry_capacity']], gradients: ['f4',
+              ['entry_capacity', 3]], positions: ['f4', ['vertex_capacity', 3]], normals: ['f4', ['vertex_capacity',
+              3]], offsets: ['f4', ['vertex_capacity', 3]] });
       return { ...found, vertexCount: rows.get('vertex_count'), entryCount: rows.get('entry_count'),
               longestRow: rows.get('longest_row') };
     }

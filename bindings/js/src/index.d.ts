@@ -618,8 +618,12 @@ export interface BlendRows {
   clusters: Uint16Array;
   /** [entryCapacity] multiples of 2^-24; those of a vertex sum to 1 */
   weights: Float32Array;
+  /** [entryCapacity x 3] of the weights along the rest surface, for normals */
+  gradients: Float32Array;
   /** [vertexCapacity x 3] at rest */
   positions: Float32Array;
+  /** [vertexCapacity x 3] unit, at rest */
+  normals: Float32Array;
   /** [vertexCapacity x 3] */
   offsets: Float32Array;
 }

@@ -673,7 +673,7 @@ export const layouts = {
     offset_share: ['f64', [16, 16], 0],
     centre: ['f64', [24, 24], 3],
   } },
-  hf_blend_rows: { size: [44, 64], fields: {
+  hf_blend_rows: { size: [52, 80], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_capacity: ['u32', [4, 4], 0],
     entry_capacity: ['u32', [8, 8], 0],
@@ -683,8 +683,10 @@ export const layouts = {
     rows: ['ptr', [24, 24], 0],
     clusters: ['ptr', [28, 32], 0],
     weights: ['ptr', [32, 40], 0],
-    positions: ['ptr', [36, 48], 0],
-    offsets: ['ptr', [40, 56], 0],
+    gradients: ['ptr', [36, 48], 0],
+    positions: ['ptr', [40, 56], 0],
+    normals: ['ptr', [44, 64], 0],
+    offsets: ['ptr', [48, 72], 0],
   } },
   hf_handle_proposals_desc: { size: [64, 72], fields: {
     struct_size: ['u32', [0, 0], 0],

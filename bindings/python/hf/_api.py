@@ -564,8 +564,12 @@ class BlendRows(NamedTuple):
     """(entry_capacity,)"""
     weights: np.ndarray
     """(entry_capacity,) multiples of 2^-24; those of a vertex sum to 1"""
+    gradients: np.ndarray
+    """(entry_capacity, 3) of the weights along the rest surface, for normals"""
     positions: np.ndarray
     """(vertex_capacity, 3) at rest"""
+    normals: np.ndarray
+    """(vertex_capacity, 3) unit, at rest"""
     offsets: np.ndarray
     """(vertex_capacity, 3)"""
     longest_row: int
@@ -2454,7 +2458,8 @@ class Pose(Recorded):
                 'entry_capacity': rows.entry_count, 'vertex_count': rows.vertex_count},
                 {'vertex_capacity': c.n.get('vertex_count'), 'entry_capacity': None}, {'rows': (np.uint32,
                 ('vertex_capacity', 2)), 'clusters': (np.uint16, ('entry_capacity',)), 'weights': (np.float32,
-                ('entry_capacity',)), 'positions': (np.float32, ('vertex_capacity', 3)), 'offsets': (np.float32,
+                ('entry_capacity',)), 'gradients': (np.float32, ('entry_capacity', 3)), 'positions': (np.float32,
+                ('vertex_capacity', 3)), 'normals': (np.float32, ('vertex_capacity', 3)), 'offsets': (np.float32,
                 ('vertex_capacity', 3))})
         return BlendRows(longest_row=rows.longest_row, **found)
 

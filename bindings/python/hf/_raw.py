@@ -945,11 +945,14 @@ class hf_blend_rows(Struct):
     rows: int
     clusters: int
     weights: int
+    gradients: int
     positions: int
+    normals: int
     offsets: int
     _fields_ = [("struct_size", c_uint32), ("vertex_capacity", c_uint32), ("entry_capacity", c_uint32),
                 ("vertex_count", c_uint32), ("entry_count", c_uint32), ("longest_row", c_uint32), ("rows", c_void_p),
-                ("clusters", c_void_p), ("weights", c_void_p), ("positions", c_void_p), ("offsets", c_void_p)]
+                ("clusters", c_void_p), ("weights", c_void_p), ("gradients", c_void_p), ("positions", c_void_p),
+                ("normals", c_void_p), ("offsets", c_void_p)]
 
 
 class hf_handle_proposals_desc(Struct):

@@ -1400,8 +1400,12 @@ pub struct BlendRows {
     pub clusters: Vec<u16>,
     /// `[entry_capacity]` multiples of 2^-24; those of a vertex sum to 1
     pub weights: Vec<f32>,
+    /// `[entry_capacity x 3]` of the weights along the rest surface, for normals
+    pub gradients: Vec<f32>,
     /// `[vertex_capacity x 3]` at rest
     pub positions: Vec<f32>,
+    /// `[vertex_capacity x 3]` unit, at rest
+    pub normals: Vec<f32>,
     /// `[vertex_capacity x 3]`
     pub offsets: Vec<f32>,
     /// entries of the vertex that has the most
@@ -3090,22 +3094,29 @@ impl Pose {
         let mut all_rows: Vec<u32> = Vec::new();
         let mut all_clusters: Vec<u16> = Vec::new();
         let mut all_weights: Vec<f32> = Vec::new();
+        let mut all_gradients: Vec<f32> = Vec::new();
         let mut all_positions: Vec<f32> = Vec::new();
+        let mut all_normals: Vec<f32> = Vec::new();
         let mut all_offsets: Vec<f32> = Vec::new();
         loop {
             room.begin(&mut c, &[&["vertex_capacity", "2"], &["entry_capacity"], &["entry_capacity"],
-                &["vertex_capacity", "3"], &["vertex_capacity", "3"]]);
+                &["entry_capacity", "3"], &["vertex_capacity", "3"], &["vertex_capacity", "3"], &["vertex_capacity",
+                "3"]]);
             room.make(&c, &mut all_rows, &["vertex_capacity", "2"]);
             room.make(&c, &mut all_clusters, &["entry_capacity"]);
             room.make(&c, &mut all_weights, &["entry_capacity"]);
+            room.make(&c, &mut all_gradients, &["entry_capacity", "3"]);
             room.make(&c, &mut all_positions, &["vertex_capacity", "3"]);
+            room.make(&c, &mut all_normals, &["vertex_capacity", "3"]);
             room.make(&c, &mut all_offsets, &["vertex_capacity", "3"]);
             rows.vertex_capacity = room.get("vertex_capacity");
             rows.entry_capacity = room.get("entry_capacity");
             rows.rows = room.at(&mut all_rows);
             rows.clusters = room.at(&mut all_clusters);
             rows.weights = room.at(&mut all_weights);
+            rows.gradients = room.at(&mut all_gradients);
             rows.positions = room.at(&mut all_positions);
+            rows.normals = room.at(&mut all_normals);
             rows.offsets = room.at(&mut all_offsets);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_pose_get_blend_rows(self.handle, &mut rows) };
@@ -3117,10 +3128,12 @@ impl Pose {
         all_rows.truncate(c.product(&["vertex_capacity", "2"]));
         all_clusters.truncate(c.product(&["entry_capacity"]));
         all_weights.truncate(c.product(&["entry_capacity"]));
+        all_gradients.truncate(c.product(&["entry_capacity", "3"]));
         all_positions.truncate(c.product(&["vertex_capacity", "3"]));
+        all_normals.truncate(c.product(&["vertex_capacity", "3"]));
         all_offsets.truncate(c.product(&["vertex_capacity", "3"]));
         Ok(BlendRows { longest_row: rows.longest_row, rows: all_rows, clusters: all_clusters, weights: all_weights,
-            positions: all_positions, offsets: all_offsets })
+            gradients: all_gradients, positions: all_positions, normals: all_normals, offsets: all_offsets })
     }
 
     /// Solves the pose as `Pose::deform` does, and writes no vertex: the work of a frame whose vertices a shader

@@ -943,7 +943,9 @@ pub struct hf_blend_rows {
     pub rows: *mut u32,
     pub clusters: *mut u16,
     pub weights: *mut f32,
+    pub gradients: *mut f32,
     pub positions: *mut f32,
+    pub normals: *mut f32,
     pub offsets: *mut f32,
 }
 
