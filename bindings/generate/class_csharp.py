@@ -78,15 +78,15 @@ class Steps:
         return {"self": "RawHandle", "null": "null"}.get(kind) or {
             "handle": "c.Handle({name})", "place": "c.Place({name}, \"{name}\")", "ref": "{name}", "ref_if": "{last} == null ? null : {name}",
             "var": "{name}", "text": "c.Text({name})", "figure": "&{name}", "address": "{name}Place", "count": "(uint)c.Count(\"{raw}\", 1)",
-            "info": "&{name}", "room": "(uint)found[\"{raw}\"]", "grown": "found.Place(\"{raw}\")", "literal": "(UIntPtr){raw}",
+            "info": "&{name}", "room": "(uint)c.Size(\"{raw}\")", "grown": "{name}Place", "literal": "(UIntPtr){raw}",
             "size_of": "(UIntPtr){name}.Length"}[kind].format(name=name, raw=rest[0], last=lower(rest[-1]) if isinstance(rest[-1], str) else "")
 
     def do_forget(self, key):
-        return [f'c.Forget("{key}");  // of the list given here']
+        return [f'c.Sizes.Remove("{key}");  // of the list given here']
 
     def do_known(self, key, default):
         name = self.given(key)
-        return [f'c.Known("{key}", {f"{name} == 0 ? {default} : {name}" if default else name});']
+        return [("" if default else f"if ({name} != 0) ") + f'c.Sizes["{key}"] = (int)Math.Min({f"{name} == 0 ? {default} : {name}" if default else name}, int.MaxValue);']
 
     def do_struct(self, var, type, fields):
         struct, name = self.w.structs[type].struct, lower(var)
@@ -106,7 +106,7 @@ class Steps:
     def do_record(self, var, type, fields, dims):
         name = lower(var)
         return [f"var {name}Struct = new {type}();", f"{type}* {name} = &{name}Struct;"] + [
-            f'c.Fixed({lower(given)}, "{lower(given)}", {f["count"]}, {name}->{f["name"]});' for f, given in fields]
+            f'Call.Fill({lower(given)}, "{lower(given)}", {f["count"]}, {name}->{f["name"]});' for f, given in fields]
 
     def do_records(self, var, type, fields, dims):
         name = lower(var)
@@ -115,7 +115,7 @@ class Steps:
 
     def do_array(self, var, name, item):
         if item["view"]:
-            view = f'c.View({lower(name)}, "{lower(name)}", {self.dims(item["dims"])})'
+            view = f'c.View({lower(name)}{"?.Values" * bool(item["twin"])}, "{lower(name)}", {self.dims(item["dims"])})'
             return [f"hf_array {lower(var)}Array = {view};", f"hf_array* {lower(var)} = &{lower(var)}Array;"]
         return [f'void* {lower(var)} = c.Array({lower(name)}, "{lower(name)}", {self.dims(item["dims"])});']
 
@@ -124,7 +124,7 @@ class Steps:
         for missing, other in field["without"].items():
             dims = f"{self.given(missing)} == null ? new[] {{ {self.dims(other)} }} : new[] {{ {dims} }}"
         if field["view"]:
-            return [f'{target} = c.View({given}, "{lower(name)}", {dims});']
+            return [f'{target} = c.View({given}{"?.Values" * bool(field["twin"])}, "{lower(name)}", {dims});']
         return [f'{target} = (IntPtr)c.Array({given}, "{lower(name)}", {dims});']
 
     def do_fields(self, struct, var):
@@ -158,7 +158,7 @@ class Steps:
 
     def field_fixed(self, var, field):
         name = field["name"]
-        return [f'c.Fixed({self.given(name)}, "{lower(name)}", {field["count"]}, {var}->{name});']
+        return [f'Call.Fill({self.given(name)}, "{lower(name)}", {field["count"]}, {var}->{name});']
 
     def field_handle(self, var, field):
         return [f"{var}->{field['name']} = c.Handle({self.given(field['name'])});"]
@@ -227,22 +227,23 @@ class Steps:
 
     def do_grow(self, function, owner, values, tell, rooms, arrays, into):
         lines = ["uint count = 0;"] if any(var == "count" for _, var, _ in tell) else []
-        who = "this" if owner == "self" else lower(owner)
-        lines.append(f'var found = new Growth(c, {who}, "{function}");')
-        lines += [f'found.Room("{key}", ' + (f'"{known}");' if known else "null);") for key, known in rooms]
         for name, item, on_request in arrays:
-            inner = named(self.w.api["structs"], item["type"])
-            made = f'found.Rows("{name}", sizeof({item["type"]}), ' if inner else f'found.Array<{TYPES[item["type"]]}>("{name}", '
-            lines.append((f"if ({lower(name)}) " if on_request else "") + made + self.dims(item["dims"]) + ");")
-        lines += ["do", "{", "    found.Begin();"]
-        if into:
-            lines += [f'    {lower(into)}->{key} = (uint)found["{key}"];' for key, _ in rooms]
-            lines += [f'    {lower(into)}->{name} = (IntPtr)found.Place("{name}");' for name, _, _ in arrays]
-        lines.append(f"    found.Result = {self.called(function, values)};")
-        for key, var, field in tell:
-            place = f"{lower(var)}->{field}" if field and not any(a.name == var and a.role == "info" for a in self.arguments) else f"{lower(var)}.{field}"
-            lines.append(f'    found.Told("{key}", {place if field else lower(var)});')
-        return lines + ["}", "while (found.Again());"]
+            kind = TYPES.get(item["type"])
+            lines += [f"{kind}[] all{upper(name)} = null;"] if kind else [f"void* {lower(name)}Place = null;"]
+        lines += [f'c.Room("{function}", "{key}", ' + (f'"{known}");' if known else "null);") for key, known in rooms] + ["int result;", "do", "{"]
+        lines += [f'    {lower(into)}->{key} = (uint)c.Size("{key}");' for key, _ in rooms if into]
+        for name, item, on_request in arrays:
+            dims = self.dims(item["dims"])
+            made = f"c.Make(out all{upper(name)}, {dims})" if item["type"] in TYPES else f"c.Rows(sizeof({item['type']}), {dims})"
+            made = f"{lower(name)} ? {made} : IntPtr.Zero" if on_request else made
+            target = f"{lower(into)}->{name}" if into else f"{lower(name)}Place" if item["type"] not in TYPES else f"void* {lower(name)}Place"
+            lines.append(f"    {target} = {made if into or item['type'] not in TYPES else f'(void*){made}'};")
+        lines.append(f"    result = {self.called(function, values)};")
+        told = [f'("{key}", {lower(var) + ("." if self.is_info(var) else "->") + field if field else lower(var)})' for key, var, field in tell]
+        return lines + ["}", f'while (c.Again("{function}", result, {", ".join(told)}));']
+
+    def is_info(self, var):
+        return any(a.name == var and a.role == "info" for a in self.arguments)
 
     arguments = ()
 
@@ -302,6 +303,9 @@ class Writer:
 
     # ---- methods ----
 
+    def dims(self, item):
+        return Steps(self).dims(item["dims"])
+
     def returned(self, plan):
         """[(name, type, expression)], and lines in front."""
         found, lines = [], []
@@ -312,12 +316,12 @@ class Writer:
             elif kind == "grown" and named(self.api["structs"], item["type"]):
                 rows = lower(name)
                 self.infos[item["type"]] = True
-                lines += [f'var {rows} = new {cs(item["type"])}[found.Length("{name}")];', f"for (int i = 0; i < {rows}.Length; ++i)",
-                          f'    {rows}[i] = new {cs(item["type"])}(({item["type"]}*)found.Place("{name}") + i);']
+                lines += [f'var {rows} = new {cs(item["type"])}[c.Product({self.dims(item)})];', f"for (int i = 0; i < {rows}.Length; ++i)",
+                          f'    {rows}[i] = new {cs(item["type"])}(({item["type"]}*){rows}Place + i);']
                 found.append((shown, cs(item["type"]) + "[]", rows))
             elif kind == "grown":
                 kind = TYPES[item["type"]]
-                found.append((shown, kind + "[]", f'found.Take<{kind}>("{name}")'))
+                found.append((shown, kind + "[]", f"c.Cut(all{shown}, {self.dims(item)})"))
             elif kind == "bytes":
                 found.append((shown, "byte[]", "block"))
             elif kind == "string":
@@ -336,7 +340,7 @@ class Writer:
             else:
                 self.results[item.name] = item
                 sets = [f"{upper(f['name'])} = {lower(name)}->{f['name']}" for f in item.results + [f for f in item.scalars if f["name"] in self.sizes]]
-                sets += [f"{upper(f['name'])} = found.Take<{TYPES[f['type']]}>(\"{f['name']}\")" for f in item.filled]
+                sets += [f"{upper(f['name'])} = c.Cut(all{upper(f['name'])}, {self.dims(f)})" for f in item.filled]
                 found.append((shown, cs(item.name), f"new {cs(item.name)} {{ {', '.join(sets)} }}"))
         return found, lines
 

@@ -2217,8 +2217,8 @@ namespace Hf
                     triangle_limit = triangleLimit, memory_limit_mb = memoryLimitMb,
                     work_limit_gflop = workLimitGflop };
                 hf_surface_desc* desc = &descStruct;
-                desc->positions = c.View(positions, "positions", "vertex_count", "3");
-                desc->triangles = c.View(triangles, "triangles", "triangle_count", "3");
+                desc->positions = c.View(positions?.Values, "positions", "vertex_count", "3");
+                desc->triangles = c.View(triangles?.Values, "triangles", "triangle_count", "3");
                 desc->progress = c.Handle(progress);
                 if (faces != null) desc->faces = faces.Fill(c, "faces.");
                 if (savedFactor != null) desc->saved_factor = savedFactor.Fill(c, "saved_factor.");
@@ -2272,10 +2272,10 @@ namespace Hf
                     ordering = (int)ordering, thread_count = threadCount, vertex_limit = vertexLimit,
                     edge_limit = edgeLimit, memory_limit_mb = memoryLimitMb, work_limit_gflop = workLimitGflop };
                 hf_graph_desc* desc = &descStruct;
-                c.Known("vertex_count", vertexCount);
-                desc->edges = c.View(edges, "edges", "edge_count", "2");
-                desc->weights = c.View(weights, "weights", "edge_count");
-                desc->masses = c.View(masses, "masses", "vertex_count");
+                if (vertexCount != 0) c.Sizes["vertex_count"] = (int)Math.Min(vertexCount, int.MaxValue);
+                desc->edges = c.View(edges?.Values, "edges", "edge_count", "2");
+                desc->weights = c.View(weights?.Values, "weights", "edge_count");
+                desc->masses = c.View(masses?.Values, "masses", "vertex_count");
                 desc->progress = c.Handle(progress);
                 if (savedFactor != null) desc->saved_factor = savedFactor.Fill(c, "saved_factor.");
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
@@ -2338,18 +2338,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_surface_get_components");
-                found.Room("capacity", null);
-                found.Array<uint>("components", "capacity");
+                uint[] allComponents = null;
+                c.Room("hf_surface_get_components", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_get_components(RawHandle, (uint)found["capacity"],
-                            found.Place("components"), &count);
-                        found.Told("capacity", count);
+                        void* componentsPlace = (void*)c.Make(out allComponents, "capacity");
+                        result = Functions.hf_surface_get_components(RawHandle, (uint)c.Size("capacity"),
+                            componentsPlace, &count);
                 }
-                while (found.Again());
-                return found.Take<uint>("components");
+                while (c.Again("hf_surface_get_components", result, ("capacity", count)));
+                return c.Cut(allComponents, "capacity");
             }
         }
 
@@ -2376,20 +2375,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_surface_get_links");
-                found.Room("capacity", null);
-                found.Rows("links", sizeof(hf_link), "capacity");
+                void* linksPlace = null;
+                c.Room("hf_surface_get_links", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_get_links(RawHandle, (uint)found["capacity"],
-                            found.Place("links"), &count);
-                        found.Told("capacity", count);
+                        linksPlace = c.Rows(sizeof(hf_link), "capacity");
+                        result = Functions.hf_surface_get_links(RawHandle, (uint)c.Size("capacity"), linksPlace,
+                            &count);
                 }
-                while (found.Again());
-                var links = new Link[found.Length("links")];
+                while (c.Again("hf_surface_get_links", result, ("capacity", count)));
+                var links = new Link[c.Product("capacity")];
                 for (int i = 0; i < links.Length; ++i)
-                    links[i] = new Link((hf_link*)found.Place("links") + i);
+                    links[i] = new Link((hf_link*)linksPlace + i);
                 return links;
             }
         }
@@ -2401,19 +2399,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_surface_get_pieces");
-                found.Room("capacity", null);
-                found.Array<uint>("pieces", "capacity");
-                found.Array<int>("light", "capacity");
+                uint[] allPieces = null;
+                int[] allLight = null;
+                c.Room("hf_surface_get_pieces", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_get_pieces(RawHandle, (uint)found["capacity"],
-                            found.Place("pieces"), found.Place("light"), &count);
-                        found.Told("capacity", count);
+                        void* piecesPlace = (void*)c.Make(out allPieces, "capacity");
+                        void* lightPlace = (void*)c.Make(out allLight, "capacity");
+                        result = Functions.hf_surface_get_pieces(RawHandle, (uint)c.Size("capacity"), piecesPlace,
+                            lightPlace, &count);
                 }
-                while (found.Again());
-                return (found.Take<uint>("pieces"), found.Take<int>("light"));
+                while (c.Again("hf_surface_get_pieces", result, ("capacity", count)));
+                return (c.Cut(allPieces, "capacity"), c.Cut(allLight, "capacity"));
             }
         }
 
@@ -2431,21 +2429,20 @@ namespace Hf
             using (var c = new Call(this))
             {
                 var info = new hf_gaps_info { struct_size = (uint)sizeof(hf_gaps_info) };
-                hf_array positions_Array = c.View(positions, "positions", "vertex_count", "3");
+                hf_array positions_Array = c.View(positions?.Values, "positions", "vertex_count", "3");
                 hf_array* positions_ = &positions_Array;
-                var found = new Growth(c, this, "hf_surface_measure_gaps");
-                found.Room("capacity", null);
-                found.Array<double>("gaps", "capacity");
+                double[] allGaps = null;
+                c.Room("hf_surface_measure_gaps", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_measure_gaps(RawHandle,
-                            positions == null ? null : positions_, (uint)found["capacity"], found.Place("gaps"), &info);
-                        found.Told("capacity", info.link_count);
+                        void* gapsPlace = (void*)c.Make(out allGaps, "capacity");
+                        result = Functions.hf_surface_measure_gaps(RawHandle, positions == null ? null : positions_,
+                            (uint)c.Size("capacity"), gapsPlace, &info);
                 }
-                while (found.Again());
+                while (c.Again("hf_surface_measure_gaps", result, ("capacity", info.link_count)));
                 lastGapsInfo = info;
-                return found.Take<double>("gaps");
+                return c.Cut(allGaps, "capacity");
             }
         }
 
@@ -2559,7 +2556,7 @@ namespace Hf
                 var descStruct = new hf_pick_desc { struct_size = (uint)sizeof(hf_pick_desc),
                     front_only = frontOnly ? 1 : 0 };
                 hf_pick_desc* desc = &descStruct;
-                desc->positions = c.View(positions, "positions", "vertex_count", "3");
+                desc->positions = c.View(positions?.Values, "positions", "vertex_count", "3");
                 var hitStruct = new hf_hit { struct_size = (uint)sizeof(hf_hit) };
                 hf_hit* hit = &hitStruct;
                 HfException.Check(Functions.hf_surface_cast_ray(RawHandle, origin_, direction_, desc, hit));
@@ -2583,7 +2580,7 @@ namespace Hf
                 var descStruct = new hf_pick_desc { struct_size = (uint)sizeof(hf_pick_desc),
                     front_only = frontOnly ? 1 : 0 };
                 hf_pick_desc* desc = &descStruct;
-                desc->positions = c.View(positions, "positions", "vertex_count", "3");
+                desc->positions = c.View(positions?.Values, "positions", "vertex_count", "3");
                 uint vertex = 0;
                 double distance = 0;
                 HfException.Check(Functions.hf_surface_find_vertex(RawHandle, point_, desc, &vertex, &distance));
@@ -2609,9 +2606,9 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array field_Array = c.View(field?.Values, "field", "vertex_count");
                 hf_array* field_ = &field_Array;
-                c.Known("level_count", levelCount);
+                if (levelCount != 0) c.Sizes["level_count"] = (int)Math.Min(levelCount, int.MaxValue);
                 var levels = new double[c.Product("level_count")];
                 var levelsPlace = (double*)c.Pin(levels);
                 HfException.Check(Functions.hf_surface_space_levels(RawHandle, field == null ? null : field_,
@@ -2635,41 +2632,40 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array field_Array = c.View(field?.Values, "field", "vertex_count");
                 hf_array* field_ = &field_Array;
                 void* levels_ = c.Array(levels, "levels", "level_count");
                 var linesStruct = new hf_isolines { struct_size = (uint)sizeof(hf_isolines) };
                 hf_isolines* lines = &linesStruct;
-                var found = new Growth(c, this, "hf_surface_trace_isolines");
-                found.Room("point_capacity", null);
-                found.Room("line_capacity", null);
-                found.Array<uint>("point_edges", "point_capacity", "2");
-                found.Array<double>("parameters", "point_capacity");
-                found.Array<double>("positions", "point_capacity", "3");
-                found.Array<uint>("line_starts", "line_capacity + 1");
-                found.Array<uint>("line_levels", "line_capacity");
-                found.Array<int>("line_closed", "line_capacity");
+                uint[] allPointEdges = null;
+                double[] allParameters = null;
+                double[] allPositions = null;
+                uint[] allLineStarts = null;
+                uint[] allLineLevels = null;
+                int[] allLineClosed = null;
+                c.Room("hf_surface_trace_isolines", "point_capacity", null);
+                c.Room("hf_surface_trace_isolines", "line_capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        lines->point_capacity = (uint)found["point_capacity"];
-                        lines->line_capacity = (uint)found["line_capacity"];
-                        lines->point_edges = (IntPtr)found.Place("point_edges");
-                        lines->parameters = (IntPtr)found.Place("parameters");
-                        lines->positions = (IntPtr)found.Place("positions");
-                        lines->line_starts = (IntPtr)found.Place("line_starts");
-                        lines->line_levels = (IntPtr)found.Place("line_levels");
-                        lines->line_closed = (IntPtr)found.Place("line_closed");
-                        found.Result = Functions.hf_surface_trace_isolines(RawHandle, field == null ? null : field_,
+                        lines->point_capacity = (uint)c.Size("point_capacity");
+                        lines->line_capacity = (uint)c.Size("line_capacity");
+                        lines->point_edges = c.Make(out allPointEdges, "point_capacity", "2");
+                        lines->parameters = c.Make(out allParameters, "point_capacity");
+                        lines->positions = c.Make(out allPositions, "point_capacity", "3");
+                        lines->line_starts = c.Make(out allLineStarts, "line_capacity + 1");
+                        lines->line_levels = c.Make(out allLineLevels, "line_capacity");
+                        lines->line_closed = c.Make(out allLineClosed, "line_capacity");
+                        result = Functions.hf_surface_trace_isolines(RawHandle, field == null ? null : field_,
                             (uint)c.Count("level_count", 1), levels_, lines);
-                        found.Told("point_capacity", lines->point_count);
-                        found.Told("line_capacity", lines->line_count);
                 }
-                while (found.Again());
-                return new Isolines { PointEdges = found.Take<uint>("point_edges"),
-                    Parameters = found.Take<double>("parameters"), Positions = found.Take<double>("positions"),
-                    LineStarts = found.Take<uint>("line_starts"), LineLevels = found.Take<uint>("line_levels"),
-                    LineClosed = found.Take<int>("line_closed") };
+                while (c.Again("hf_surface_trace_isolines", result, ("point_capacity", lines->point_count),
+                    ("line_capacity", lines->line_count)));
+                return new Isolines { PointEdges = c.Cut(allPointEdges, "point_capacity", "2"),
+                    Parameters = c.Cut(allParameters, "point_capacity"), Positions = c.Cut(allPositions,
+                    "point_capacity", "3"), LineStarts = c.Cut(allLineStarts, "line_capacity + 1"),
+                    LineLevels = c.Cut(allLineLevels, "line_capacity"), LineClosed = c.Cut(allLineClosed,
+                    "line_capacity") };
             }
         }
 
@@ -2689,23 +2685,22 @@ namespace Hf
             using (var c = new Call(this))
             {
                 var info = new hf_critical_info { struct_size = (uint)sizeof(hf_critical_info) };
-                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array field_Array = c.View(field?.Values, "field", "vertex_count");
                 hf_array* field_ = &field_Array;
-                var found = new Growth(c, this, "hf_surface_find_critical_points");
-                found.Room("capacity", null);
-                found.Rows("points", sizeof(hf_critical_point), "capacity");
+                void* pointsPlace = null;
+                c.Room("hf_surface_find_critical_points", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_find_critical_points(RawHandle,
-                            field == null ? null : field_, (uint)found["capacity"], found.Place("points"), &info);
-                        found.Told("capacity", info.point_count);
+                        pointsPlace = c.Rows(sizeof(hf_critical_point), "capacity");
+                        result = Functions.hf_surface_find_critical_points(RawHandle, field == null ? null : field_,
+                            (uint)c.Size("capacity"), pointsPlace, &info);
                 }
-                while (found.Again());
+                while (c.Again("hf_surface_find_critical_points", result, ("capacity", info.point_count)));
                 lastCriticalInfo = info;
-                var points = new CriticalPoint[found.Length("points")];
+                var points = new CriticalPoint[c.Product("capacity")];
                 for (int i = 0; i < points.Length; ++i)
-                    points[i] = new CriticalPoint((hf_critical_point*)found.Place("points") + i);
+                    points[i] = new CriticalPoint((hf_critical_point*)pointsPlace + i);
                 return points;
             }
         }
@@ -2733,7 +2728,7 @@ namespace Hf
                 var descStruct = new hf_extremities_desc { struct_size = (uint)sizeof(hf_extremities_desc),
                     kind = (int)kind, least_length_share = leastLengthShare, source_count = sourceCount };
                 hf_extremities_desc* desc = &descStruct;
-                c.Known("source_count", sourceCount == 0 ? 40 : sourceCount);
+                c.Sizes["source_count"] = (int)Math.Min(sourceCount == 0 ? 40 : sourceCount, int.MaxValue);
                 desc->geodesics = c.Handle(geodesics);
                 desc->progress = c.Handle(progress);
                 if (!field.IsEmpty)
@@ -2742,20 +2737,19 @@ namespace Hf
                 {
                     desc->out_field = (IntPtr)fieldPlace;
                     uint count = 0;
-                    var found = new Growth(c, this, "hf_surface_find_extremities");
-                    found.Room("capacity", null);
-                    found.Rows("extremities", sizeof(hf_extremity), "capacity");
+                    void* extremitiesPlace = null;
+                    c.Room("hf_surface_find_extremities", "capacity", null);
+                    int result;
                     do
                     {
-                            found.Begin();
-                            found.Result = Functions.hf_surface_find_extremities(RawHandle, desc,
-                                (uint)found["capacity"], found.Place("extremities"), &count);
-                            found.Told("capacity", count);
+                            extremitiesPlace = c.Rows(sizeof(hf_extremity), "capacity");
+                            result = Functions.hf_surface_find_extremities(RawHandle, desc, (uint)c.Size("capacity"),
+                                extremitiesPlace, &count);
                     }
-                    while (found.Again());
-                    var extremities = new Extremity[found.Length("extremities")];
+                    while (c.Again("hf_surface_find_extremities", result, ("capacity", count)));
+                    var extremities = new Extremity[c.Product("capacity")];
                     for (int i = 0; i < extremities.Length; ++i)
-                        extremities[i] = new Extremity((hf_extremity*)found.Place("extremities") + i);
+                        extremities[i] = new Extremity((hf_extremity*)extremitiesPlace + i);
                     return extremities;
                 }
             }
@@ -2783,24 +2777,23 @@ namespace Hf
                 hf_handle_proposals_desc* desc = &descStruct;
                 desc->joints = (IntPtr)c.Array(joints, "joints", "joint_count", "3");
                 desc->parents = (IntPtr)c.Array(parents, "parents", "joint_count");
-                c.Fixed(up, "up", 3, desc->up);
+                Call.Fill(up, "up", 3, desc->up);
                 desc->progress = c.Handle(progress);
                 desc->joint_count = (uint)c.Count("joint_count", 0);
                 uint count = 0;
-                var found = new Growth(c, this, "hf_surface_propose_handles");
-                found.Room("capacity", null);
-                found.Rows("proposals", sizeof(hf_handle_proposal), "capacity");
+                void* proposalsPlace = null;
+                c.Room("hf_surface_propose_handles", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_propose_handles(RawHandle, desc, (uint)found["capacity"],
-                            found.Place("proposals"), &count);
-                        found.Told("capacity", count);
+                        proposalsPlace = c.Rows(sizeof(hf_handle_proposal), "capacity");
+                        result = Functions.hf_surface_propose_handles(RawHandle, desc, (uint)c.Size("capacity"),
+                            proposalsPlace, &count);
                 }
-                while (found.Again());
-                var proposals = new HandleProposal[found.Length("proposals")];
+                while (c.Again("hf_surface_propose_handles", result, ("capacity", count)));
+                var proposals = new HandleProposal[c.Product("capacity")];
                 for (int i = 0; i < proposals.Length; ++i)
-                    proposals[i] = new HandleProposal((hf_handle_proposal*)found.Place("proposals") + i);
+                    proposals[i] = new HandleProposal((hf_handle_proposal*)proposalsPlace + i);
                 return proposals;
             }
         }
@@ -2846,7 +2839,7 @@ namespace Hf
                 var descStruct = new hf_solver_desc { struct_size = (uint)sizeof(hf_solver_desc),
                     field_kind = (int)fieldKind, channel_count = channelCount, site_limit = siteLimit };
                 hf_solver_desc* desc = &descStruct;
-                c.Known("channel_count", channelCount == 0 ? 1 : channelCount);
+                c.Sizes["channel_count"] = (int)Math.Min(channelCount == 0 ? 1 : channelCount, int.MaxValue);
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_create(c.Handle(surface), desc, raw)));
@@ -3054,34 +3047,32 @@ namespace Hf
             {
                 var infoStruct = new hf_sites_info { struct_size = (uint)sizeof(hf_sites_info) };
                 hf_sites_info* info = &infoStruct;
-                var found = new Growth(c, this, "hf_solver_get_sites");
-                found.Room("capacity", null);
-                found.Array<uint>("sites", "capacity");
-                found.Array<uint>("vertices", "capacity");
-                found.Array<uint>("components", "capacity");
-                found.Array<double>("values", "capacity", "channel_count");
-                found.Array<double>("stiffness", "capacity");
-                found.Array<double>("flux", "capacity", "channel_count");
-                found.Array<double>("radii", "capacity");
+                uint[] allSites = null;
+                uint[] allVertices = null;
+                uint[] allComponents = null;
+                double[] allValues = null;
+                double[] allStiffness = null;
+                double[] allFlux = null;
+                double[] allRadii = null;
+                c.Room("hf_solver_get_sites", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        info->capacity = (uint)found["capacity"];
-                        info->sites = (IntPtr)found.Place("sites");
-                        info->vertices = (IntPtr)found.Place("vertices");
-                        info->components = (IntPtr)found.Place("components");
-                        info->values = (IntPtr)found.Place("values");
-                        info->stiffness = (IntPtr)found.Place("stiffness");
-                        info->flux = (IntPtr)found.Place("flux");
-                        info->radii = (IntPtr)found.Place("radii");
-                        found.Result = Functions.hf_solver_get_sites(RawHandle, info);
-                        found.Told("capacity", info->count);
+                        info->capacity = (uint)c.Size("capacity");
+                        info->sites = c.Make(out allSites, "capacity");
+                        info->vertices = c.Make(out allVertices, "capacity");
+                        info->components = c.Make(out allComponents, "capacity");
+                        info->values = c.Make(out allValues, "capacity", "channel_count");
+                        info->stiffness = c.Make(out allStiffness, "capacity");
+                        info->flux = c.Make(out allFlux, "capacity", "channel_count");
+                        info->radii = c.Make(out allRadii, "capacity");
+                        result = Functions.hf_solver_get_sites(RawHandle, info);
                 }
-                while (found.Again());
-                return new SitesInfo { Sites = found.Take<uint>("sites"), Vertices = found.Take<uint>("vertices"),
-                    Components = found.Take<uint>("components"), Values = found.Take<double>("values"),
-                    Stiffness = found.Take<double>("stiffness"), Flux = found.Take<double>("flux"),
-                    Radii = found.Take<double>("radii") };
+                while (c.Again("hf_solver_get_sites", result, ("capacity", info->count)));
+                return new SitesInfo { Sites = c.Cut(allSites, "capacity"), Vertices = c.Cut(allVertices, "capacity"),
+                    Components = c.Cut(allComponents, "capacity"), Values = c.Cut(allValues, "capacity",
+                    "channel_count"), Stiffness = c.Cut(allStiffness, "capacity"), Flux = c.Cut(allFlux, "capacity",
+                    "channel_count"), Radii = c.Cut(allRadii, "capacity") };
             }
         }
 
@@ -3192,7 +3183,7 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                c.Forget("vertex_count");  // of the list given here
+                c.Sizes.Remove("vertex_count");  // of the list given here
                 void* vertices_ = c.Array(vertices, "vertices", "vertex_count");
                 var values = new double[c.Product("vertex_count", "channel_count")];
                 var valuesPlace = (double*)c.Pin(values);
@@ -3618,25 +3609,24 @@ namespace Hf
             {
                 var pathStruct = new hf_path { struct_size = (uint)sizeof(hf_path) };
                 hf_path* path = &pathStruct;
-                var found = new Growth(c, this, "hf_geodesics_find_path");
-                found.Room("point_capacity", null);
-                found.Array<uint>("point_edges", "point_capacity", "2");
-                found.Array<double>("parameters", "point_capacity");
-                found.Array<double>("positions", "point_capacity", "3");
+                uint[] allPointEdges = null;
+                double[] allParameters = null;
+                double[] allPositions = null;
+                c.Room("hf_geodesics_find_path", "point_capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        path->point_capacity = (uint)found["point_capacity"];
-                        path->point_edges = (IntPtr)found.Place("point_edges");
-                        path->parameters = (IntPtr)found.Place("parameters");
-                        path->positions = (IntPtr)found.Place("positions");
-                        found.Result = Functions.hf_geodesics_find_path(RawHandle, c.Place(from, "from"), c.Place(to,
-                            "to"), path);
-                        found.Told("point_capacity", path->point_count);
+                        path->point_capacity = (uint)c.Size("point_capacity");
+                        path->point_edges = c.Make(out allPointEdges, "point_capacity", "2");
+                        path->parameters = c.Make(out allParameters, "point_capacity");
+                        path->positions = c.Make(out allPositions, "point_capacity", "3");
+                        result = Functions.hf_geodesics_find_path(RawHandle, c.Place(from, "from"), c.Place(to, "to"),
+                            path);
                 }
-                while (found.Again());
-                return new SurfacePath { Length = path->length, PointEdges = found.Take<uint>("point_edges"),
-                    Parameters = found.Take<double>("parameters"), Positions = found.Take<double>("positions") };
+                while (c.Again("hf_geodesics_find_path", result, ("point_capacity", path->point_count)));
+                return new SurfacePath { Length = path->length, PointEdges = c.Cut(allPointEdges, "point_capacity",
+                    "2"), Parameters = c.Cut(allParameters, "point_capacity"), Positions = c.Cut(allPositions,
+                    "point_capacity", "3") };
             }
         }
 
@@ -3825,20 +3815,22 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_direction_get_sites");
-                found.Room("capacity", null);
-                found.Array<uint>("sites", "capacity");
-                found.Array<uint>("vertices", "capacity");
-                found.Array<double>("vectors", "capacity", "3");
+                uint[] allSites = null;
+                uint[] allVertices = null;
+                double[] allVectors = null;
+                c.Room("hf_direction_get_sites", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_direction_get_sites(RawHandle, (uint)found["capacity"],
-                            found.Place("sites"), found.Place("vertices"), found.Place("vectors"), &count);
-                        found.Told("capacity", count);
+                        void* sitesPlace = (void*)c.Make(out allSites, "capacity");
+                        void* verticesPlace = (void*)c.Make(out allVertices, "capacity");
+                        void* vectorsPlace = (void*)c.Make(out allVectors, "capacity", "3");
+                        result = Functions.hf_direction_get_sites(RawHandle, (uint)c.Size("capacity"), sitesPlace,
+                            verticesPlace, vectorsPlace, &count);
                 }
-                while (found.Again());
-                return (found.Take<uint>("sites"), found.Take<uint>("vertices"), found.Take<double>("vectors"));
+                while (c.Again("hf_direction_get_sites", result, ("capacity", count)));
+                return (c.Cut(allSites, "capacity"), c.Cut(allVertices, "capacity"), c.Cut(allVectors, "capacity",
+                    "3"));
             }
         }
 
@@ -3925,20 +3917,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_direction_get_singularities");
-                found.Room("capacity", null);
-                found.Rows("singularities", sizeof(hf_singularity), "capacity");
+                void* singularitiesPlace = null;
+                c.Room("hf_direction_get_singularities", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_direction_get_singularities(RawHandle, (uint)found["capacity"],
-                            found.Place("singularities"), &count);
-                        found.Told("capacity", count);
+                        singularitiesPlace = c.Rows(sizeof(hf_singularity), "capacity");
+                        result = Functions.hf_direction_get_singularities(RawHandle, (uint)c.Size("capacity"),
+                            singularitiesPlace, &count);
                 }
-                while (found.Again());
-                var singularities = new Singularity[found.Length("singularities")];
+                while (c.Again("hf_direction_get_singularities", result, ("capacity", count)));
+                var singularities = new Singularity[c.Product("capacity")];
                 for (int i = 0; i < singularities.Length; ++i)
-                    singularities[i] = new Singularity((hf_singularity*)found.Place("singularities") + i);
+                    singularities[i] = new Singularity((hf_singularity*)singularitiesPlace + i);
                 return singularities;
             }
         }
@@ -4147,8 +4138,8 @@ namespace Hf
             {
                 var transformStruct = new hf_transform();
                 hf_transform* transform = &transformStruct;
-                c.Fixed(rotation, "rotation", 4, transform->rotation);
-                c.Fixed(translation, "translation", 3, transform->translation);
+                Call.Fill(rotation, "rotation", 4, transform->rotation);
+                Call.Fill(translation, "translation", 3, transform->translation);
                 HfException.Check(Functions.hf_pose_set_transform(RawHandle, handle, transform));
             }
         }
@@ -4240,7 +4231,7 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                c.Forget("vertex_count");  // of the list given here
+                c.Sizes.Remove("vertex_count");  // of the list given here
                 void* vertices_ = c.Array(vertices, "vertices", "vertex_count");
                 HfException.Check(Functions.hf_pose_set_rigid_pieces(RawHandle, (uint)c.Count("vertex_count", 1),
                     vertices_));
@@ -4386,7 +4377,7 @@ namespace Hf
                     iteration_count = iterationCount, restart = restart ? 1 : 0, refine = refine,
                     refine_from_last = refineFromLast ? 1 : 0, first_vertex = firstVertex, vertex_count = vertexCount };
                 hf_deform_desc* desc = &descStruct;
-                c.Known("vertex_count", vertexCount);
+                if (vertexCount != 0) c.Sizes["vertex_count"] = (int)Math.Min(vertexCount, int.MaxValue);
                 var @out = new float[c.Product("vertex_count", "3")];
                 var @outPlace = (float*)c.Pin(@out);
                 desc->positions = Call.Out(@outPlace, false, c.Size("vertex_count"));
@@ -4414,7 +4405,7 @@ namespace Hf
                     iteration_count = iterationCount, restart = restart ? 1 : 0, refine = refine,
                     refine_from_last = refineFromLast ? 1 : 0, first_vertex = firstVertex, vertex_count = vertexCount };
                 hf_deform_desc* desc = &descStruct;
-                c.Known("vertex_count", vertexCount);
+                if (vertexCount != 0) c.Sizes["vertex_count"] = (int)Math.Min(vertexCount, int.MaxValue);
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
@@ -4443,7 +4434,7 @@ namespace Hf
                     iteration_count = iterationCount, restart = restart ? 1 : 0, refine = refine,
                     refine_from_last = refineFromLast ? 1 : 0, first_vertex = firstVertex, vertex_count = vertexCount };
                 hf_deform_desc* desc = &descStruct;
-                c.Known("vertex_count", vertexCount);
+                if (vertexCount != 0) c.Sizes["vertex_count"] = (int)Math.Min(vertexCount, int.MaxValue);
                 var @out = new double[c.Product("vertex_count", "3")];
                 var @outPlace = (double*)c.Pin(@out);
                 desc->positions = Call.Out(@outPlace, true, c.Size("vertex_count"));
@@ -4471,7 +4462,7 @@ namespace Hf
                     iteration_count = iterationCount, restart = restart ? 1 : 0, refine = refine,
                     refine_from_last = refineFromLast ? 1 : 0, first_vertex = firstVertex, vertex_count = vertexCount };
                 hf_deform_desc* desc = &descStruct;
-                c.Known("vertex_count", vertexCount);
+                if (vertexCount != 0) c.Sizes["vertex_count"] = (int)Math.Min(vertexCount, int.MaxValue);
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
@@ -4523,41 +4514,38 @@ namespace Hf
                 var skinStruct = new hf_skin_info { struct_size = (uint)sizeof(hf_skin_info),
                     influence_count = influenceCount };
                 hf_skin_info* skin = &skinStruct;
-                c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
-                var found = new Growth(c, this, "hf_pose_get_skin");
-                found.Room("joint_capacity", "joint_count");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Array<double>("pivots", "joint_capacity", "3");
-                found.Array<double>("rotations", "joint_capacity", "4");
-                found.Array<double>("translations", "joint_capacity", "3");
-                found.Array<double>("axes", "joint_capacity", "4");
-                if (scales) found.Array<double>("scales", "joint_capacity", "3");
-                found.Array<uint>("vertex_joints", "vertex_capacity", "influence_count");
-                found.Array<float>("vertex_weights", "vertex_capacity", "influence_count");
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
+                double[] allPivots = null;
+                double[] allRotations = null;
+                double[] allTranslations = null;
+                double[] allAxes = null;
+                double[] allScales = null;
+                uint[] allVertexJoints = null;
+                float[] allVertexWeights = null;
+                c.Room("hf_pose_get_skin", "joint_capacity", "joint_count");
+                c.Room("hf_pose_get_skin", "vertex_capacity", "vertex_count");
+                int result;
                 do
                 {
-                        found.Begin();
-                        skin->joint_capacity = (uint)found["joint_capacity"];
-                        skin->vertex_capacity = (uint)found["vertex_capacity"];
-                        skin->pivots = (IntPtr)found.Place("pivots");
-                        skin->rotations = (IntPtr)found.Place("rotations");
-                        skin->translations = (IntPtr)found.Place("translations");
-                        skin->axes = (IntPtr)found.Place("axes");
-                        skin->scales = (IntPtr)found.Place("scales");
-                        skin->vertex_joints = (IntPtr)found.Place("vertex_joints");
-                        skin->vertex_weights = (IntPtr)found.Place("vertex_weights");
-                        found.Result = Functions.hf_pose_get_skin(RawHandle, skin);
-                        found.Told("joint_capacity", skin->joint_count);
-                        found.Told("vertex_capacity", skin->vertex_count);
-                        found.Told("joint_count", skin->joint_count);
-                        found.Told("vertex_count", skin->vertex_count);
+                        skin->joint_capacity = (uint)c.Size("joint_capacity");
+                        skin->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        skin->pivots = c.Make(out allPivots, "joint_capacity", "3");
+                        skin->rotations = c.Make(out allRotations, "joint_capacity", "4");
+                        skin->translations = c.Make(out allTranslations, "joint_capacity", "3");
+                        skin->axes = c.Make(out allAxes, "joint_capacity", "4");
+                        skin->scales = scales ? c.Make(out allScales, "joint_capacity", "3") : IntPtr.Zero;
+                        skin->vertex_joints = c.Make(out allVertexJoints, "vertex_capacity", "influence_count");
+                        skin->vertex_weights = c.Make(out allVertexWeights, "vertex_capacity", "influence_count");
+                        result = Functions.hf_pose_get_skin(RawHandle, skin);
                 }
-                while (found.Again());
-                return new SkinInfo { InfluenceCount = skin->influence_count, Pivots = found.Take<double>("pivots"),
-                    Rotations = found.Take<double>("rotations"), Translations = found.Take<double>("translations"),
-                    Axes = found.Take<double>("axes"), Scales = found.Take<double>("scales"),
-                    VertexJoints = found.Take<uint>("vertex_joints"),
-                    VertexWeights = found.Take<float>("vertex_weights") };
+                while (c.Again("hf_pose_get_skin", result, ("joint_capacity", skin->joint_count), ("vertex_capacity",
+                    skin->vertex_count)));
+                return new SkinInfo { InfluenceCount = skin->influence_count, Pivots = c.Cut(allPivots,
+                    "joint_capacity", "3"), Rotations = c.Cut(allRotations, "joint_capacity", "4"),
+                    Translations = c.Cut(allTranslations, "joint_capacity", "3"), Axes = c.Cut(allAxes,
+                    "joint_capacity", "4"), Scales = c.Cut(allScales, "joint_capacity", "3"),
+                    VertexJoints = c.Cut(allVertexJoints, "vertex_capacity", "influence_count"),
+                    VertexWeights = c.Cut(allVertexWeights, "vertex_capacity", "influence_count") };
             }
         }
 
@@ -4693,7 +4681,7 @@ namespace Hf
                 desc->irregular_valences = (IntPtr)c.Array(irregularValences, "irregularValences", "irregular_count");
                 desc->irregular_directions = (IntPtr)c.Array(irregularDirections, "irregularDirections",
                     "irregular_count", "3");
-                c.Fixed(symmetryPlane, "symmetryPlane", 4, desc->symmetry_plane);
+                Call.Fill(symmetryPlane, "symmetryPlane", 4, desc->symmetry_plane);
                 desc->progress = c.Handle(progress);
                 desc->crease_count = (uint)c.Count("crease_count", 0);
                 desc->guide_count = (uint)c.Count("guide_count", 0);
@@ -4754,7 +4742,7 @@ namespace Hf
                 desc->irregular_valences = (IntPtr)c.Array(irregularValences, "irregularValences", "irregular_count");
                 desc->irregular_directions = (IntPtr)c.Array(irregularDirections, "irregularDirections",
                     "irregular_count", "3");
-                c.Fixed(symmetryPlane, "symmetryPlane", 4, desc->symmetry_plane);
+                Call.Fill(symmetryPlane, "symmetryPlane", 4, desc->symmetry_plane);
                 desc->progress = c.Handle(progress);
                 desc->crease_count = (uint)c.Count("crease_count", 0);
                 desc->guide_count = (uint)c.Count("guide_count", 0);
@@ -4787,33 +4775,31 @@ namespace Hf
             {
                 var meshStruct = new hf_quads_mesh { struct_size = (uint)sizeof(hf_quads_mesh) };
                 hf_quads_mesh* mesh = &meshStruct;
-                var found = new Growth(c, this, "hf_quads_get_mesh");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Room("face_capacity", null);
-                found.Array<double>("positions", "vertex_capacity", "3");
-                found.Array<uint>("faces", "face_capacity", "4");
-                found.Array<uint>("triangles", "vertex_capacity");
-                found.Array<double>("barycentrics", "vertex_capacity", "3");
-                found.Array<uint>("corners", "vertex_capacity", "3");
+                double[] allPositions = null;
+                uint[] allFaces = null;
+                uint[] allTriangles = null;
+                double[] allBarycentrics = null;
+                uint[] allCorners = null;
+                c.Room("hf_quads_get_mesh", "vertex_capacity", "vertex_count");
+                c.Room("hf_quads_get_mesh", "face_capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        mesh->vertex_capacity = (uint)found["vertex_capacity"];
-                        mesh->face_capacity = (uint)found["face_capacity"];
-                        mesh->positions = (IntPtr)found.Place("positions");
-                        mesh->faces = (IntPtr)found.Place("faces");
-                        mesh->triangles = (IntPtr)found.Place("triangles");
-                        mesh->barycentrics = (IntPtr)found.Place("barycentrics");
-                        mesh->corners = (IntPtr)found.Place("corners");
-                        found.Result = Functions.hf_quads_get_mesh(RawHandle, mesh);
-                        found.Told("vertex_capacity", mesh->vertex_count);
-                        found.Told("face_capacity", mesh->face_count);
-                        found.Told("vertex_count", mesh->vertex_count);
+                        mesh->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        mesh->face_capacity = (uint)c.Size("face_capacity");
+                        mesh->positions = c.Make(out allPositions, "vertex_capacity", "3");
+                        mesh->faces = c.Make(out allFaces, "face_capacity", "4");
+                        mesh->triangles = c.Make(out allTriangles, "vertex_capacity");
+                        mesh->barycentrics = c.Make(out allBarycentrics, "vertex_capacity", "3");
+                        mesh->corners = c.Make(out allCorners, "vertex_capacity", "3");
+                        result = Functions.hf_quads_get_mesh(RawHandle, mesh);
                 }
-                while (found.Again());
-                return new QuadsMesh { Positions = found.Take<double>("positions"), Faces = found.Take<uint>("faces"),
-                    Triangles = found.Take<uint>("triangles"), Barycentrics = found.Take<double>("barycentrics"),
-                    Corners = found.Take<uint>("corners") };
+                while (c.Again("hf_quads_get_mesh", result, ("vertex_capacity", mesh->vertex_count), ("face_capacity",
+                    mesh->face_count)));
+                return new QuadsMesh { Positions = c.Cut(allPositions, "vertex_capacity", "3"), Faces = c.Cut(allFaces,
+                    "face_capacity", "4"), Triangles = c.Cut(allTriangles, "vertex_capacity"),
+                    Barycentrics = c.Cut(allBarycentrics, "vertex_capacity", "3"), Corners = c.Cut(allCorners,
+                    "vertex_capacity", "3") };
             }
         }
     }
@@ -4850,37 +4836,35 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array field_Array = c.View(field?.Values, "field", "vertex_count");
                 hf_array* field_ = &field_Array;
                 var linesStruct = new hf_streamlines { struct_size = (uint)sizeof(hf_streamlines),
                     wanted_count = wantedCount };
                 hf_streamlines* lines = &linesStruct;
                 lines->seeds = (IntPtr)c.Array(seeds, "seeds", "seed_count");
                 lines->seed_count = (uint)c.Count("seed_count", 0);
-                var found = new Growth(c, this, "hf_flow_trace");
-                found.Room("point_capacity", null);
-                found.Room("line_capacity", null);
-                found.Array<double>("positions", "point_capacity", "3");
-                found.Array<double>("values", "point_capacity");
-                found.Array<uint>("line_starts", "line_capacity + 1");
-                found.Array<uint>("line_ends", "line_capacity", "2");
+                double[] allPositions = null;
+                double[] allValues = null;
+                uint[] allLineStarts = null;
+                uint[] allLineEnds = null;
+                c.Room("hf_flow_trace", "point_capacity", null);
+                c.Room("hf_flow_trace", "line_capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        lines->point_capacity = (uint)found["point_capacity"];
-                        lines->line_capacity = (uint)found["line_capacity"];
-                        lines->positions = (IntPtr)found.Place("positions");
-                        lines->values = (IntPtr)found.Place("values");
-                        lines->line_starts = (IntPtr)found.Place("line_starts");
-                        lines->line_ends = (IntPtr)found.Place("line_ends");
-                        found.Result = Functions.hf_flow_trace(RawHandle, field == null ? null : field_, lines);
-                        found.Told("point_capacity", lines->point_count);
-                        found.Told("line_capacity", lines->line_count);
+                        lines->point_capacity = (uint)c.Size("point_capacity");
+                        lines->line_capacity = (uint)c.Size("line_capacity");
+                        lines->positions = c.Make(out allPositions, "point_capacity", "3");
+                        lines->values = c.Make(out allValues, "point_capacity");
+                        lines->line_starts = c.Make(out allLineStarts, "line_capacity + 1");
+                        lines->line_ends = c.Make(out allLineEnds, "line_capacity", "2");
+                        result = Functions.hf_flow_trace(RawHandle, field == null ? null : field_, lines);
                 }
-                while (found.Again());
-                return new Streamlines { Positions = found.Take<double>("positions"),
-                    Values = found.Take<double>("values"), LineStarts = found.Take<uint>("line_starts"),
-                    LineEnds = found.Take<uint>("line_ends") };
+                while (c.Again("hf_flow_trace", result, ("point_capacity", lines->point_count), ("line_capacity",
+                    lines->line_count)));
+                return new Streamlines { Positions = c.Cut(allPositions, "point_capacity", "3"),
+                    Values = c.Cut(allValues, "point_capacity"), LineStarts = c.Cut(allLineStarts, "line_capacity + 1"),
+                    LineEnds = c.Cut(allLineEnds, "line_capacity", "2") };
             }
         }
 
@@ -4916,7 +4900,7 @@ namespace Hf
                 c.Parent("surface", surface);
                 var descStruct = new hf_region_desc { struct_size = (uint)sizeof(hf_region_desc), @base = (int)@base };
                 hf_region_desc* desc = &descStruct;
-                desc->positions = c.View(positions, "positions", "vertex_count", "3");
+                desc->positions = c.View(positions?.Values, "positions", "vertex_count", "3");
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_region_create(c.Handle(surface), desc, raw)));
@@ -5011,18 +4995,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_region_get_vertices");
-                found.Room("capacity", null);
-                found.Array<uint>("vertices", "capacity");
+                uint[] allVertices = null;
+                c.Room("hf_region_get_vertices", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_region_get_vertices(RawHandle, (int)list, (uint)found["capacity"],
-                            found.Place("vertices"), &count);
-                        found.Told("capacity", count);
+                        void* verticesPlace = (void*)c.Make(out allVertices, "capacity");
+                        result = Functions.hf_region_get_vertices(RawHandle, (int)list, (uint)c.Size("capacity"),
+                            verticesPlace, &count);
                 }
-                while (found.Again());
-                return found.Take<uint>("vertices");
+                while (c.Again("hf_region_get_vertices", result, ("capacity", count)));
+                return c.Cut(allVertices, "capacity");
             }
         }
 
@@ -5034,18 +5017,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_region_get_curve");
-                found.Room("capacity", null);
-                found.Array<double>("points", "capacity", "3");
+                double[] allPoints = null;
+                c.Room("hf_region_get_curve", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_region_get_curve(RawHandle, (uint)found["capacity"],
-                            found.Place("points"), &count);
-                        found.Told("capacity", count);
+                        void* pointsPlace = (void*)c.Make(out allPoints, "capacity", "3");
+                        result = Functions.hf_region_get_curve(RawHandle, (uint)c.Size("capacity"), pointsPlace,
+                            &count);
                 }
-                while (found.Again());
-                return found.Take<double>("points");
+                while (c.Again("hf_region_get_curve", result, ("capacity", count)));
+                return c.Cut(allPoints, "capacity", "3");
             }
         }
 
@@ -5347,7 +5329,7 @@ namespace Hf
                 hf_retarget_desc* desc = &descStruct;
                 desc->source_rest = (IntPtr)c.Array(sourceRest, "sourceRest", "source.joint_count", "10");
                 desc->target_rest = (IntPtr)c.Array(targetRest, "targetRest", "target.joint_count", "10");
-                c.Fixed(groundVelocity, "groundVelocity", 3, desc->ground_velocity);
+                Call.Fill(groundVelocity, "groundVelocity", 3, desc->ground_velocity);
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_retarget_create(c.Handle(source), c.Handle(target), desc,
@@ -5420,20 +5402,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_retarget_get_chains");
-                found.Room("capacity", null);
-                found.Rows("chains", sizeof(hf_chain_match), "capacity");
+                void* chainsPlace = null;
+                c.Room("hf_retarget_get_chains", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_retarget_get_chains(RawHandle, (uint)found["capacity"],
-                            found.Place("chains"), &count);
-                        found.Told("capacity", count);
+                        chainsPlace = c.Rows(sizeof(hf_chain_match), "capacity");
+                        result = Functions.hf_retarget_get_chains(RawHandle, (uint)c.Size("capacity"), chainsPlace,
+                            &count);
                 }
-                while (found.Again());
-                var chains = new ChainMatch[found.Length("chains")];
+                while (c.Again("hf_retarget_get_chains", result, ("capacity", count)));
+                var chains = new ChainMatch[c.Product("capacity")];
                 for (int i = 0; i < chains.Length; ++i)
-                    chains[i] = new ChainMatch((hf_chain_match*)found.Place("chains") + i);
+                    chains[i] = new ChainMatch((hf_chain_match*)chainsPlace + i);
                 return chains;
             }
         }
@@ -5445,18 +5426,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_retarget_get_partners");
-                found.Room("capacity", null);
-                found.Array<uint>("partners", "capacity");
+                uint[] allPartners = null;
+                c.Room("hf_retarget_get_partners", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_retarget_get_partners(RawHandle, (uint)found["capacity"],
-                            found.Place("partners"), &count);
-                        found.Told("capacity", count);
+                        void* partnersPlace = (void*)c.Make(out allPartners, "capacity");
+                        result = Functions.hf_retarget_get_partners(RawHandle, (uint)c.Size("capacity"), partnersPlace,
+                            &count);
                 }
-                while (found.Again());
-                return found.Take<uint>("partners");
+                while (c.Again("hf_retarget_get_partners", result, ("capacity", count)));
+                return c.Cut(allPartners, "capacity");
             }
         }
 
@@ -5574,20 +5554,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_skeleton_get_joints");
-                found.Room("capacity", null);
-                found.Rows("joints", sizeof(hf_joint_info), "capacity");
+                void* jointsPlace = null;
+                c.Room("hf_skeleton_get_joints", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_skeleton_get_joints(RawHandle, (uint)found["capacity"],
-                            found.Place("joints"), &count);
-                        found.Told("capacity", count);
+                        jointsPlace = c.Rows(sizeof(hf_joint_info), "capacity");
+                        result = Functions.hf_skeleton_get_joints(RawHandle, (uint)c.Size("capacity"), jointsPlace,
+                            &count);
                 }
-                while (found.Again());
-                var joints = new JointInfo[found.Length("joints")];
+                while (c.Again("hf_skeleton_get_joints", result, ("capacity", count)));
+                var joints = new JointInfo[c.Product("capacity")];
                 for (int i = 0; i < joints.Length; ++i)
-                    joints[i] = new JointInfo((hf_joint_info*)found.Place("joints") + i);
+                    joints[i] = new JointInfo((hf_joint_info*)jointsPlace + i);
                 return joints;
             }
         }
@@ -5598,20 +5577,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_skeleton_get_chains");
-                found.Room("capacity", null);
-                found.Rows("chains", sizeof(hf_chain), "capacity");
+                void* chainsPlace = null;
+                c.Room("hf_skeleton_get_chains", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_skeleton_get_chains(RawHandle, (uint)found["capacity"],
-                            found.Place("chains"), &count);
-                        found.Told("capacity", count);
+                        chainsPlace = c.Rows(sizeof(hf_chain), "capacity");
+                        result = Functions.hf_skeleton_get_chains(RawHandle, (uint)c.Size("capacity"), chainsPlace,
+                            &count);
                 }
-                while (found.Again());
-                var chains = new Chain[found.Length("chains")];
+                while (c.Again("hf_skeleton_get_chains", result, ("capacity", count)));
+                var chains = new Chain[c.Product("capacity")];
                 for (int i = 0; i < chains.Length; ++i)
-                    chains[i] = new Chain((hf_chain*)found.Place("chains") + i);
+                    chains[i] = new Chain((hf_chain*)chainsPlace + i);
                 return chains;
             }
         }
@@ -5622,18 +5600,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_skeleton_get_chain_joints");
-                found.Room("capacity", null);
-                found.Array<uint>("joints", "capacity");
+                uint[] allJoints = null;
+                c.Room("hf_skeleton_get_chain_joints", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_skeleton_get_chain_joints(RawHandle, (uint)found["capacity"],
-                            found.Place("joints"), &count);
-                        found.Told("capacity", count);
+                        void* jointsPlace = (void*)c.Make(out allJoints, "capacity");
+                        result = Functions.hf_skeleton_get_chain_joints(RawHandle, (uint)c.Size("capacity"),
+                            jointsPlace, &count);
                 }
-                while (found.Again());
-                return found.Take<uint>("joints");
+                while (c.Again("hf_skeleton_get_chain_joints", result, ("capacity", count)));
+                return c.Cut(allJoints, "capacity");
             }
         }
 
@@ -5720,10 +5697,10 @@ namespace Hf
                     cluster_count = clusterCount, ground = (int)ground, kernel_width = kernelWidth, scale = scale,
                     alignment_angle = alignmentAngle };
                 hf_transfer_desc* desc = &descStruct;
-                desc->source_rest = c.View(sourceRest, "sourceRest", "source.vertex_count", "3");
-                desc->target_rest = c.View(targetRest, "targetRest", "target.vertex_count", "3");
-                c.Fixed(sourceAxes, "sourceAxes", 9, desc->source_axes);
-                c.Fixed(targetAxes, "targetAxes", 9, desc->target_axes);
+                desc->source_rest = c.View(sourceRest?.Values, "sourceRest", "source.vertex_count", "3");
+                desc->target_rest = c.View(targetRest?.Values, "targetRest", "target.vertex_count", "3");
+                Call.Fill(sourceAxes, "sourceAxes", 9, desc->source_axes);
+                Call.Fill(targetAxes, "targetAxes", 9, desc->target_axes);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_transfer_create(c.Handle(source), c.Handle(target), desc,
                     raw)));
@@ -5905,7 +5882,7 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions?.Values, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
@@ -5931,7 +5908,7 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions?.Values, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
@@ -5958,7 +5935,7 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions?.Values, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
@@ -5984,7 +5961,7 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions?.Values, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
@@ -6031,41 +6008,38 @@ namespace Hf
                 var skinStruct = new hf_skin_info { struct_size = (uint)sizeof(hf_skin_info),
                     influence_count = influenceCount };
                 hf_skin_info* skin = &skinStruct;
-                c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
-                var found = new Growth(c, this, "hf_transfer_get_skin");
-                found.Room("joint_capacity", "joint_count");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Array<double>("pivots", "joint_capacity", "3");
-                found.Array<double>("rotations", "joint_capacity", "4");
-                found.Array<double>("translations", "joint_capacity", "3");
-                found.Array<double>("axes", "joint_capacity", "4");
-                if (scales) found.Array<double>("scales", "joint_capacity", "3");
-                found.Array<uint>("vertex_joints", "vertex_capacity", "influence_count");
-                found.Array<float>("vertex_weights", "vertex_capacity", "influence_count");
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
+                double[] allPivots = null;
+                double[] allRotations = null;
+                double[] allTranslations = null;
+                double[] allAxes = null;
+                double[] allScales = null;
+                uint[] allVertexJoints = null;
+                float[] allVertexWeights = null;
+                c.Room("hf_transfer_get_skin", "joint_capacity", "joint_count");
+                c.Room("hf_transfer_get_skin", "vertex_capacity", "vertex_count");
+                int result;
                 do
                 {
-                        found.Begin();
-                        skin->joint_capacity = (uint)found["joint_capacity"];
-                        skin->vertex_capacity = (uint)found["vertex_capacity"];
-                        skin->pivots = (IntPtr)found.Place("pivots");
-                        skin->rotations = (IntPtr)found.Place("rotations");
-                        skin->translations = (IntPtr)found.Place("translations");
-                        skin->axes = (IntPtr)found.Place("axes");
-                        skin->scales = (IntPtr)found.Place("scales");
-                        skin->vertex_joints = (IntPtr)found.Place("vertex_joints");
-                        skin->vertex_weights = (IntPtr)found.Place("vertex_weights");
-                        found.Result = Functions.hf_transfer_get_skin(RawHandle, skin);
-                        found.Told("joint_capacity", skin->joint_count);
-                        found.Told("vertex_capacity", skin->vertex_count);
-                        found.Told("joint_count", skin->joint_count);
-                        found.Told("vertex_count", skin->vertex_count);
+                        skin->joint_capacity = (uint)c.Size("joint_capacity");
+                        skin->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        skin->pivots = c.Make(out allPivots, "joint_capacity", "3");
+                        skin->rotations = c.Make(out allRotations, "joint_capacity", "4");
+                        skin->translations = c.Make(out allTranslations, "joint_capacity", "3");
+                        skin->axes = c.Make(out allAxes, "joint_capacity", "4");
+                        skin->scales = scales ? c.Make(out allScales, "joint_capacity", "3") : IntPtr.Zero;
+                        skin->vertex_joints = c.Make(out allVertexJoints, "vertex_capacity", "influence_count");
+                        skin->vertex_weights = c.Make(out allVertexWeights, "vertex_capacity", "influence_count");
+                        result = Functions.hf_transfer_get_skin(RawHandle, skin);
                 }
-                while (found.Again());
-                return new SkinInfo { InfluenceCount = skin->influence_count, Pivots = found.Take<double>("pivots"),
-                    Rotations = found.Take<double>("rotations"), Translations = found.Take<double>("translations"),
-                    Axes = found.Take<double>("axes"), Scales = found.Take<double>("scales"),
-                    VertexJoints = found.Take<uint>("vertex_joints"),
-                    VertexWeights = found.Take<float>("vertex_weights") };
+                while (c.Again("hf_transfer_get_skin", result, ("joint_capacity", skin->joint_count),
+                    ("vertex_capacity", skin->vertex_count)));
+                return new SkinInfo { InfluenceCount = skin->influence_count, Pivots = c.Cut(allPivots,
+                    "joint_capacity", "3"), Rotations = c.Cut(allRotations, "joint_capacity", "4"),
+                    Translations = c.Cut(allTranslations, "joint_capacity", "3"), Axes = c.Cut(allAxes,
+                    "joint_capacity", "4"), Scales = c.Cut(allScales, "joint_capacity", "3"),
+                    VertexJoints = c.Cut(allVertexJoints, "vertex_capacity", "influence_count"),
+                    VertexWeights = c.Cut(allVertexWeights, "vertex_capacity", "influence_count") };
             }
         }
 
@@ -6127,7 +6101,7 @@ namespace Hf
                 desc->sources = (IntPtr)c.Array(sources, "sources", "joint_count");
                 desc->progress = c.Handle(progress);
                 desc->joint_count = (uint)c.Count("joint_count", 0);
-                c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_weights_create(c.Handle(surface), desc, influenceCount,
                     raw)));
@@ -6249,26 +6223,24 @@ namespace Hf
             {
                 var weightsStruct = new hf_weights_out { struct_size = (uint)sizeof(hf_weights_out) };
                 hf_weights_out* weights = &weightsStruct;
-                var found = new Growth(c, this, "hf_weights_get");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Array<uint>("joints", "vertex_capacity", "influence_count");
-                found.Array<float>("weights", "vertex_capacity", "influence_count");
-                found.Array<byte>("origins", "vertex_capacity");
+                uint[] allJoints = null;
+                float[] allWeights = null;
+                byte[] allOrigins = null;
+                c.Room("hf_weights_get", "vertex_capacity", "vertex_count");
+                int result;
                 do
                 {
-                        found.Begin();
-                        weights->vertex_capacity = (uint)found["vertex_capacity"];
-                        weights->joints = (IntPtr)found.Place("joints");
-                        weights->weights = (IntPtr)found.Place("weights");
-                        weights->origins = (IntPtr)found.Place("origins");
-                        found.Result = Functions.hf_weights_get(RawHandle, weights);
-                        found.Told("vertex_capacity", weights->vertex_count);
-                        found.Told("vertex_count", weights->vertex_count);
-                        found.Told("influence_count", weights->influence_count);
+                        weights->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        weights->joints = c.Make(out allJoints, "vertex_capacity", "influence_count");
+                        weights->weights = c.Make(out allWeights, "vertex_capacity", "influence_count");
+                        weights->origins = c.Make(out allOrigins, "vertex_capacity");
+                        result = Functions.hf_weights_get(RawHandle, weights);
                 }
-                while (found.Again());
-                return new WeightsOut { InfluenceCount = weights->influence_count, Joints = found.Take<uint>("joints"),
-                    Weights = found.Take<float>("weights"), Origins = found.Take<byte>("origins") };
+                while (c.Again("hf_weights_get", result, ("vertex_capacity", weights->vertex_count), ("influence_count",
+                    weights->influence_count)));
+                return new WeightsOut { InfluenceCount = weights->influence_count, Joints = c.Cut(allJoints,
+                    "vertex_capacity", "influence_count"), Weights = c.Cut(allWeights, "vertex_capacity",
+                    "influence_count"), Origins = c.Cut(allOrigins, "vertex_capacity") };
             }
         }
 
@@ -6279,19 +6251,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_weights_get_joints");
-                found.Room("capacity", null);
-                found.Array<uint>("flags", "capacity");
-                found.Array<uint>("vertex_counts", "capacity");
+                uint[] allFlags = null;
+                uint[] allVertexCounts = null;
+                c.Room("hf_weights_get_joints", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_weights_get_joints(RawHandle, (uint)found["capacity"],
-                            found.Place("flags"), found.Place("vertex_counts"), &count);
-                        found.Told("capacity", count);
+                        void* flagsPlace = (void*)c.Make(out allFlags, "capacity");
+                        void* vertexCountsPlace = (void*)c.Make(out allVertexCounts, "capacity");
+                        result = Functions.hf_weights_get_joints(RawHandle, (uint)c.Size("capacity"), flagsPlace,
+                            vertexCountsPlace, &count);
                 }
-                while (found.Again());
-                return (found.Take<uint>("flags"), found.Take<uint>("vertex_counts"));
+                while (c.Again("hf_weights_get_joints", result, ("capacity", count)));
+                return (c.Cut(allFlags, "capacity"), c.Cut(allVertexCounts, "capacity"));
             }
         }
 
@@ -6336,18 +6308,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_weights_get_helpers");
-                found.Room("capacity", null);
-                found.Array<uint>("reasons", "capacity");
+                uint[] allReasons = null;
+                c.Room("hf_weights_get_helpers", "capacity", null);
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_weights_get_helpers(RawHandle, c.Text(names),
-                            (uint)found["capacity"], found.Place("reasons"), &count);
-                        found.Told("capacity", count);
+                        void* reasonsPlace = (void*)c.Make(out allReasons, "capacity");
+                        result = Functions.hf_weights_get_helpers(RawHandle, c.Text(names), (uint)c.Size("capacity"),
+                            reasonsPlace, &count);
                 }
-                while (found.Again());
-                return found.Take<uint>("reasons");
+                while (c.Again("hf_weights_get_helpers", result, ("capacity", count)));
+                return c.Cut(allReasons, "capacity");
             }
         }
 
@@ -6379,35 +6350,33 @@ namespace Hf
                 var descStruct = new hf_weights_transfer_desc { struct_size = (uint)sizeof(hf_weights_transfer_desc),
                     distance = distance, angle = angle, influence_count = influenceCount };
                 hf_weights_transfer_desc* desc = &descStruct;
-                c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
                 desc->joints = (IntPtr)c.Array(joints, "joints", "source.vertex_count", "source_influence_count");
                 desc->weights = (IntPtr)c.Array(weights, "weights", "source.vertex_count", "source_influence_count");
                 desc->progress = c.Handle(progress);
                 desc->source_influence_count = (uint)c.Count("source_influence_count", 0);
                 var weights_Struct = new hf_weights_out { struct_size = (uint)sizeof(hf_weights_out) };
                 hf_weights_out* weights_ = &weights_Struct;
-                var found = new Growth(c, source, "hf_weights_transfer");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Array<uint>("joints", "vertex_capacity", "influence_count");
-                found.Array<float>("weights", "vertex_capacity", "influence_count");
-                found.Array<byte>("origins", "vertex_capacity");
+                uint[] allJoints = null;
+                float[] allWeights = null;
+                byte[] allOrigins = null;
+                c.Room("hf_weights_transfer", "vertex_capacity", "vertex_count");
+                int result;
                 do
                 {
-                        found.Begin();
-                        weights_->vertex_capacity = (uint)found["vertex_capacity"];
-                        weights_->joints = (IntPtr)found.Place("joints");
-                        weights_->weights = (IntPtr)found.Place("weights");
-                        weights_->origins = (IntPtr)found.Place("origins");
-                        found.Result = Functions.hf_weights_transfer(c.Handle(source), c.Handle(target), desc, weights_,
+                        weights_->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        weights_->joints = c.Make(out allJoints, "vertex_capacity", "influence_count");
+                        weights_->weights = c.Make(out allWeights, "vertex_capacity", "influence_count");
+                        weights_->origins = c.Make(out allOrigins, "vertex_capacity");
+                        result = Functions.hf_weights_transfer(c.Handle(source), c.Handle(target), desc, weights_,
                             &info);
-                        found.Told("vertex_capacity", weights_->vertex_count);
-                        found.Told("vertex_count", weights_->vertex_count);
-                        found.Told("influence_count", weights_->influence_count);
                 }
-                while (found.Again());
-                return (new WeightsOut { InfluenceCount = weights_->influence_count,
-                    Joints = found.Take<uint>("joints"), Weights = found.Take<float>("weights"),
-                    Origins = found.Take<byte>("origins") }, new WeightsTransferInfo(&info));
+                while (c.Again("hf_weights_transfer", result, ("vertex_capacity", weights_->vertex_count),
+                    ("influence_count", weights_->influence_count)));
+                return (new WeightsOut { InfluenceCount = weights_->influence_count, Joints = c.Cut(allJoints,
+                    "vertex_capacity", "influence_count"), Weights = c.Cut(allWeights, "vertex_capacity",
+                    "influence_count"), Origins = c.Cut(allOrigins, "vertex_capacity") },
+                    new WeightsTransferInfo(&info));
             }
         }
 
@@ -6446,7 +6415,7 @@ namespace Hf
                 var descStruct = new hf_weights_mirror_desc { struct_size = (uint)sizeof(hf_weights_mirror_desc),
                     to = (int)to, distance = distance, angle = angle, influence_count = influenceCount };
                 hf_weights_mirror_desc* desc = &descStruct;
-                c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
                 desc->heads = (IntPtr)c.Array(heads, "heads", "joint_count", "3");
                 desc->partners = (IntPtr)c.Array(partners, "partners", "joint_count");
                 desc->plane = (IntPtr)c.Array(plane, "plane", "6");
@@ -6462,29 +6431,26 @@ namespace Hf
                 var partners_Place = (uint*)c.Pin(partners_);
                 var pairings = new uint[c.Product("joint_count")];
                 var pairingsPlace = (uint*)c.Pin(pairings);
-                var found = new Growth(c, surface, "hf_weights_mirror");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Array<uint>("joints", "vertex_capacity", "influence_count");
-                found.Array<float>("weights", "vertex_capacity", "influence_count");
-                found.Array<byte>("origins", "vertex_capacity");
+                uint[] allJoints = null;
+                float[] allWeights = null;
+                byte[] allOrigins = null;
+                c.Room("hf_weights_mirror", "vertex_capacity", "vertex_count");
+                int result;
                 do
                 {
-                        found.Begin();
-                        weights_->vertex_capacity = (uint)found["vertex_capacity"];
-                        weights_->joints = (IntPtr)found.Place("joints");
-                        weights_->weights = (IntPtr)found.Place("weights");
-                        weights_->origins = (IntPtr)found.Place("origins");
-                        found.Result = Functions.hf_weights_mirror(c.Handle(surface), desc, weights_, partners_Place,
+                        weights_->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        weights_->joints = c.Make(out allJoints, "vertex_capacity", "influence_count");
+                        weights_->weights = c.Make(out allWeights, "vertex_capacity", "influence_count");
+                        weights_->origins = c.Make(out allOrigins, "vertex_capacity");
+                        result = Functions.hf_weights_mirror(c.Handle(surface), desc, weights_, partners_Place,
                             pairingsPlace, &info, &statistics);
-                        found.Told("vertex_capacity", weights_->vertex_count);
-                        found.Told("vertex_count", weights_->vertex_count);
-                        found.Told("influence_count", weights_->influence_count);
                 }
-                while (found.Again());
-                return (new WeightsOut { InfluenceCount = weights_->influence_count,
-                    Joints = found.Take<uint>("joints"), Weights = found.Take<float>("weights"),
-                    Origins = found.Take<byte>("origins") }, partners_, pairings, new WeightsMirrorInfo(&info),
-                    new WeightsMirrorStatistics(&statistics));
+                while (c.Again("hf_weights_mirror", result, ("vertex_capacity", weights_->vertex_count),
+                    ("influence_count", weights_->influence_count)));
+                return (new WeightsOut { InfluenceCount = weights_->influence_count, Joints = c.Cut(allJoints,
+                    "vertex_capacity", "influence_count"), Weights = c.Cut(allWeights, "vertex_capacity",
+                    "influence_count"), Origins = c.Cut(allOrigins, "vertex_capacity") }, partners_, pairings,
+                    new WeightsMirrorInfo(&info), new WeightsMirrorStatistics(&statistics));
             }
         }
 

@@ -20,7 +20,6 @@ namespace Hf
         /// <exception cref="DllNotFoundException">It is nowhere; the message says where to put it.</exception>
         public static void Load()
         {
-            if (found) return;
             lock (Lock)
             {
                 if (found) return;
@@ -40,7 +39,7 @@ namespace Hf
 
         // On its own: Mono looks for a library when it compiles the method that calls it.
         [MethodImpl(MethodImplOptions.NoInlining)]
-        static void Ask() { Probe.hf_version_get(); }
+        static void Ask() => Probe.hf_version_get();
 
         static class Probe
         {
@@ -48,50 +47,43 @@ namespace Hf
         }
 
 #if !UNITY_5_3_OR_NEWER
+        static bool IsWindows => Path.DirectorySeparatorChar == '\\';
+
         // The file of $HF_LIBRARY, else the first name that lies beside the assembly, else null: the system's own search.
         static string Chosen()
         {
-            string given = Environment.GetEnvironmentVariable("HF_LIBRARY");
+            string given = Environment.GetEnvironmentVariable("HF_LIBRARY"), place = typeof(Library).Assembly.Location;
             if (!string.IsNullOrEmpty(given)) return Path.GetFullPath(given);
-            string place = typeof(Library).Assembly.Location;
+            string[] names = IsWindows ? new[] { "hf.dll" } : new[] { "libhf.so.0", "libhf.so", "libhf.dylib" };
             if (string.IsNullOrEmpty(place)) return null;
-            foreach (string name in new[] { "libhf.so.0", "libhf.so", "hf.dll", "libhf.dylib" })
-            {
-                string beside = Path.Combine(Path.GetDirectoryName(place), name);
-                bool windows = Path.DirectorySeparatorChar == '\\';
-                if (File.Exists(beside) && windows == name.EndsWith(".dll")) return beside;
-            }
-            return null;
+            return Array.Find(Array.ConvertAll(names, name => Path.Combine(Path.GetDirectoryName(place), name)), File.Exists);
         }
 
         // Each runtime has its own way to say which file a name means. .NET has a resolver; it is named by reflection,
         // since Mono and older frameworks lack it. Mono has a map. Windows takes a library that is already loaded.
         static void Bind()
         {
-            Type loader = Type.GetType("System.Runtime.InteropServices.NativeLibrary, System.Runtime.InteropServices")
-                ?? typeof(Marshal).Assembly.GetType("System.Runtime.InteropServices.NativeLibrary");
-            if (loader != null)
+            if (Loader != null)
             {
-                MethodInfo set = loader.GetMethod("SetDllImportResolver");
-                Type resolver = set.GetParameters()[1].ParameterType;
-                MethodInfo own = typeof(Library).GetMethod("Resolve", BindingFlags.Static | BindingFlags.NonPublic);
-                set.Invoke(null, new object[] { typeof(Library).Assembly, Delegate.CreateDelegate(resolver, own) });
+                MethodInfo set = Loader.GetMethod("SetDllImportResolver");
+                Func<string, Assembly, DllImportSearchPath?, IntPtr> own = Resolve;
+                Delegate resolve = Delegate.CreateDelegate(set.GetParameters()[1].ParameterType, own.Method);
+                set.Invoke(null, new object[] { typeof(Library).Assembly, resolve });
                 return;
             }
             try { mono_dllmap_insert(IntPtr.Zero, Functions.LibraryName, null, file, null); }
-            catch (Exception) // no Mono
-            {
-                if (Path.DirectorySeparatorChar == '\\') LoadLibraryW(file);
-            }
+            catch (Exception) { if (IsWindows) LoadLibraryW(file); }  // no Mono
         }
+
+        static Type Loader =>
+            Type.GetType("System.Runtime.InteropServices.NativeLibrary, System.Runtime.InteropServices")
+            ?? typeof(Marshal).Assembly.GetType("System.Runtime.InteropServices.NativeLibrary");
 
         static IntPtr Resolve(string name, Assembly assembly, DllImportSearchPath? path)
         {
-            if (name != Functions.LibraryName) return IntPtr.Zero;
-            Type loader = Type.GetType("System.Runtime.InteropServices.NativeLibrary, System.Runtime.InteropServices")
-                ?? typeof(Marshal).Assembly.GetType("System.Runtime.InteropServices.NativeLibrary");
             var arguments = new object[] { file, IntPtr.Zero };
-            loader.GetMethod("TryLoad", new[] { typeof(string), typeof(IntPtr).MakeByRefType() }).Invoke(null, arguments);
+            MethodInfo load = Loader.GetMethod("TryLoad", new[] { typeof(string), typeof(IntPtr).MakeByRefType() });
+            if (name == Functions.LibraryName) load.Invoke(null, arguments);
             return (IntPtr)arguments[1];
         }
 

@@ -1148,8 +1148,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       c.known('influence_count', influenceCount || 4);
       const found = c.grow(this, 'hf_pose_get_skin', (room, made) => (c.into(skin, room, made), call('hf_pose_get_skin',
               this._handle, skin)), () => ({ joint_capacity: skin.get('joint_count'),
-              vertex_capacity: skin.get('vertex_count'), joint_count: skin.get('joint_count'),
-              vertex_count: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
+              vertex_capacity: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
               vertex_capacity: c.n.vertex_count }, { pivots: ['f8', ['joint_capacity', 3]], rotations: ['f8',
               ['joint_capacity', 4]], translations: ['f8', ['joint_capacity', 3]], axes: ['f8', ['joint_capacity', 4]],
               ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}), vertexJoints: ['u4', ['vertex_capacity',
@@ -1192,10 +1191,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const mesh = c.struct('hf_quads_mesh', {});
       const found = c.grow(this, 'hf_quads_get_mesh', (room, made) => (c.into(mesh, room, made),
               call('hf_quads_get_mesh', this._handle, mesh)), () => ({ vertex_capacity: mesh.get('vertex_count'),
-              face_capacity: mesh.get('face_count'), vertex_count: mesh.get('vertex_count') }),
-              { vertex_capacity: c.n.vertex_count, face_capacity: null }, { positions: ['f8', ['vertex_capacity', 3]],
-              faces: ['u4', ['face_capacity', 4]], triangles: ['u4', ['vertex_capacity']], barycentrics: ['f8',
-              ['vertex_capacity', 3]], corners: ['u4', ['vertex_capacity', 3]] });
+              face_capacity: mesh.get('face_count') }), { vertex_capacity: c.n.vertex_count, face_capacity: null },
+              { positions: ['f8', ['vertex_capacity', 3]], faces: ['u4', ['face_capacity', 4]], triangles: ['u4',
+              ['vertex_capacity']], barycentrics: ['f8', ['vertex_capacity', 3]], corners: ['u4', ['vertex_capacity',
+              3]] });
       return { ...found, vertexCount: mesh.get('vertex_count'), faceCount: mesh.get('face_count') };
     }
   }
@@ -1556,8 +1555,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       c.known('influence_count', influenceCount || 4);
       const found = c.grow(this, 'hf_transfer_get_skin', (room, made) => (c.into(skin, room, made),
               call('hf_transfer_get_skin', this._handle, skin)), () => ({ joint_capacity: skin.get('joint_count'),
-              vertex_capacity: skin.get('vertex_count'), joint_count: skin.get('joint_count'),
-              vertex_count: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
+              vertex_capacity: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
               vertex_capacity: c.n.vertex_count }, { pivots: ['f8', ['joint_capacity', 3]], rotations: ['f8',
               ['joint_capacity', 4]], translations: ['f8', ['joint_capacity', 3]], axes: ['f8', ['joint_capacity', 4]],
               ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}), vertexJoints: ['u4', ['vertex_capacity',
@@ -1615,9 +1613,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const weights = c.struct('hf_weights_out', {});
       const found = c.grow(this, 'hf_weights_get', (room, made) => (c.into(weights, room, made), call('hf_weights_get',
               this._handle, weights)), () => ({ vertex_capacity: weights.get('vertex_count'),
-              vertex_count: weights.get('vertex_count'), influence_count: weights.get('influence_count') }),
-              { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
-              weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
+              influence_count: weights.get('influence_count') }), { vertex_capacity: c.n.vertex_count },
+              { joints: ['u4', ['vertex_capacity', 'influence_count']], weights: ['f4', ['vertex_capacity',
+              'influence_count']], origins: ['u1', ['vertex_capacity']] });
       return { ...found, vertexCount: weights.get('vertex_count'), influenceCount: weights.get('influence_count') };
     }
 
@@ -1662,9 +1660,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const found = c.grow(source, 'hf_weights_transfer', (room, made) => (c.into(weights_, room, made),
               call('hf_weights_transfer', handleOf(source, Surface, 'source'), handleOf(target, Surface, 'target'),
               desc, weights_, info)), () => ({ vertex_capacity: weights_.get('vertex_count'),
-              vertex_count: weights_.get('vertex_count'), influence_count: weights_.get('influence_count') }),
-              { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
-              weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
+              influence_count: weights_.get('influence_count') }), { vertex_capacity: c.n.vertex_count },
+              { joints: ['u4', ['vertex_capacity', 'influence_count']], weights: ['f4', ['vertex_capacity',
+              'influence_count']], origins: ['u1', ['vertex_capacity']] });
       return { ...{ ...found, vertexCount: weights_.get('vertex_count'),
               influenceCount: weights_.get('influence_count') }, info: info.toObject() };
     }
@@ -1680,9 +1678,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const found = c.grow(surface, 'hf_weights_mirror', (room, made) => (c.into(weights_, room, made),
               call('hf_weights_mirror', handleOf(surface, Surface, 'surface'), desc, weights_, written(partners_),
               written(pairings), info, statistics)), () => ({ vertex_capacity: weights_.get('vertex_count'),
-              vertex_count: weights_.get('vertex_count'), influence_count: weights_.get('influence_count') }),
-              { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
-              weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
+              influence_count: weights_.get('influence_count') }), { vertex_capacity: c.n.vertex_count },
+              { joints: ['u4', ['vertex_capacity', 'influence_count']], weights: ['f4', ['vertex_capacity',
+              'influence_count']], origins: ['u1', ['vertex_capacity']] });
       return { ...{ ...found, vertexCount: weights_.get('vertex_count'),
               influenceCount: weights_.get('influence_count') }, partners: partners_, pairings, info: info.toObject(),
               statistics: statistics.toObject() };

@@ -7,14 +7,61 @@
     field = solver.solve()
 
 The C headers (include/hf) are the reference, and classes are made from them. Objects close themselves, in any order;
-failures are exceptions with the library's own message, HfError and its subclasses.
+failures are exceptions with the library's own message, HfError and its subclasses. What Python's users expect beyond the
+headers is here: faces as hosts store them, matrices row by row.
 """
 
-from . import _api, _errors, _extras
+from typing import Any, Dict, Optional
+
+import numpy as np
+
+from . import _api, _errors
 from . import _raw as constants
 from ._api import *  # noqa: F401,F403
 from ._errors import *  # noqa: F401,F403
-from ._extras import *  # type: ignore[assignment]  # noqa: F401,F403
+from ._library import ArrayLike, converted, numbers, version
 
 __version__ = constants.HEADER_VERSION
-__all__ = sorted({*_api.__all__, *_errors.__all__, *_extras.__all__, "constants"})
+NO_INDEX = constants.HF_NO_INDEX
+__all__ = sorted({*_api.__all__, *_errors.__all__, "NO_INDEX", "constants", "version"})
+
+
+def _faces(faces: Any) -> Dict[str, Any]:
+    """(m, k) corners, (offsets, corners) or (starts, sizes, corners) as the fields of hf_faces_desc."""
+    if not isinstance(faces, tuple):
+        around = numbers(faces, "faces")
+        if around.ndim != 2 or around.shape[1] < 3:
+            raise _errors.InvalidArgumentError(f"faces must have the shape (m, 3) or wider, not {around.shape}")
+        faces = None, np.full(len(around), around.shape[1], np.uint32), around
+    if len(faces) not in (2, 3):
+        raise _errors.InvalidArgumentError("faces must be (offsets, corners) or (starts, sizes, corners)")
+    return {"starts": faces[0], "sizes": faces[1] if len(faces) == 3 else None, "corners": faces[-1]}
+
+
+class Surface(_api.Surface):
+    __doc__ = f"""{_api.Surface.__doc__}
+    faces: (m, k) corners; (offsets, corners), m + 1 offsets; or (starts, sizes, corners) as Blender's loops, with None for
+        starts where faces follow one another
+    link_pieces: True joins the pieces of a character by links. tags: (n,) with it: pieces of different tags stay apart
+    """
+
+    def __init__(self, positions: ArrayLike, triangles: Optional[ArrayLike] = None, *, faces: Any = None, link_pieces: bool = False,
+                 tags: Optional[ArrayLike] = None, **options: Any) -> None:
+        if positions is None:
+            raise _errors.NullPointerError("positions is None")
+        if tags is not None and not link_pieces:
+            raise _errors.InvalidArgumentError("tags need link_pieces=True")
+        if link_pieces:
+            options["links"] = {"mode": _api.LinkMode.PIECES, "tags": tags}
+        super().__init__(positions, triangles, **options, faces=None if faces is None else _faces(faces))
+
+
+class Pose(_api.Pose):
+    __doc__ = _api.Pose.__doc__
+
+    def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
+        """Rigid 4 x 4 matrices rest -> posed, (k, 4, 4) in the usual row-by-row reading."""
+        rows = converted(matrices, "matrices", "f8")
+        if rows.size % 16:
+            raise _errors.InvalidArgumentError(f"matrices must have the shape (k, 4, 4), not {rows.shape}")
+        super().set_matrices(handles, rows.reshape(-1, 4, 4).transpose(0, 2, 1))
