@@ -72,7 +72,7 @@ class Steps:
         return [f"const {var} = {js(struct.name[3:])}(c, '', {given});"]
 
     def do_record(self, var, type, fields, dims):
-        return [f"const {js(var)} = c.struct('{type}', {{}});"] + [f"c.fixed({js(var)}, '{f['name']}', '{js(name)}', {js(name)});" for f, name in fields]
+        return [f"const {js(var)} = c.struct('{type}', {{}});"] + [line for f, name in fields for line in self.field_fixed(js(var), f, js(name))]
 
     def do_records(self, var, type, fields, dims):
         given = ", ".join(f"{f['name']}: ['{js(name)}', {js(name)}]" for f, name in fields)
@@ -89,7 +89,7 @@ class Steps:
             shape = f"{js(missing)} ? {shape} : {self.dims(other)}"
         if field["view"]:
             return [f"{js(var)}.set('{field['name']}', c.view('{js(name)}', {js(name)}, '{self.kinds(field, field['twin'])}', {shape}));"]
-        return [f"c.rows({js(var)}, '{field['name']}', '{js(name)}', {js(name)}, '{self.kinds(field)}', {shape});"]
+        return [f"{js(var)}.set('{field['name']}', c.array('{js(name)}', {js(name)}, '{self.kinds(field)}', {shape}));"]
 
     def do_fields(self, struct, var):
         lines = []
@@ -99,14 +99,13 @@ class Steps:
             inner = self.w.structs[f["type"]]
             first = next((g["name"] for g, ahead in inner.asked() if ahead), "")
             lines.append(f"{js(var)}.set('{f['name']}', c.inner({js(f['name'])}, '{js(first)}', {js(f['type'][3:])}, '{f['name']}.'));")
-        if struct.counts:
-            prefix = "prefix + " if self.filler else ""
-            lines.append(f"c.counts({js(var)}, {{ {', '.join(f'''{f['name']}: [{prefix}'{f['name']}', {least(f)}]''' for f in struct.counts)} }});")
-        return lines
+        prefix = "prefix + " if self.filler else ""
+        return lines + [f"{js(var)}.set('{f['name']}', (c.n[{prefix}'{f['name']}'] ??= {least(f)}));" for f in struct.counts]
 
     def field_ragged(self, var, counts, field):
-        key = self.dims(counts["dims"])[1:-1]
-        return [f"c.ragged({var}, '{counts['name']}', '{field['name']}', '{js(field['name'])}', {js(field['name'])}, {key});"]
+        name = js(field["name"])
+        return [f"const {name}_ = c.lists('{name}', {name}, {self.dims(counts['dims'])});",
+                f"{var}.set('{counts['name']}', {name}_[0]).set('{field['name']}', {name}_[1]);"]
 
     def field_written(self, var, field):
         name = js(field["name"])
@@ -115,13 +114,15 @@ class Steps:
         return [f"{var}.set('{field['name']}', c.written('{name}', {name}, '{field['type']}', {self.dims(field['dims'])}));"]
 
     def field_blob(self, var, field, count):
-        return [f"c.bytes({var}, '{field['name']}', '{count}', {js(field['name'])}, '{js(field['name'])}');"]
+        name = js(field["name"])
+        return [f"{var}.set('{field['name']}', c.array('{name}', {name}, 'u1', [prefix + '{count}'])).set('{count}', c.n[prefix + '{count}']);"]
 
     def field_text(self, var, field):
         return [f"{var}.set('{field['name']}', c.text({js(field['name'])}, '{js(field['name'])}'));"]
 
-    def field_fixed(self, var, field):
-        return [f"c.fixed({var}, '{field['name']}', '{js(field['name'])}', {js(field['name'])});"]
+    def field_fixed(self, var, field, name=None):
+        name = name or js(field["name"])
+        return [f"{var}.set('{field['name']}', {name} && c.numbers('{name}', {name}, '{KINDS[field['type']]}', [{field['count']}]));"]
 
     def field_handle(self, var, field):
         return [f"{var}.set('{field['name']}', handleOf({js(field['name'])}, {camel(field['type'])}, '{js(field['name'])}') || null);"]
@@ -163,7 +164,7 @@ class Steps:
 
     def do_bytes(self, function, first, second):
         first, second = self.do_call(function, first), self.do_call(function, second)
-        return ["const size = c.sizes();", *first, "const block = new Uint8Array(Number(size[0]));", *second]
+        return ["const size = newHandle();", *first, "const block = new Uint8Array(Number(size[0]));", *second]
 
     def do_grow(self, function, owner, values, tell, rooms, arrays, into):
         lines = ["const count = new Uint32Array(1);"] if any(var == "count" for _, var, _ in tell) else []
@@ -305,7 +306,7 @@ class Writer(Types):
         taken |= {f["type"] for name in taken for f in self.structs[name].inner}
         taken |= {f["type"] for name in taken for f in self.structs[name].inner}
         out = ["// Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.", "",
-               "export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, none, written }) {"]
+               "export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, written }) {"]
         for name, struct in self.structs.items():
             out += self.filler(struct) if name in taken and struct.asked() else []
         self.methods = {}

@@ -68,7 +68,12 @@ namespace Hf
             lock (Counts) return Counts.TryGetValue(count, out int known) ? known : 0;
         }
 
-        internal void Exchange(HfObject other) => (handle, other.handle) = (other.handle, handle);
+        internal void Exchange(HfObject other)
+        {
+            IntPtr mine = handle;
+            handle = other.handle;
+            other.handle = mine;
+        }
 
         /// <summary>The handle of the C ABI; stale after Dispose, which the library finds out.</summary>
         public IntPtr RawHandle => handle;

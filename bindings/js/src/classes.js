@@ -1,12 +1,13 @@
 // Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.
 
-export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, none, written }) {
+export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, written }) {
 
   const factorDesc = (c, prefix, options) => {
     const { bytes = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_factor_desc', {});
-    c.bytes(desc, 'bytes', 'byte_count', bytes, 'bytes');
+    desc.set('bytes', c.array('bytes', bytes, 'u1', [prefix + 'byte_count'])).set('byte_count',
+            c.n[prefix + 'byte_count']);
     return desc;
   };
 
@@ -15,16 +16,18 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             heavyVertices = null, mode = 0, distance = 0, stiffness = 0, overlayDistance = 0, ...more } = options;
     none(more);
     const desc = c.struct('hf_links_desc', { mode, distance, stiffness, overlay_distance: overlayDistance });
-    c.rows(desc, 'joints', 'joints', joints, 'u2', ['vertex_count', prefix + 'influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', ['vertex_count', prefix + 'influence_count']);
-    c.rows(desc, 'joint_parents', 'jointParents', jointParents, 'u4', [prefix + 'joint_count']);
-    c.rows(desc, 'tags', 'tags', tags, 'u4', ['vertex_count']);
+    desc.set('joints', c.array('joints', joints, 'u2', ['vertex_count', prefix + 'influence_count']));
+    desc.set('weights', c.array('weights', weights, 'f4', ['vertex_count', prefix + 'influence_count']));
+    desc.set('joint_parents', c.array('jointParents', jointParents, 'u4', [prefix + 'joint_count']));
+    desc.set('tags', c.array('tags', tags, 'u4', ['vertex_count']));
     desc.set('links', c.written('links', links, 'hf_link', [prefix + 'link_count']));
-    c.rows(desc, 'light_vertices', 'lightVertices', lightVertices, 'u4', [prefix + 'light_count']);
-    c.rows(desc, 'heavy_vertices', 'heavyVertices', heavyVertices, 'u4', [prefix + 'heavy_count']);
-    c.counts(desc, { influence_count: [prefix + 'influence_count', 0], link_count: [prefix + 'link_count', 0],
-            light_count: [prefix + 'light_count', 0], heavy_count: [prefix + 'heavy_count', 0],
-            joint_count: [prefix + 'joint_count', 0] });
+    desc.set('light_vertices', c.array('lightVertices', lightVertices, 'u4', [prefix + 'light_count']));
+    desc.set('heavy_vertices', c.array('heavyVertices', heavyVertices, 'u4', [prefix + 'heavy_count']));
+    desc.set('influence_count', (c.n[prefix + 'influence_count'] ??= 0));
+    desc.set('link_count', (c.n[prefix + 'link_count'] ??= 0));
+    desc.set('light_count', (c.n[prefix + 'light_count'] ??= 0));
+    desc.set('heavy_count', (c.n[prefix + 'heavy_count'] ??= 0));
+    desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
     return desc;
   };
 
@@ -95,13 +98,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_sites_desc', {});
-    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'site_count']);
+    desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'site_count']));
     desc.set('places', c.places('places', places, [prefix + 'site_count']));
-    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'site_count', 3]);
-    c.rows(desc, 'values', 'values', values, 'f8', [prefix + 'site_count', 'channel_count']);
-    c.rows(desc, 'stiffness', 'stiffness', stiffness, 'f8', [prefix + 'site_count']);
-    c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'site_count']);
-    c.counts(desc, { site_count: [prefix + 'site_count', 1] });
+    desc.set('points', c.array('points', points, 'f8', [prefix + 'site_count', 3]));
+    desc.set('values', c.array('values', values, 'f8', [prefix + 'site_count', 'channel_count']));
+    desc.set('stiffness', c.array('stiffness', stiffness, 'f8', [prefix + 'site_count']));
+    desc.set('radii', c.array('radii', radii, 'f8', [prefix + 'site_count']));
+    desc.set('site_count', (c.n[prefix + 'site_count'] ??= 1));
     return desc;
   };
 
@@ -110,14 +113,15 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_edit_desc', {});
-    c.rows(desc, 'remove_sites', 'removeSites', removeSites, 'u4', [prefix + 'remove_count']);
-    c.rows(desc, 'move_sites', 'moveSites', moveSites, 'u4', [prefix + 'move_count']);
-    c.rows(desc, 'set_sites', 'setSites', setSites, 'u4', [prefix + 'set_count']);
-    c.rows(desc, 'set_values', 'setValues', setValues, 'f8', [prefix + 'set_count', 'channel_count']);
+    desc.set('remove_sites', c.array('removeSites', removeSites, 'u4', [prefix + 'remove_count']));
+    desc.set('move_sites', c.array('moveSites', moveSites, 'u4', [prefix + 'move_count']));
+    desc.set('set_sites', c.array('setSites', setSites, 'u4', [prefix + 'set_count']));
+    desc.set('set_values', c.array('setValues', setValues, 'f8', [prefix + 'set_count', 'channel_count']));
     desc.set('move_to', c.inner(moveTo, 'vertices', sitesDesc, 'move_to.'));
     desc.set('add', c.inner(add, 'vertices', sitesDesc, 'add.'));
-    c.counts(desc, { remove_count: [prefix + 'remove_count', 0], move_count: [prefix + 'move_count', 0],
-            set_count: [prefix + 'set_count', 0] });
+    desc.set('remove_count', (c.n[prefix + 'remove_count'] ??= 0));
+    desc.set('move_count', (c.n[prefix + 'move_count'] ??= 0));
+    desc.set('set_count', (c.n[prefix + 'set_count'] ??= 0));
     return desc;
   };
 
@@ -161,13 +165,14 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             inPlace = false, freeRotation = false, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_handles_desc', { layer, in_place: inPlace, free_rotation: freeRotation });
-    c.ragged(desc, 'region_counts', 'region_vertices', 'regionVertices', regionVertices, prefix + 'handle_count');
-    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'handle_count']);
+    const regionVertices_ = c.lists('regionVertices', regionVertices, [prefix + 'handle_count']);
+    desc.set('region_counts', regionVertices_[0]).set('region_vertices', regionVertices_[1]);
+    desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'handle_count']));
     desc.set('places', c.places('places', places, [prefix + 'handle_count']));
-    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'handle_count', 3]);
-    c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'handle_count']);
+    desc.set('points', c.array('points', points, 'f8', [prefix + 'handle_count', 3]));
+    desc.set('radii', c.array('radii', radii, 'f8', [prefix + 'handle_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { handle_count: [prefix + 'handle_count', 1] });
+    desc.set('handle_count', (c.n[prefix + 'handle_count'] ??= 1));
     return desc;
   };
 
@@ -186,11 +191,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_handle_proposals_desc', { least_length_share: leastLengthShare, limit });
-    c.rows(desc, 'joints', 'joints', joints, 'f8', [prefix + 'joint_count', 3]);
-    c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
-    c.fixed(desc, 'up', 'up', up);
+    desc.set('joints', c.array('joints', joints, 'f8', [prefix + 'joint_count', 3]));
+    desc.set('parents', c.array('parents', parents, 'u4', [prefix + 'joint_count']));
+    desc.set('up', up && c.numbers('up', up, 'f8', [3]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { joint_count: [prefix + 'joint_count', 0] });
+    desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
     return desc;
   };
 
@@ -201,18 +206,19 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_quads_desc', { face_count: faceCount, edge_length: edgeLength, crease_angle: creaseAngle,
             relax_count: relaxCount });
-    c.rows(desc, 'crease_edges', 'creaseEdges', creaseEdges, 'u4', [prefix + 'crease_count', 2]);
-    c.rows(desc, 'guide_vertices', 'guideVertices', guideVertices, 'u4', [prefix + 'guide_count']);
-    c.rows(desc, 'guide_vectors', 'guideVectors', guideVectors, 'f8', [prefix + 'guide_count', 3]);
-    c.rows(desc, 'guide_weights', 'guideWeights', guideWeights, 'f4', [prefix + 'guide_count']);
-    c.rows(desc, 'irregular_points', 'irregularPoints', irregularPoints, 'f8', [prefix + 'irregular_count', 3]);
-    c.rows(desc, 'irregular_valences', 'irregularValences', irregularValences, 'u4', [prefix + 'irregular_count']);
-    c.rows(desc, 'irregular_directions', 'irregularDirections', irregularDirections, 'f8', [prefix + 'irregular_count',
-            3]);
-    c.fixed(desc, 'symmetry_plane', 'symmetryPlane', symmetryPlane);
+    desc.set('crease_edges', c.array('creaseEdges', creaseEdges, 'u4', [prefix + 'crease_count', 2]));
+    desc.set('guide_vertices', c.array('guideVertices', guideVertices, 'u4', [prefix + 'guide_count']));
+    desc.set('guide_vectors', c.array('guideVectors', guideVectors, 'f8', [prefix + 'guide_count', 3]));
+    desc.set('guide_weights', c.array('guideWeights', guideWeights, 'f4', [prefix + 'guide_count']));
+    desc.set('irregular_points', c.array('irregularPoints', irregularPoints, 'f8', [prefix + 'irregular_count', 3]));
+    desc.set('irregular_valences', c.array('irregularValences', irregularValences, 'u4', [prefix + 'irregular_count']));
+    desc.set('irregular_directions', c.array('irregularDirections', irregularDirections, 'f8',
+            [prefix + 'irregular_count', 3]));
+    desc.set('symmetry_plane', symmetryPlane && c.numbers('symmetryPlane', symmetryPlane, 'f8', [4]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { crease_count: [prefix + 'crease_count', 0], guide_count: [prefix + 'guide_count', 0],
-            irregular_count: [prefix + 'irregular_count', 0] });
+    desc.set('crease_count', (c.n[prefix + 'crease_count'] ??= 0));
+    desc.set('guide_count', (c.n[prefix + 'guide_count'] ??= 0));
+    desc.set('irregular_count', (c.n[prefix + 'irregular_count'] ??= 0));
     return desc;
   };
 
@@ -229,10 +235,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { vertices = null, places = null, points = null, side = 0, seedVertex = 0, kind = 0, ...more } = options;
     none(more);
     const desc = c.struct('hf_curve_desc', { side, seed_vertex: seedVertex, kind });
-    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'point_count']);
+    desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'point_count']));
     desc.set('places', c.places('places', places, [prefix + 'point_count']));
-    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'point_count', 3]);
-    c.counts(desc, { point_count: [prefix + 'point_count', 0] });
+    desc.set('points', c.array('points', points, 'f8', [prefix + 'point_count', 3]));
+    desc.set('point_count', (c.n[prefix + 'point_count'] ??= 0));
     return desc;
   };
 
@@ -241,11 +247,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_region_edit_desc', { ring_count: ringCount });
-    c.rows(desc, 'remove_vertices', 'removeVertices', removeVertices, 'u4', [prefix + 'remove_count']);
-    c.rows(desc, 'add_vertices', 'addVertices', addVertices, 'u4', [prefix + 'add_count']);
+    desc.set('remove_vertices', c.array('removeVertices', removeVertices, 'u4', [prefix + 'remove_count']));
+    desc.set('add_vertices', c.array('addVertices', addVertices, 'u4', [prefix + 'add_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('curve', c.inner(curve, 'vertices', curveDesc, 'curve.'));
-    c.counts(desc, { remove_count: [prefix + 'remove_count', 0], add_count: [prefix + 'add_count', 0] });
+    desc.set('remove_count', (c.n[prefix + 'remove_count'] ??= 0));
+    desc.set('add_count', (c.n[prefix + 'add_count'] ??= 0));
     return desc;
   };
 
@@ -260,10 +267,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { sourceVertices = null, targetVertices = null, scale = 0, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_detail_desc', { scale });
-    c.rows(desc, 'source_vertices', 'sourceVertices', sourceVertices, 'u4', [prefix + 'pair_count']);
-    c.rows(desc, 'target_vertices', 'targetVertices', targetVertices, 'u4', [prefix + 'pair_count']);
+    desc.set('source_vertices', c.array('sourceVertices', sourceVertices, 'u4', [prefix + 'pair_count']));
+    desc.set('target_vertices', c.array('targetVertices', targetVertices, 'u4', [prefix + 'pair_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { pair_count: [prefix + 'pair_count', 0] });
+    desc.set('pair_count', (c.n[prefix + 'pair_count'] ??= 0));
     return desc;
   };
 
@@ -272,9 +279,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_retarget_desc', { root_motion: rootMotion, leave_out: leaveOut, scale });
-    c.rows(desc, 'source_rest', 'sourceRest', sourceRest, 'f4', ['source.joint_count', 10]);
-    c.rows(desc, 'target_rest', 'targetRest', targetRest, 'f4', ['target.joint_count', 10]);
-    c.fixed(desc, 'ground_velocity', 'groundVelocity', groundVelocity);
+    desc.set('source_rest', c.array('sourceRest', sourceRest, 'f4', ['source.joint_count', 10]));
+    desc.set('target_rest', c.array('targetRest', targetRest, 'f4', ['target.joint_count', 10]));
+    desc.set('ground_velocity', groundVelocity && c.numbers('groundVelocity', groundVelocity, 'f8', [3]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
   };
@@ -283,12 +290,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { positions = null, triangles = null, joints = null, weights = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_skin_desc', {});
-    c.rows(desc, 'positions', 'positions', positions, 'f4', [prefix + 'vertex_count', 3]);
-    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'triangle_count', 3]);
-    c.rows(desc, 'joints', 'joints', joints, 'u4', [prefix + 'vertex_count', prefix + 'influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', [prefix + 'vertex_count', prefix + 'influence_count']);
-    c.counts(desc, { vertex_count: [prefix + 'vertex_count', 0], triangle_count: [prefix + 'triangle_count', 0],
-            influence_count: [prefix + 'influence_count', 0] });
+    desc.set('positions', c.array('positions', positions, 'f4', [prefix + 'vertex_count', 3]));
+    desc.set('triangles', c.array('triangles', triangles, 'u4', [prefix + 'triangle_count', 3]));
+    desc.set('joints', c.array('joints', joints, 'u4', [prefix + 'vertex_count', prefix + 'influence_count']));
+    desc.set('weights', c.array('weights', weights, 'f4', [prefix + 'vertex_count', prefix + 'influence_count']));
+    desc.set('vertex_count', (c.n[prefix + 'vertex_count'] ??= 0));
+    desc.set('triangle_count', (c.n[prefix + 'triangle_count'] ??= 0));
+    desc.set('influence_count', (c.n[prefix + 'influence_count'] ??= 0));
     return desc;
   };
 
@@ -297,18 +305,19 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             sides = null, travels = null, skin = null, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_skeleton_desc', {});
-    c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
-    c.rows(desc, 'rest', 'rest', rest, 'f4', [prefix + 'joint_count', 10]);
-    c.rows(desc, 'inverse_binds', 'inverseBinds', inverseBinds, 'f4', [prefix + 'joint_count', 16]);
-    c.rows(desc, 'up', 'up', up, 'f4', [3]);
-    c.rows(desc, 'forward', 'forward', forward, 'f4', [3]);
-    c.rows(desc, 'roles', 'roles', roles, 'i4', [prefix + 'joint_count']);
-    c.rows(desc, 'sides', 'sides', sides, 'i4', [prefix + 'joint_count']);
-    c.rows(desc, 'travels', 'travels', travels, 'f4', [prefix + 'travel_count', 3]);
+    desc.set('parents', c.array('parents', parents, 'u4', [prefix + 'joint_count']));
+    desc.set('rest', c.array('rest', rest, 'f4', [prefix + 'joint_count', 10]));
+    desc.set('inverse_binds', c.array('inverseBinds', inverseBinds, 'f4', [prefix + 'joint_count', 16]));
+    desc.set('up', c.array('up', up, 'f4', [3]));
+    desc.set('forward', c.array('forward', forward, 'f4', [3]));
+    desc.set('roles', c.array('roles', roles, 'i4', [prefix + 'joint_count']));
+    desc.set('sides', c.array('sides', sides, 'i4', [prefix + 'joint_count']));
+    desc.set('travels', c.array('travels', travels, 'f4', [prefix + 'travel_count', 3]));
     desc.set('names', c.text(names, 'names'));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('skin', c.inner(skin, 'positions', skinDesc, 'skin.'));
-    c.counts(desc, { joint_count: [prefix + 'joint_count', 0], travel_count: [prefix + 'travel_count', 0] });
+    desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
+    desc.set('travel_count', (c.n[prefix + 'travel_count'] ??= 0));
     return desc;
   };
 
@@ -320,8 +329,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             scale, alignment_angle: alignmentAngle });
     desc.set('source_rest', c.view('sourceRest', sourceRest, 'f4 f8', ['source.vertex_count', 3]));
     desc.set('target_rest', c.view('targetRest', targetRest, 'f4 f8', ['target.vertex_count', 3]));
-    c.fixed(desc, 'source_axes', 'sourceAxes', sourceAxes);
-    c.fixed(desc, 'target_axes', 'targetAxes', targetAxes);
+    desc.set('source_axes', sourceAxes && c.numbers('sourceAxes', sourceAxes, 'f8', [9]));
+    desc.set('target_axes', targetAxes && c.numbers('targetAxes', targetAxes, 'f8', [9]));
     return desc;
   };
 
@@ -329,11 +338,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { sourceVertices = null, targetVertices = null, flags = null, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_pairs_desc', {});
-    c.ragged(desc, 'source_counts', 'source_vertices', 'sourceVertices', sourceVertices, prefix + 'pair_count');
-    c.ragged(desc, 'target_counts', 'target_vertices', 'targetVertices', targetVertices, prefix + 'pair_count');
-    c.rows(desc, 'flags', 'flags', flags, 'u4', [prefix + 'pair_count']);
+    const sourceVertices_ = c.lists('sourceVertices', sourceVertices, [prefix + 'pair_count']);
+    desc.set('source_counts', sourceVertices_[0]).set('source_vertices', sourceVertices_[1]);
+    const targetVertices_ = c.lists('targetVertices', targetVertices, [prefix + 'pair_count']);
+    desc.set('target_counts', targetVertices_[0]).set('target_vertices', targetVertices_[1]);
+    desc.set('flags', c.array('flags', flags, 'u4', [prefix + 'pair_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { pair_count: [prefix + 'pair_count', 1] });
+    desc.set('pair_count', (c.n[prefix + 'pair_count'] ??= 1));
     return desc;
   };
 
@@ -351,9 +362,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_transfer_frame', {});
     desc.set('source_positions', c.view('sourcePositions', sourcePositions, 'f4 f8', ['source.vertex_count', 3]));
-    c.rows(desc, 'hold_pairs', 'holdPairs', holdPairs, 'u4', [prefix + 'hold_count']);
-    c.rows(desc, 'hold_positions', 'holdPositions', holdPositions, 'f8', [prefix + 'hold_count', 3]);
-    c.counts(desc, { hold_count: [prefix + 'hold_count', 0] });
+    desc.set('hold_pairs', c.array('holdPairs', holdPairs, 'u4', [prefix + 'hold_count']));
+    desc.set('hold_positions', c.array('holdPositions', holdPositions, 'f8', [prefix + 'hold_count', 3]));
+    desc.set('hold_count', (c.n[prefix + 'hold_count'] ??= 0));
     return desc;
   };
 
@@ -362,14 +373,14 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_joints_desc', {});
-    c.rows(desc, 'heads', 'heads', heads, 'f8', [prefix + 'joint_count', 3]);
-    c.rows(desc, 'tails', 'tails', tails, 'f8', [prefix + 'joint_count', 3]);
-    c.rows(desc, 'axes', 'axes', axes, 'f8', [prefix + 'joint_count', 3]);
-    c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
-    c.rows(desc, 'deforms', 'deforms', deforms, 'i4', [prefix + 'joint_count']);
-    c.rows(desc, 'sources', 'sources', sources, 'u4', [prefix + 'joint_count']);
+    desc.set('heads', c.array('heads', heads, 'f8', [prefix + 'joint_count', 3]));
+    desc.set('tails', c.array('tails', tails, 'f8', [prefix + 'joint_count', 3]));
+    desc.set('axes', c.array('axes', axes, 'f8', [prefix + 'joint_count', 3]));
+    desc.set('parents', c.array('parents', parents, 'u4', [prefix + 'joint_count']));
+    desc.set('deforms', c.array('deforms', deforms, 'i4', [prefix + 'joint_count']));
+    desc.set('sources', c.array('sources', sources, 'u4', [prefix + 'joint_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { joint_count: [prefix + 'joint_count', 0] });
+    desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
     return desc;
   };
 
@@ -378,14 +389,15 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_pins_desc', {});
-    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'pin_count']);
+    desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'pin_count']));
     desc.set('places', c.places('places', places, [prefix + 'pin_count']));
-    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'pin_count', 3]);
-    c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'pin_count']);
-    c.rows(desc, 'joints', 'joints', joints, 'u4', [prefix + 'pin_count', prefix + 'influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', [prefix + 'pin_count', prefix + 'influence_count']);
+    desc.set('points', c.array('points', points, 'f8', [prefix + 'pin_count', 3]));
+    desc.set('radii', c.array('radii', radii, 'f8', [prefix + 'pin_count']));
+    desc.set('joints', c.array('joints', joints, 'u4', [prefix + 'pin_count', prefix + 'influence_count']));
+    desc.set('weights', c.array('weights', weights, 'f4', [prefix + 'pin_count', prefix + 'influence_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { pin_count: [prefix + 'pin_count', 0], influence_count: [prefix + 'influence_count', 0] });
+    desc.set('pin_count', (c.n[prefix + 'pin_count'] ??= 0));
+    desc.set('influence_count', (c.n[prefix + 'influence_count'] ??= 0));
     return desc;
   };
 
@@ -395,10 +407,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_weights_transfer_desc', { distance, angle, influence_count: influenceCount });
     c.known('influence_count', influenceCount || 4);
-    c.rows(desc, 'joints', 'joints', joints, 'u4', ['source.vertex_count', prefix + 'source_influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', ['source.vertex_count', prefix + 'source_influence_count']);
+    desc.set('joints', c.array('joints', joints, 'u4', ['source.vertex_count', prefix + 'source_influence_count']));
+    desc.set('weights', c.array('weights', weights, 'f4', ['source.vertex_count', prefix + 'source_influence_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { source_influence_count: [prefix + 'source_influence_count', 0] });
+    desc.set('source_influence_count', (c.n[prefix + 'source_influence_count'] ??= 0));
     return desc;
   };
 
@@ -408,15 +420,15 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_weights_mirror_desc', { to, distance, angle, influence_count: influenceCount });
     c.known('influence_count', influenceCount || 4);
-    c.rows(desc, 'heads', 'heads', heads, 'f8', [prefix + 'joint_count', 3]);
-    c.rows(desc, 'partners', 'partners', partners, 'u4', [prefix + 'joint_count']);
-    c.rows(desc, 'plane', 'plane', plane, 'f8', [6]);
-    c.rows(desc, 'joints', 'joints', joints, 'u4', ['vertex_count', prefix + 'source_influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', ['vertex_count', prefix + 'source_influence_count']);
+    desc.set('heads', c.array('heads', heads, 'f8', [prefix + 'joint_count', 3]));
+    desc.set('partners', c.array('partners', partners, 'u4', [prefix + 'joint_count']));
+    desc.set('plane', c.array('plane', plane, 'f8', [6]));
+    desc.set('joints', c.array('joints', joints, 'u4', ['vertex_count', prefix + 'source_influence_count']));
+    desc.set('weights', c.array('weights', weights, 'f4', ['vertex_count', prefix + 'source_influence_count']));
     desc.set('names', c.text(names, 'names'));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { joint_count: [prefix + 'joint_count', 0],
-            source_influence_count: [prefix + 'source_influence_count', 0] });
+    desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
+    desc.set('source_influence_count', (c.n[prefix + 'source_influence_count'] ??= 0));
     return desc;
   };
 
@@ -554,7 +566,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { progress = null, ...more } = options;
       none(more);
       const c = new Call(this);
-      const size = c.sizes();
+      const size = newHandle();
       call('hf_surface_save', this._handle, fieldKind, handleOf(progress, Progress, 'progress'), 0, null,
               written(size));
       const block = new Uint8Array(Number(size[0]));
@@ -1062,8 +1074,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       const transform = c.struct('hf_transform', {});
-      c.fixed(transform, 'rotation', 'rotation', rotation);
-      c.fixed(transform, 'translation', 'translation', translation);
+      transform.set('rotation', rotation && c.numbers('rotation', rotation, 'f8', [4]));
+      transform.set('translation', translation && c.numbers('translation', translation, 'f8', [3]));
       call('hf_pose_set_transform', this._handle, handle, transform);
     }
 
@@ -1219,8 +1231,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
       const lines = c.struct('hf_streamlines', { wanted_count: wantedCount });
-      c.rows(lines, 'seeds', 'seeds', seeds, 'u4', ['seed_count']);
-      c.counts(lines, { seed_count: ['seed_count', 0] });
+      lines.set('seeds', c.array('seeds', seeds, 'u4', ['seed_count']));
+      lines.set('seed_count', (c.n['seed_count'] ??= 0));
       const found = c.grow(this, 'hf_flow_trace', (room, made) => (c.into(lines, room, made), call('hf_flow_trace',
               this._handle, field === null || field === undefined ? null : field_, lines)),
               () => ({ point_capacity: lines.get('point_count'), line_capacity: lines.get('line_count') }),
@@ -1455,7 +1467,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     reasons() {
       const c = new Call(this);
-      const size = c.sizes();
+      const size = newHandle();
       call('hf_skeleton_get_reasons', this._handle, 0, null, written(size));
       const block = new Uint8Array(Number(size[0]));
       call('hf_skeleton_get_reasons', this._handle, block.length, written(block), written(size));
