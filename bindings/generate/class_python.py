@@ -74,7 +74,8 @@ class Steps:
         return [f"c.n.pop('{key}', None)  # of the list given here"]
 
     def do_known(self, key, default):
-        return [f"c.known('{key}', {safe(key)}{' or ' + default if default else ''})"]
+        given = f"number({safe(key)}, '{key}')"
+        return [f"c.n['{key}'] = {given} or {default}"] if default else [f"if {given}:", f"    c.n['{key}'] = {safe(key)}"]
 
     def do_struct(self, var, type, fields):
         options = ", ".join(f"'{name}': {safe(name)}" for name in fields)

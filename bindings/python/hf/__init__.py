@@ -19,7 +19,7 @@ from . import _api, _errors
 from . import _raw as constants
 from ._api import *  # noqa: F401,F403
 from ._errors import *  # noqa: F401,F403
-from ._library import ArrayLike, converted, numbers, version
+from ._library import ArrayLike, converted, numbers, require, version
 
 __version__ = constants.HEADER_VERSION
 NO_INDEX = constants.HF_NO_INDEX
@@ -30,11 +30,10 @@ def _faces(faces: Any) -> Dict[str, Any]:
     """(m, k) corners, (offsets, corners) or (starts, sizes, corners) as the fields of hf_faces_desc."""
     if not isinstance(faces, tuple):
         around = numbers(faces, "faces")
-        if around.ndim != 2 or around.shape[1] < 3:
-            raise _errors.InvalidArgumentError(f"faces must have the shape (m, 3) or wider, not {around.shape}")
+        wide = around.ndim == 2 and around.shape[1] > 2
+        require(wide, "faces must have the shape (m, 3) or wider, not {}", around.shape)
         faces = None, np.full(len(around), around.shape[1], np.uint32), around
-    if len(faces) not in (2, 3):
-        raise _errors.InvalidArgumentError("faces must be (offsets, corners) or (starts, sizes, corners)")
+    require(len(faces) in (2, 3), "faces must be (offsets, corners) or (starts, sizes, corners)")
     return {"starts": faces[0], "sizes": faces[1] if len(faces) == 3 else None, "corners": faces[-1]}
 
 
@@ -45,12 +44,10 @@ class Surface(_api.Surface):
     link_pieces: True joins the pieces of a character by links. tags: (n,) with it: pieces of different tags stay apart
     """
 
-    def __init__(self, positions: ArrayLike, triangles: Optional[ArrayLike] = None, *, faces: Any = None, link_pieces: bool = False,
-                 tags: Optional[ArrayLike] = None, **options: Any) -> None:
-        if positions is None:
-            raise _errors.NullPointerError("positions is None")
-        if tags is not None and not link_pieces:
-            raise _errors.InvalidArgumentError("tags need link_pieces=True")
+    def __init__(self, positions: ArrayLike, triangles: Optional[ArrayLike] = None, *, faces: Any = None,
+                 link_pieces: bool = False, tags: Optional[ArrayLike] = None, **options: Any) -> None:
+        require(positions is not None, "positions is None", error=_errors.NullPointerError)
+        require(link_pieces or tags is None, "tags need link_pieces=True")
         if link_pieces:
             options["links"] = {"mode": _api.LinkMode.PIECES, "tags": tags}
         super().__init__(positions, triangles, **options, faces=None if faces is None else _faces(faces))
@@ -62,6 +59,5 @@ class Pose(_api.Pose):
     def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
         """Rigid 4 x 4 matrices rest -> posed, (k, 4, 4) in the usual row-by-row reading."""
         rows = converted(matrices, "matrices", "f8")
-        if rows.size % 16:
-            raise _errors.InvalidArgumentError(f"matrices must have the shape (k, 4, 4), not {rows.shape}")
+        require(rows.size % 16 == 0, "matrices must have the shape (k, 4, 4), not {}", rows.shape)
         super().set_matrices(handles, rows.reshape(-1, 4, 4).transpose(0, 2, 1))

@@ -662,7 +662,8 @@ def _graph_desc(c: Call, prefix: str = '', *, edges: Optional[ArrayLike] = None,
     desc = c.struct(_raw.hf_graph_desc, {'vertex_count': vertex_count, 'allow_negative': allow_negative,
             'field_kind': field_kind, 'ordering': ordering, 'thread_count': thread_count, 'vertex_limit': vertex_limit,
             'edge_limit': edge_limit, 'memory_limit_mb': memory_limit_mb, 'work_limit_gflop': work_limit_gflop})
-    c.known('vertex_count', vertex_count)
+    if number(vertex_count, 'vertex_count'):
+        c.n['vertex_count'] = vertex_count
     desc.edges = c.view('edges', edges, 'u4 u2', ('edge_count', 2))
     desc.weights = c.view('weights', weights, 'f4 f8', ('edge_count',))
     desc.masses = c.view('masses', masses, 'f4 f8', ('vertex_count',))
@@ -681,7 +682,7 @@ def _solver_desc(c: Call, prefix: str = '', *, field_kind: int = FieldKind.HARMO
         site_limit: int = 0, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_solver_desc, {'field_kind': field_kind, 'channel_count': channel_count,
             'site_limit': site_limit})
-    c.known('channel_count', channel_count or 1)
+    c.n['channel_count'] = number(channel_count, 'channel_count') or 1
     desc.progress = handle_of(progress, Progress, 'progress')
     return desc
 
@@ -727,7 +728,7 @@ def _extremities_desc(c: Call, prefix: str = '', *, kind: int = ExtremityKind.PO
         source_count: int = 0, geodesics: Optional[Geodesics] = None, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_extremities_desc, {'kind': kind, 'least_length_share': least_length_share,
             'source_count': source_count})
-    c.known('source_count', source_count or 40)
+    c.n['source_count'] = number(source_count, 'source_count') or 40
     desc.geodesics = handle_of(geodesics, Geodesics, 'geodesics')
     desc.progress = handle_of(progress, Progress, 'progress')
     return desc
@@ -766,7 +767,8 @@ def _deform_desc(c: Call, prefix: str = '', *, iteration_count: int = 0, restart
         refine_from_last: bool = False, first_vertex: int = 0, vertex_count: int = 0) -> Any:
     desc = c.struct(_raw.hf_deform_desc, {'iteration_count': iteration_count, 'restart': restart, 'refine': refine,
             'refine_from_last': refine_from_last, 'first_vertex': first_vertex, 'vertex_count': vertex_count})
-    c.known('vertex_count', vertex_count)
+    if number(vertex_count, 'vertex_count'):
+        c.n['vertex_count'] = vertex_count
     return desc
 
 
@@ -979,7 +981,7 @@ def _weights_transfer_desc(c: Call, prefix: str = '', *, joints: Optional[ArrayL
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_weights_transfer_desc, {'distance': distance, 'angle': angle,
             'influence_count': influence_count})
-    c.known('influence_count', influence_count or 4)
+    c.n['influence_count'] = number(influence_count, 'influence_count') or 4
     desc.joints = c.array('joints', joints, 'u4', ('source.vertex_count', prefix + 'source_influence_count'))
     desc.weights = c.array('weights', weights, 'f4', ('source.vertex_count', prefix + 'source_influence_count'))
     desc.progress = handle_of(progress, Progress, 'progress')
@@ -994,7 +996,7 @@ def _weights_mirror_desc(c: Call, prefix: str = '', *, heads: Optional[ArrayLike
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_weights_mirror_desc, {'to': to, 'distance': distance, 'angle': angle,
             'influence_count': influence_count})
-    c.known('influence_count', influence_count or 4)
+    c.n['influence_count'] = number(influence_count, 'influence_count') or 4
     desc.heads = c.array('heads', heads, 'f8', (prefix + 'joint_count', 3))
     desc.partners = c.array('partners', partners, 'u4', (prefix + 'joint_count',), sentinel=True)
     desc.plane = c.array('plane', plane, 'f8', (6,))
@@ -1363,7 +1365,8 @@ class Surface(Object):
         """
         c = Call(self)
         field_ = c.view('field', field, 'f4 f8', ('vertex_count',))
-        c.known('level_count', level_count)
+        if number(level_count, 'level_count'):
+            c.n['level_count'] = level_count
         levels = c.out(None, 'f8', ('level_count',), packed=True)
         call('hf_surface_space_levels', self._handle, None if field is None else ref(field_), number(spacing, 'spacing',
                 ctypes.c_int32, flag=False), number(level_count, 'level_count', ctypes.c_uint32), address(levels))
@@ -2401,7 +2404,7 @@ class Pose(Recorded):
         """
         c = Call(self)
         skin = c.struct(_raw.hf_skin_info, {'influence_count': influence_count})
-        c.known('influence_count', influence_count or 4)
+        c.n['influence_count'] = number(influence_count, 'influence_count') or 4
 
         def run(room: Any, made: Any) -> None:
             c.into(skin, room, made)
@@ -3201,7 +3204,7 @@ class Transfer(Object):
         """
         c = Call(self)
         skin = c.struct(_raw.hf_skin_info, {'influence_count': influence_count})
-        c.known('influence_count', influence_count or 4)
+        c.n['influence_count'] = number(influence_count, 'influence_count') or 4
 
         def run(room: Any, made: Any) -> None:
             c.into(skin, room, made)
@@ -3251,7 +3254,7 @@ class Weights(Recorded):
         c = Call(surface=surface)
         desc = _joints_desc(c, heads=heads, tails=tails, axes=axes, parents=parents, deforms=deforms, sources=sources,
                 progress=progress)
-        c.known('influence_count', influence_count or 4)
+        c.n['influence_count'] = number(influence_count, 'influence_count') or 4
         self._own('hf_weights_create', c, handle_of(surface, Surface, 'surface'), ref(desc), number(influence_count,
                 'influence_count', ctypes.c_uint32))
 

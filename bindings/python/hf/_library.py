@@ -7,7 +7,6 @@ import ctypes
 import functools
 import math
 import os
-import pathlib
 import sys
 from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
@@ -18,31 +17,21 @@ from ._errors import EmptyError, InvalidArgumentError, NullPointerError, OutOfRa
 
 ArrayLike = Any
 PlaceLike = Union[int, Tuple[Sequence[int], Sequence[float]], _raw.hf_place, _raw.hf_hit]
-_loaded: Optional[ctypes.CDLL] = None
 
 
+@functools.lru_cache(None)
 def library() -> ctypes.CDLL:
     """The loaded shared library: $HF_LIBRARY, the file inside this package, or the system's."""
-    global _loaded
-    if _loaded is None:
-        name = {"win32": "hf.dll", "darwin": "libhf.dylib"}.get(sys.platform, "libhf.so.0")
-        beside = [pathlib.Path(__file__).resolve().parent / n for n in (name, "libhf.so")]
-        given = os.environ.get("HF_LIBRARY")
-        tried = []
-        for path in [given] if given else [*(str(path) for path in beside if path.exists()), name]:
-            try:
-                _loaded = _raw.load(path)
-                break
-            except (OSError, AttributeError) as error:  # not there, or too old: a function is missing
-                tried.append(f"{path}: {error}")
-        else:
-            raise ImportError("the hf library was not found; set HF_LIBRARY to libhf.so, or put it beside the package. "
-                              + "; ".join(tried))
-        found, wanted = version(), tuple(map(int, _raw.HEADER_VERSION.split(".")))
-        if found[0] != wanted[0] or found < wanted[:2]:
-            raise ImportError(f"the hf library is of version {'.'.join(map(str, found))}, this package of "
-                              f"{_raw.HEADER_VERSION}; install matching ones")
-    return _loaded
+    name = {"win32": "hf.dll", "darwin": "libhf.dylib"}.get(sys.platform, "libhf.so.0")
+    beside = [os.path.join(os.path.dirname(os.path.abspath(__file__)), n) for n in (name, "libhf.so")]
+    given = os.environ.get("HF_LIBRARY")
+    tried = []
+    for path in [given] if given else [*filter(os.path.exists, beside), name]:
+        try:
+            return _raw.load(path)
+        except (OSError, AttributeError) as error:  # not there, of another version, or too old: a function is missing
+            tried.append(f"{path}: {error}")
+    raise ImportError("the hf library was not found; set HF_LIBRARY to libhf.so, or put it beside the package. " + "; ".join(tried))
 
 
 def version() -> Tuple[int, ...]:
@@ -62,6 +51,12 @@ def call(name: str, *arguments: Any) -> None:
                                                             detail.function.decode())
 
 
+def require(right: Any, words: str, *values: Any, error: Any = InvalidArgumentError, index: Any = None) -> None:
+    """Refuses what is not right. The words are put together only then."""
+    if not right:
+        raise error(words.format(*values), index=index)
+
+
 # ---- numbers ----
 
 def numbers(values: ArrayLike, name: str) -> np.ndarray:
@@ -70,16 +65,14 @@ def numbers(values: ArrayLike, name: str) -> np.ndarray:
     for i, row in enumerate(values if isinstance(values, (list, tuple)) else (values,)):
         if isinstance(row, np.ma.MaskedArray) and np.ma.is_masked(row):
             first = int(np.flatnonzero(np.ma.getmaskarray(row))[0]) if row is values else i
-            raise InvalidArgumentError(f"{name} holds masked values, the first at {first}", index=first)
+            require(False, "{} holds masked values, the first at {}", name, first, index=first)
     try:
         array = np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:
         raise InvalidArgumentError(f"{name} must be numbers: {error}") from None
-    if array.size and array.dtype.kind not in "iuf":
-        raise InvalidArgumentError(f"{name} must be numbers, not {array.dtype}")
-    if not array.dtype.isnative:
-        raise InvalidArgumentError(f"{name} is in foreign byte order ({array.dtype.str}); "
-                                   "convert it with astype(dtype.newbyteorder('='))")
+    require(array.dtype.kind in "iuf" or not array.size, "{} must be numbers, not {}", name, array.dtype)
+    require(array.dtype.isnative, "{} is in foreign byte order ({}); convert it with astype(dtype.newbyteorder('='))",
+            name, array.dtype.str)
     return array
 
 
@@ -96,12 +89,10 @@ def converted(values: ArrayLike, name: str, kinds: Any, sentinel: bool = False) 
     if array.dtype in types or types[0].kind == "f":
         return array if array.dtype in types else array.astype(types[-1])
     limits, flat = np.iinfo(types[0]), array.ravel()
-    if flat.size and flat.dtype.kind not in "iu":
-        raise InvalidArgumentError(f"{name} must be whole numbers, not {flat.dtype}")
-    bad = np.flatnonzero((flat < (-1 if sentinel else limits.min)) | (flat > limits.max))
-    if bad.size:
-        raise OutOfRangeError(f"{name} holds {flat[bad[0]]}; it must lie in {limits.min} to {limits.max}",
-                              index=int(bad[0]) if array.ndim else None)
+    require(flat.dtype.kind in "iu" or not flat.size, "{} must be whole numbers, not {}", name, flat.dtype)
+    for i in np.flatnonzero((flat < (-1 if sentinel else limits.min)) | (flat > limits.max)):
+        require(False, "{} holds {}; it must lie in {} to {}", name, flat[i], limits.min, limits.max,
+                error=OutOfRangeError, index=int(i) if array.ndim else None)
     return array.astype(types[0])
 
 
@@ -110,8 +101,7 @@ def number(value: Any, name: str, kind: Any = ctypes.c_uint32, flag: bool = True
     name. Flags (int32_t) take bools."""
     is_flag = flag and kind is ctypes.c_int32 and isinstance(value, (bool, np.bool_))
     array = converted(int(value) if is_flag else value, name, kind)
-    if array.ndim:
-        raise InvalidArgumentError(f"{name} must be one number, not {value!r}")
+    require(array.ndim == 0, "{} must be one number, not {!r}", name, value)
     return array.item()
 
 
@@ -128,8 +118,7 @@ def _in_rows(array: np.ndarray) -> bool:
 
 def ref(struct: Any, kind: type = object) -> Any:
     """The address of a struct; of one that the caller gave when it is of the right kind."""
-    if not isinstance(struct, (kind, type(None))):
-        raise InvalidArgumentError(f"info must be a {kind.__name__}, not {type(struct).__name__}")
+    require(isinstance(struct, (kind, type(None))), "info must be a {0.__name__}, not {1.__name__}", kind, type(struct))
     return None if struct is None else ctypes.byref(struct)
 
 
@@ -163,10 +152,8 @@ class Call:
 
     def size(self, dim: Any) -> Optional[int]:
         """What a dimension such as 'face_count + 1' is; None: not known yet."""
-        if dim.__class__ is int:
-            return dim
-        base, _, more = dim.partition(" + ")
-        return self.n[base] + int(more or 0) if base in self.n else None
+        base, _, more = ("", "", "") if dim.__class__ is int else dim.partition(" + ")
+        return dim if dim.__class__ is int else self.n[base] + int(more or 0) if base in self.n else self.n.get(dim)
 
     def fit(self, array: np.ndarray, name: str, dims: tuple) -> np.ndarray:
         """The array in the shape that dims say; a dimension that is not known yet becomes known."""
@@ -179,13 +166,10 @@ class Call:
         if array.ndim != len(dims) and len(loose) < 2:  # one after the other
             found = [array.size // (known or 1) if size is None else size for size in sizes]
         right = len(found) == len(dims) and all(size in (None, have) for size, have in zip(sizes, found))
-        if not right or math.prod(found) != array.size:
-            wanted = ", ".join(str(dim if size is None else size) for dim, size in zip(dims, sizes))
-            raise InvalidArgumentError(f"{name} must have the shape ({wanted}), not {array.shape}")
-        for dim, size in zip(dims, found):
-            if dim in loose:
-                base, _, more = dim.partition(" + ")
-                self.n[base] = max(size - int(more or 0), 0)
+        wanted = ", ".join(str(dim if size is None else size) for dim, size in zip(dims, sizes))
+        right = right and math.prod(found) == array.size
+        require(right, "{} must have the shape ({}), not {}", name, wanted, array.shape)
+        self.n.update({dim: size for dim, size in zip(dims, found) if dim in loose})
         return array
 
     def kept(self, array: np.ndarray) -> Optional[int]:
@@ -193,7 +177,7 @@ class Call:
         self.keep.append(np.ascontiguousarray(array))
         return address(self.keep[-1])
 
-    def array(self, name: str, values: Optional[ArrayLike], kinds: str, dims: tuple, sentinel: bool = False) -> Optional[int]:
+    def array(self, name: str, values: Optional[ArrayLike], kinds: str, dims: tuple, sentinel: bool = False) -> Any:
         return None if values is None else self.kept(self.fit(converted(values, name, kinds, sentinel), name, dims))
 
     def view(self, name: str, values: Optional[ArrayLike], kinds: str, dims: tuple) -> Any:
@@ -222,8 +206,7 @@ class Call:
         """Lists of different lengths, one after the other: where their lengths are, and they."""
         if lists is None:
             return None, None
-        if any(part is None for part in lists):
-            raise NullPointerError(f"{name} holds None")
+        require(all(part is not None for part in lists), "{} holds None", name, error=NullPointerError)
         arrays = [converted(part, f"{name}[{i}]", "u4").ravel() for i, part in enumerate(lists)]
         sizes = self.fit(np.array([part.size for part in arrays], np.uint32), name, dims)
         return self.kept(sizes), self.kept(np.concatenate([*arrays, np.empty(0, np.uint32)]))
@@ -245,8 +228,8 @@ class Call:
 
     def written(self, name: str, values: Optional[ArrayLike], kind: type, dims: tuple) -> Optional[int]:
         """Records that the library wrote, given back to it."""
-        if values is not None and getattr(values, "dtype", None) != np.dtype(kind):
-            raise InvalidArgumentError(f"{name} must be records of numpy.dtype(hf.constants.{kind.__name__})")
+        right = values is None or getattr(values, "dtype", None) == np.dtype(kind)
+        require(right, "{} must be records of numpy.dtype(hf.constants.{})", name, kind.__name__)
         return None if values is None else self.kept(self.fit(values, name, dims))
 
     def places(self, name: str, values: Optional[Sequence[PlaceLike]], dims: tuple) -> Optional[int]:
@@ -265,20 +248,13 @@ class Call:
 
     def bytes(self, name: str, values: Any) -> tuple:
         """Where bytes are, and how many."""
-        try:
-            block = np.frombuffer(b"" if values is None else values, np.uint8)
-        except (TypeError, ValueError, BufferError) as error:
-            raise InvalidArgumentError(f"{name} must be bytes: {error}") from None
+        block = np.frombuffer(b"" if values is None else values, np.uint8)
         return self.kept(block), block.size
 
     def inner(self, given: Any, first: str, fill: Callable, prefix: str) -> Optional[int]:
         """A desc inside a desc: a dict of its arguments, or its first array alone."""
         given = given if given is None or isinstance(given, dict) else {first: given}
         return None if given is None else ctypes.addressof(fill(self, prefix, **given))
-
-    def known(self, key: str, value: int) -> None:
-        if number(value, key):
-            self.n[key] = int(value)
 
     # what comes out
 
@@ -287,49 +263,47 @@ class Call:
         sizes = [(dim, self.size(dim) or 0) for dim in dims]
         return tuple(size for k, (dim, size) in enumerate(sizes) if k == 0 or size != 1 or isinstance(dim, int))
 
-    def out(self, out: Optional[np.ndarray], kinds: str, dims: tuple, dtype: Any = None, name: str = "out", packed: bool = False) -> Any:
+    def out(self, out: Optional[np.ndarray], kinds: str, dims: tuple, dtype: Any = None, name: str = "out",
+            packed: bool = False) -> Any:
         """The caller's array, or a new one. Rows may have a stride, unless they must be packed."""
         shape, wanted = self.shape(dims), _types(kinds)
-        if out is None and dtype is not None and np.dtype(dtype) not in wanted:
-            raise InvalidArgumentError(f"dtype must be {' or '.join(map(str, wanted))}, not {dtype}")
         if out is None:
+            require(dtype is None or np.dtype(dtype) in wanted, "dtype must be one of {}, not {}", wanted, dtype)
             return np.empty(shape, dtype or wanted[0])
-        if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray) or out.dtype not in wanted:
-            raise InvalidArgumentError(f"{name} must be an array of {' or '.join(map(str, wanted))}")
-        if out.size != math.prod(shape):
-            raise TooSmallError(f"{name} must have the shape {shape}, not {out.shape}")
-        if not out.flags.writeable:
-            raise InvalidArgumentError(f"{name} is read-only")
-        if not out.flags.c_contiguous and (packed or out.shape != shape or not _in_rows(out)):
-            raise InvalidArgumentError(f"{name} must be contiguous" if packed else f"{name} may have a stride between rows only")
+        usual = isinstance(out, np.ndarray) and not isinstance(out, np.ma.MaskedArray)
+        require(usual and out.dtype in wanted, "{} must be an array of {}", name, " or ".join(map(str, wanted)))
+        fits = out.size == math.prod(shape)
+        require(fits, "{} must have the shape {}, not {}", name, shape, out.shape, error=TooSmallError)
+        require(out.flags.writeable, "{} is read-only", name)
+        require(out.flags.c_contiguous or not packed, "{} must be contiguous", name)
+        rows = out.flags.c_contiguous or (out.shape == shape and _in_rows(out))
+        require(rows, "{} may have a stride between rows only", name)
         return out
 
     def into(self, struct: Any, room: Dict[str, int], arrays: Dict[str, Any]) -> None:
         for key, value in {**room, **{key: address(array) for key, array in arrays.items()}}.items():
             setattr(struct, key, value)
 
-    def grow(self, owner: Any, function: str, run: Callable, tell: Callable, rooms: Dict[str, Any], arrays: Dict[str, tuple]) -> Any:
+    def grow(self, owner: Any, function: str, run: Callable, tell: Callable, rooms: Dict[str, Any],
+             arrays: Dict[str, tuple]) -> Any:
         """Arrays of lengths that the library tells. run(room, arrays) calls it, and again with more room when that was too
         little; tell() gives the counts. rooms: capacity -> the first to try, or None: what sufficed last time."""
         memory = owner.__dict__.setdefault("_rooms", {})
         room = {key: memory.get((function, key), 1024) if first is None else first for key, first in rooms.items()}
-        fits = known = False
-        while not (fits and known):
+        done = False
+        while not done:
             self.n.update(room)
-            known = all(self.size(dim) is not None for _, dims in arrays.values() for dim in dims)  # else counts alone are asked for
-            made: Any = {name: np.zeros(self.shape(dims), dtype) for name, (dtype, dims) in arrays.items()}
-            failure = None
+            made = {name: np.zeros(self.shape(dims), dtype) for name, (dtype, dims) in arrays.items()}
             try:
                 run(room, made)
-            except TooSmallError as error:
-                failure = error
+            except TooSmallError:
+                if all(count <= room.get(key, count) for key, count in tell().items()):
+                    raise
             counts = tell()
-            fits = all(counts[key] <= room[key] for key in room)
-            if failure and fits:
-                raise failure
+            done = all(count <= room[key] if key in room else count == self.n.get(key) for key, count in counts.items())
             self.n.update(counts)
-            room = {key: value if counts[key] <= value else counts[key] + counts[key] // 8 for key, value in room.items()}
-        memory.update({(function, key): max(value, 1) for key, value in room.items()})
+            room = {key: counts[key] for key in room}
+            memory.update({(function, key): max(1024, count + count // 8) for key, count in room.items()})
         return {name: array[:self.size(arrays[name][1][0])] for name, array in made.items()}
 
 
@@ -412,15 +386,12 @@ class Recorded(Object):
     def _exchange(self, taken: list, kept: list, nothing: str) -> None:
         if self.closed:
             self.clone()  # type: ignore[attr-defined] # raises what every call on a closed object raises
-        if not taken:
-            raise EmptyError(nothing)
-        state = taken[-1]
-        kept.append(state)
+        require(taken, nothing, error=EmptyError)
+        state = taken.pop()
         self._handle, state._handle = state._handle, self._handle
-        taken.pop()
+        kept.append(state)
 
 
 def handle_of(thing: Any, kind: type, name: str) -> Optional[int]:
-    if not isinstance(thing, (kind, type(None))):
-        raise InvalidArgumentError(f"{name} must be a {kind.__name__}, not {type(thing).__name__}")
+    require(isinstance(thing, (kind, type(None))), "{} must be a {}, not {}", name, kind.__name__, type(thing).__name__)
     return thing and thing._handle
