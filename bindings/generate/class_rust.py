@@ -327,7 +327,7 @@ class Writer:
 
     def fits(self, item):
         """A number as an option of this type."""
-        return "flag(name, value)?" if item["role"] == "flag" else "value" if TYPES[item["type"]] == "f64" else "whole(name, value)?"
+        return "whole::<u8>(name, value, 1.0)? == 1" if item["role"] == "flag" else "value" if TYPES[item["type"]] == "f64" else "whole(name, value, f64::MAX)?"
 
     # ---- methods ----
 
@@ -481,7 +481,7 @@ class Writer:
         results = [line for item in self.results.values() for line in self.result_class(item)]
         head = ["// Generated from include/hf/*.h by bindings/generate; do not edit.", "//! The objects, their options and results.",
                 "#![allow(unused_mut, unused_variables, clippy::all)]",
-                "use crate::call::{flag, object, start, whole, Call, Indices, Reals};", "use crate::core::{check, Real, TryClone};",
+                "use crate::call::{object, start, whole, Call, Indices, Reals};", "use crate::core::{check, Real, TryClone};",
                 "use crate::{raw, Error, Result};"]
         return "\n".join(head + options + results + bodies) + "\n"
 

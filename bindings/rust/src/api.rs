@@ -1,7 +1,7 @@
 // Generated from include/hf/*.h by bindings/generate; do not edit.
 //! The objects, their options and results.
 #![allow(unused_mut, unused_variables, clippy::all)]
-use crate::call::{flag, object, start, whole, Call, Indices, Reals};
+use crate::call::{object, start, whole, Call, Indices, Reals};
 use crate::core::{check, Real, TryClone};
 use crate::{raw, Error, Result};
 
@@ -55,7 +55,7 @@ impl<'a> Links<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "mode" => self.mode = whole(name, value)?,
+            "mode" => self.mode = whole(name, value, f64::MAX)?,
             "distance" => self.distance = value,
             "stiffness" => self.stiffness = value,
             "overlay_distance" => self.overlay_distance = value,
@@ -152,16 +152,16 @@ impl<'a> SurfaceOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "weld" => self.weld = whole(name, value)?,
+            "weld" => self.weld = whole(name, value, f64::MAX)?,
             "weld_tolerance" => self.weld_tolerance = value,
-            "operator_kind" => self.operator_kind = whole(name, value)?,
-            "field_kind" => self.field_kind = whole(name, value)?,
-            "ordering" => self.ordering = whole(name, value)?,
-            "thread_count" => self.thread_count = whole(name, value)?,
-            "vertex_limit" => self.vertex_limit = whole(name, value)?,
-            "triangle_limit" => self.triangle_limit = whole(name, value)?,
-            "memory_limit_mb" => self.memory_limit_mb = whole(name, value)?,
-            "work_limit_gflop" => self.work_limit_gflop = whole(name, value)?,
+            "operator_kind" => self.operator_kind = whole(name, value, f64::MAX)?,
+            "field_kind" => self.field_kind = whole(name, value, f64::MAX)?,
+            "ordering" => self.ordering = whole(name, value, f64::MAX)?,
+            "thread_count" => self.thread_count = whole(name, value, f64::MAX)?,
+            "vertex_limit" => self.vertex_limit = whole(name, value, f64::MAX)?,
+            "triangle_limit" => self.triangle_limit = whole(name, value, f64::MAX)?,
+            "memory_limit_mb" => self.memory_limit_mb = whole(name, value, f64::MAX)?,
+            "work_limit_gflop" => self.work_limit_gflop = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -227,15 +227,15 @@ impl<'a> GraphOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "vertex_count" => self.vertex_count = whole(name, value)?,
-            "allow_negative" => self.allow_negative = flag(name, value)?,
-            "field_kind" => self.field_kind = whole(name, value)?,
-            "ordering" => self.ordering = whole(name, value)?,
-            "thread_count" => self.thread_count = whole(name, value)?,
-            "vertex_limit" => self.vertex_limit = whole(name, value)?,
-            "edge_limit" => self.edge_limit = whole(name, value)?,
-            "memory_limit_mb" => self.memory_limit_mb = whole(name, value)?,
-            "work_limit_gflop" => self.work_limit_gflop = whole(name, value)?,
+            "vertex_count" => self.vertex_count = whole(name, value, f64::MAX)?,
+            "allow_negative" => self.allow_negative = whole::<u8>(name, value, 1.0)? == 1,
+            "field_kind" => self.field_kind = whole(name, value, f64::MAX)?,
+            "ordering" => self.ordering = whole(name, value, f64::MAX)?,
+            "thread_count" => self.thread_count = whole(name, value, f64::MAX)?,
+            "vertex_limit" => self.vertex_limit = whole(name, value, f64::MAX)?,
+            "edge_limit" => self.edge_limit = whole(name, value, f64::MAX)?,
+            "memory_limit_mb" => self.memory_limit_mb = whole(name, value, f64::MAX)?,
+            "work_limit_gflop" => self.work_limit_gflop = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -273,7 +273,7 @@ impl<'a> PickOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "front_only" => self.front_only = flag(name, value)?,
+            "front_only" => self.front_only = whole::<u8>(name, value, 1.0)? == 1,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -302,9 +302,9 @@ impl<'a> SolverOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "field_kind" => self.field_kind = whole(name, value)?,
-            "channel_count" => self.channel_count = whole(name, value)?,
-            "site_limit" => self.site_limit = whole(name, value)?,
+            "field_kind" => self.field_kind = whole(name, value, f64::MAX)?,
+            "channel_count" => self.channel_count = whole(name, value, f64::MAX)?,
+            "site_limit" => self.site_limit = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -406,7 +406,7 @@ impl<'a> GeodesicsOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "method" => self.method = whole(name, value)?,
+            "method" => self.method = whole(name, value, f64::MAX)?,
             "smoothing" => self.smoothing = value,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
@@ -439,9 +439,9 @@ impl<'a> ExtremitiesOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "kind" => self.kind = whole(name, value)?,
+            "kind" => self.kind = whole(name, value, f64::MAX)?,
             "least_length_share" => self.least_length_share = value,
-            "source_count" => self.source_count = whole(name, value)?,
+            "source_count" => self.source_count = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -471,8 +471,8 @@ impl<'a> DirectionOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "degree" => self.degree = whole(name, value)?,
-            "site_limit" => self.site_limit = whole(name, value)?,
+            "degree" => self.degree = whole(name, value, f64::MAX)?,
+            "site_limit" => self.site_limit = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -500,9 +500,9 @@ impl PoseOptions {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "band_count" => self.band_count = whole(name, value)?,
-            "iteration_count" => self.iteration_count = whole(name, value)?,
-            "group_count" => self.group_count = whole(name, value)?,
+            "band_count" => self.band_count = whole(name, value, f64::MAX)?,
+            "iteration_count" => self.iteration_count = whole(name, value, f64::MAX)?,
+            "group_count" => self.group_count = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -542,9 +542,9 @@ impl<'a> HandlesOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "layer" => self.layer = whole(name, value)?,
-            "in_place" => self.in_place = flag(name, value)?,
-            "free_rotation" => self.free_rotation = flag(name, value)?,
+            "layer" => self.layer = whole(name, value, f64::MAX)?,
+            "in_place" => self.in_place = whole::<u8>(name, value, 1.0)? == 1,
+            "free_rotation" => self.free_rotation = whole::<u8>(name, value, 1.0)? == 1,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -593,12 +593,12 @@ impl DeformOptions {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "iteration_count" => self.iteration_count = whole(name, value)?,
-            "restart" => self.restart = flag(name, value)?,
-            "refine" => self.refine = whole(name, value)?,
-            "refine_from_last" => self.refine_from_last = flag(name, value)?,
-            "first_vertex" => self.first_vertex = whole(name, value)?,
-            "vertex_count" => self.vertex_count = whole(name, value)?,
+            "iteration_count" => self.iteration_count = whole(name, value, f64::MAX)?,
+            "restart" => self.restart = whole::<u8>(name, value, 1.0)? == 1,
+            "refine" => self.refine = whole(name, value, f64::MAX)?,
+            "refine_from_last" => self.refine_from_last = whole::<u8>(name, value, 1.0)? == 1,
+            "first_vertex" => self.first_vertex = whole(name, value, f64::MAX)?,
+            "vertex_count" => self.vertex_count = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -634,7 +634,7 @@ impl<'a> HandleProposalsOptions<'a> {
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
             "least_length_share" => self.least_length_share = value,
-            "limit" => self.limit = whole(name, value)?,
+            "limit" => self.limit = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -691,10 +691,10 @@ impl<'a> QuadsOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "face_count" => self.face_count = whole(name, value)?,
+            "face_count" => self.face_count = whole(name, value, f64::MAX)?,
             "edge_length" => self.edge_length = value,
             "crease_angle" => self.crease_angle = value,
-            "relax_count" => self.relax_count = whole(name, value)?,
+            "relax_count" => self.relax_count = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -737,7 +737,7 @@ impl<'a> RegionOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "base" => self.base = whole(name, value)?,
+            "base" => self.base = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -776,9 +776,9 @@ impl<'a> Curve<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "side" => self.side = whole(name, value)?,
-            "seed_vertex" => self.seed_vertex = whole(name, value)?,
-            "kind" => self.kind = whole(name, value)?,
+            "side" => self.side = whole(name, value, f64::MAX)?,
+            "seed_vertex" => self.seed_vertex = whole(name, value, f64::MAX)?,
+            "kind" => self.kind = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -814,7 +814,7 @@ impl<'a> RegionEditOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "ring_count" => self.ring_count = whole(name, value)?,
+            "ring_count" => self.ring_count = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -902,8 +902,8 @@ impl<'a> RetargetOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "root_motion" => self.root_motion = whole(name, value)?,
-            "leave_out" => self.leave_out = whole(name, value)?,
+            "root_motion" => self.root_motion = whole(name, value, f64::MAX)?,
+            "leave_out" => self.leave_out = whole(name, value, f64::MAX)?,
             "scale" => self.scale = value,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
@@ -1028,9 +1028,9 @@ impl<'a> TransferOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "mode" => self.mode = whole(name, value)?,
-            "cluster_count" => self.cluster_count = whole(name, value)?,
-            "ground" => self.ground = whole(name, value)?,
+            "mode" => self.mode = whole(name, value, f64::MAX)?,
+            "cluster_count" => self.cluster_count = whole(name, value, f64::MAX)?,
+            "ground" => self.ground = whole(name, value, f64::MAX)?,
             "kernel_width" => self.kernel_width = value,
             "scale" => self.scale = value,
             "alignment_angle" => self.alignment_angle = value,
@@ -1234,7 +1234,7 @@ impl<'a> WeightsTransferOptions<'a> {
         match name {
             "distance" => self.distance = value,
             "angle" => self.angle = value,
-            "influence_count" => self.influence_count = whole(name, value)?,
+            "influence_count" => self.influence_count = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
@@ -1284,10 +1284,10 @@ impl<'a> WeightsMirrorOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "to" => self.to = whole(name, value)?,
+            "to" => self.to = whole(name, value, f64::MAX)?,
             "distance" => self.distance = value,
             "angle" => self.angle = value,
-            "influence_count" => self.influence_count = whole(name, value)?,
+            "influence_count" => self.influence_count = whole(name, value, f64::MAX)?,
             _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())

@@ -63,19 +63,11 @@ pub(crate) type Numbers = (*const std::os::raw::c_void, usize, i32);
 /// What an object says of its arrays.
 pub(crate) type Counts = BTreeMap<String, usize>;
 
-/// A whole number as an option holds it.
-pub(crate) fn whole<T: TryFrom<i64>>(name: &str, value: f64) -> Result<T> {
-    let kept = (value.fract() == 0.0).then(|| T::try_from(value as i64).ok()).flatten();
-    kept.ok_or_else(|| Error::new(raw::HF_ERROR_OUT_OF_RANGE, format!("option {name} cannot hold {value}")))
-}
-pub(crate) fn flag(name: &str, value: f64) -> Result<bool> {
-    let wrong = || Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("option {name} must be 0 or 1, not {value}"));
-    (value == 0.0 || value == 1.0).then_some(value == 1.0).ok_or_else(wrong)
-}
-
-/// The name of a dimension such as "face_count + 1", and what it adds.
-fn parts(dim: &str) -> (&str, usize) {
-    dim.split_once(" + ").map_or((dim, 0), |(base, more)| (base, more.parse().unwrap_or(0)))
+/// A whole number as an option holds it; `most` is 1 for a flag.
+pub(crate) fn whole<T: TryFrom<i64>>(name: &str, value: f64, most: f64) -> Result<T> {
+    let kept = (value.fract() == 0.0 && value <= most).then(|| T::try_from(value as i64).ok()).flatten();
+    let code = if most == 1.0 { raw::HF_ERROR_INVALID_ARGUMENT } else { raw::HF_ERROR_OUT_OF_RANGE };
+    kept.ok_or_else(|| Error::new(code, format!("option {name} cannot hold {value}")))
 }
 
 #[derive(Default)]
@@ -108,10 +100,10 @@ impl Call {
         self.learn(key, size);
         u32::try_from(size).map_err(|_| Error::new(raw::HF_ERROR_TOO_LARGE, format!("{key}: more than 4,294,967,295 entries")))
     }
-    /// What a dimension is; `None`: not known yet.
+    /// What a dimension such as "face_count + 1" is; `None`: not known yet.
     pub fn size(&self, dim: &str) -> Option<usize> {
-        let (base, more) = parts(dim);
-        base.parse().ok().or_else(|| self.sizes.get(base).copied()).map(|size: usize| size.saturating_add(more))
+        let more = |(base, more): (&str, &str)| Some(self.sizes.get(base)?.saturating_add(more.parse().ok()?));
+        dim.parse().ok().or_else(|| self.sizes.get(dim).copied()).or_else(|| dim.split_once(" + ").and_then(more))
     }
     pub fn product(&self, dims: &[&str]) -> usize {
         dims.iter().fold(1usize, |product, dim| product.saturating_mul(self.size(dim).unwrap_or(0)))
@@ -123,15 +115,13 @@ impl Call {
         let each = dims.iter().fold(1usize, |product, dim| product.saturating_mul(self.size(dim).unwrap_or(1)));
         let rows = length / each.max(1);
         let wrong = match loose[..] {
-            [] if length == each => return Ok(()),
-            [] => format!("must hold {each} entries, not {length}"),
-            [dim] if length == each.saturating_mul(rows) => {
-                let (base, more) = parts(dim);
-                self.learn(base, if each == 0 { 0 } else { rows.saturating_sub(more) });
+            [] if length != each => format!("must hold {each} entries, not {length}"),
+            [_] if length != each.saturating_mul(rows) => format!("must hold {each} entries for each, not {length}"),
+            [_, _, ..] => "cannot be read without what it belongs to".into(),
+            _ => {
+                loose.iter().for_each(|dim| self.learn(dim, rows));
                 return Ok(());
             }
-            [_] => format!("must hold {each} entries for each, not {length}"),
-            _ => "cannot be read without what it belongs to".into(),
         };
         Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("{name} {wrong}")))
     }
@@ -177,12 +167,9 @@ impl Call {
 
     /// An array for the library to fill; none where it has no place.
     pub fn out<T>(&self, place: *mut T, rows: &str) -> raw::hf_array_out {
-        if place.is_null() {
-            return raw::hf_array_out::default();
-        }
-        let kind = if std::mem::size_of::<T>() == 8 { raw::HF_TYPE_DOUBLE } else { raw::HF_TYPE_PLAIN };
-        let count = u32::try_from(self.size(rows).unwrap_or(0)).unwrap_or(u32::MAX);
-        raw::hf_array_out { data: place.cast(), count, r#type: kind, ..Default::default() }
+        let r#type = if std::mem::size_of::<T>() == 8 { raw::HF_TYPE_DOUBLE } else { raw::HF_TYPE_PLAIN };
+        let count = if place.is_null() { 0 } else { self.size(rows).unwrap_or(0) as u32 };
+        raw::hf_array_out { data: place.cast(), count, r#type, ..Default::default() }
     }
     /// The start of an optional slice to fill.
     pub fn fill<T>(&mut self, values: Option<&mut [T]>, name: &str, dims: &[&str]) -> Result<*mut T> {
@@ -194,16 +181,18 @@ impl Call {
     pub fn room<T: Clone + Default>(&self, array: &mut Vec<T>, dims: &[&str]) -> *mut T {
         array.clear();
         array.resize(self.product(dims), T::default());
-        (!array.is_empty()).then(|| array.as_mut_ptr()).unwrap_or(std::ptr::null_mut())
+        match array.len() {
+            0 => std::ptr::null_mut(),
+            _ => array.as_mut_ptr(),
+        }
     }
     /// Whether the room sufficed and all counts were known. If not, they are now, and the call is made again.
     pub fn enough(&mut self, code: i32, told: &[(&str, u32)]) -> Result<bool> {
         let (rooms, others): (Vec<_>, Vec<_>) = told.iter().partition(|(key, _)| key.ends_with("capacity"));
         let fits = rooms.iter().all(|&&(key, count)| Some(count as usize) <= self.size(key));
         let known = others.iter().all(|&&(key, count)| Some(count as usize) == self.size(key));
-        if code != raw::HF_ERROR_TOO_SMALL || fits {
-            check(code)?;
-        }
+        let again = code == raw::HF_ERROR_TOO_SMALL && !fits;
+        check(if again { raw::HF_OK } else { code })?;
         told.iter().for_each(|&(key, count)| self.learn(key, count as usize));
         Ok(fits && known)
     }
@@ -213,6 +202,7 @@ impl Call {
 macro_rules! object {
     ($(#[$doc:meta])* $name:ident: $handle:ident, $destroy:ident) => {
         $(#[$doc])*
+        #[derive(Debug, PartialEq)]
         pub struct $name {
             pub(crate) handle: $crate::raw::$handle,
             pub(crate) counts: $crate::call::Counts,
@@ -226,16 +216,6 @@ macro_rules! object {
         // SAFETY: any thread may use a handle. Calls that only read it may run at the same time, and these take &self.
         unsafe impl Send for $name {}
         unsafe impl Sync for $name {}
-        impl PartialEq for $name {
-            fn eq(&self, other: &Self) -> bool {
-                self.handle == other.handle
-            }
-        }
-        impl std::fmt::Debug for $name {
-            fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                out.debug_struct(stringify!($name)).finish_non_exhaustive()
-            }
-        }
     };
 }
 pub(crate) use object;
