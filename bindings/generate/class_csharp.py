@@ -381,7 +381,7 @@ class Writer:
         if plan.steps[0][0] != "returns":
             for p in m.parents:
                 if not p["optional"]:
-                    body.append(f'c.Parent("{p["name"]}", {lower(p["name"])});')
+                    body.append(f'c.Parent("{p["name"]}.", {lower(p["name"])});')
         for a in told:
             body.append(f"var {lower(a.name)} = new {a.item['type']} {{ struct_size = (uint)sizeof({a.item['type']}) }};")
         for op, values in plan.steps:

@@ -2835,7 +2835,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_solver_desc { struct_size = (uint)sizeof(hf_solver_desc),
                     field_kind = (int)fieldKind, channel_count = channelCount, site_limit = siteLimit };
                 hf_solver_desc* desc = &descStruct;
@@ -3510,7 +3510,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_geodesics_desc { struct_size = (uint)sizeof(hf_geodesics_desc),
                     method = (int)method, smoothing = smoothing };
                 hf_geodesics_desc* desc = &descStruct;
@@ -3680,7 +3680,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_direction_desc { struct_size = (uint)sizeof(hf_direction_desc), degree = degree,
                     site_limit = siteLimit };
                 hf_direction_desc* desc = &descStruct;
@@ -3981,7 +3981,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_pose_desc { struct_size = (uint)sizeof(hf_pose_desc), band_count = bandCount,
                     iteration_count = iterationCount, group_count = groupCount };
                 hf_pose_desc* desc = &descStruct;
@@ -4669,7 +4669,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_quads_desc { struct_size = (uint)sizeof(hf_quads_desc), face_count = faceCount,
                     edge_length = edgeLength, crease_angle = creaseAngle, relax_count = relaxCount };
                 hf_quads_desc* desc = &descStruct;
@@ -4816,7 +4816,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Call.Late(() => Functions.hf_flow_create(c.Handle(surface), raw)));
                 Own(*raw, Functions.hf_flow_destroy, c, "vertex_count");
@@ -4897,7 +4897,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_region_desc { struct_size = (uint)sizeof(hf_region_desc), @base = (int)@base };
                 hf_region_desc* desc = &descStruct;
                 desc->positions = c.View(positions?.Values, "positions", "vertex_count", "3");
@@ -5172,8 +5172,8 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("source", source);
-                c.Parent("target", target);
+                c.Parent("source.", source);
+                c.Parent("target.", target);
                 var descStruct = new hf_detail_desc { struct_size = (uint)sizeof(hf_detail_desc), scale = scale };
                 hf_detail_desc* desc = &descStruct;
                 desc->source_vertices = (IntPtr)c.Array(sourceVertices, "sourceVertices", "pair_count");
@@ -5322,8 +5322,8 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("source", source);
-                c.Parent("target", target);
+                c.Parent("source.", source);
+                c.Parent("target.", target);
                 var descStruct = new hf_retarget_desc { struct_size = (uint)sizeof(hf_retarget_desc),
                     root_motion = (int)rootMotion, leave_out = leaveOut, scale = scale };
                 hf_retarget_desc* desc = &descStruct;
@@ -5691,8 +5691,8 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("source", source);
-                c.Parent("target", target);
+                c.Parent("source.", source);
+                c.Parent("target.", target);
                 var descStruct = new hf_transfer_desc { struct_size = (uint)sizeof(hf_transfer_desc), mode = (int)mode,
                     cluster_count = clusterCount, ground = (int)ground, kernel_width = kernelWidth, scale = scale,
                     alignment_angle = alignmentAngle };
@@ -6090,7 +6090,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_joints_desc { struct_size = (uint)sizeof(hf_joints_desc) };
                 hf_joints_desc* desc = &descStruct;
                 desc->heads = (IntPtr)c.Array(heads, "heads", "joint_count", "3");
@@ -6344,8 +6344,8 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("source", source);
-                c.Parent("target", target);
+                c.Parent("source.", source);
+                c.Parent("target.", target);
                 var info = new hf_weights_transfer_info { struct_size = (uint)sizeof(hf_weights_transfer_info) };
                 var descStruct = new hf_weights_transfer_desc { struct_size = (uint)sizeof(hf_weights_transfer_desc),
                     distance = distance, angle = angle, influence_count = influenceCount };
@@ -6409,7 +6409,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var info = new hf_weights_mirror_info { struct_size = (uint)sizeof(hf_weights_mirror_info) };
                 var statistics = new hf_weights_mirror_statistics { struct_size = (uint)sizeof(hf_weights_mirror_statistics) };
                 var descStruct = new hf_weights_mirror_desc { struct_size = (uint)sizeof(hf_weights_mirror_desc),

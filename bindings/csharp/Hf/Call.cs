@@ -28,29 +28,24 @@ namespace Hf
     /// <summary>Places may be given as a vertex or as a hit.</summary>
     public sealed unsafe partial class Place
     {
-        public Place(uint[] corners, double[] barycentrics)
-        {
-            Corners = corners;
-            Barycentrics = barycentrics;
-        }
-
-        public static implicit operator Place(uint vertex) => new Place(new[] { vertex, vertex, vertex }, new[] { 1.0, 0, 0 });
+        public Place(uint[] corners, double[] barycentrics) => (Corners, Barycentrics) = (corners, barycentrics);
+        public static implicit operator Place(uint at) => new Place(new[] { at, at, at }, new[] { 1.0, 0, 0 });
         public static implicit operator Place(Hit hit) => hit == null ? null : hit.Place;
     }
 
     sealed unsafe class Call : IDisposable
     {
-        const int First = 1024;  // rows to try when nothing is known; double makes the first call slower, half asks twice more often
+        const int First = 1024;  // rows to try when nothing is known. Double makes the first call slower, half asks twice more often
         public readonly Dictionary<string, int> Sizes = new Dictionary<string, int>();
-        readonly HfObject own;
+        readonly Dictionary<string, int> memory;  // of the object: which room sufficed
         readonly List<GCHandle> pinned = new List<GCHandle>();
         readonly List<object> kept = new List<object>();  // alive until the call is over
 
         public Call(HfObject own)
         {
             Library.Load();
-            this.own = own;
-            Parent(null, own);
+            memory = own == null ? Sizes : own.Counts;
+            Parent("", own);
         }
 
         public static int Late(Func<int> call) => call();
@@ -65,31 +60,22 @@ namespace Hf
 
         // ---- counts ----
 
-        public void Parent(string name, HfObject thing)
+        public void Parent(string prefix, HfObject thing)
         {
             Handle(thing);
             if (thing == null) return;
             lock (thing.Counts)
-                foreach (KeyValuePair<string, int> count in thing.Counts)
-                {
-                    Sizes[count.Key] = count.Value;
-                    if (name != null) Sizes[name + "." + count.Key] = count.Value;
-                }
+                foreach (KeyValuePair<string, int> count in thing.Counts) Sizes[prefix + count.Key] = Sizes[count.Key] = count.Value;
         }
 
-        public int Count(string key, int least)
-        {
-            if (Size(key) < 0) Sizes[key] = least;
-            return Sizes[key];
-        }
+        public int Count(string key, int least) => Sizes[key] = Size(key) < 0 ? least : Size(key);
 
         /// <summary>What a dimension such as "face_count + 1" is; -1: not known yet.</summary>
         public int Size(string dim)
         {
+            if (Sizes.TryGetValue(dim, out int size) || int.TryParse(dim, out size)) return size;
             string[] parts = dim.Split('+');
-            int size;
-            if (!int.TryParse(dim, out size) && !Sizes.TryGetValue(parts[0].Trim(), out size)) return -1;
-            return parts.Length < 2 ? size : size + int.Parse(parts[1]);
+            return parts.Length > 1 && Sizes.TryGetValue(parts[0].Trim(), out size) ? size + int.Parse(parts[1]) : -1;
         }
 
         public int Product(params string[] dims)
@@ -101,24 +87,18 @@ namespace Hf
         }
 
         /// <summary>Checks how many numbers there are; a dimension that is not known yet becomes known.</summary>
-        void Fit(int length, string name, string[] dims)
+        Array Fit(Array values, string name, params string[] dims)
         {
-            long known = 1;
-            string loose = null;
-            foreach (string dim in dims)
-            {
-                int size = Size(dim);
-                if (size < 0 && loose != null) throw Wrong(name + " cannot be read without what it belongs to");
-                if (size < 0) loose = dim;
-                else known *= size;
-            }
-            if (loose == null && length != known) throw Wrong(name + " must hold " + known + " numbers, not " + length);
-            if (loose == null) return;
-            if (known > 0 ? length % known != 0 : length > 0)
+            if (values == null) return null;
+            long known = 1, length = values.Length;
+            string[] loose = System.Array.FindAll(dims, dim => Size(dim) < 0);
+            foreach (string dim in dims) known *= Size(dim) < 0 ? 1 : Size(dim);
+            if (loose.Length > 1) throw Wrong(name + " cannot be read without what it belongs to");
+            if (loose.Length == 0 && length != known) throw Wrong(name + " must hold " + known + " numbers, not " + length);
+            if (length > 0 && (known == 0 || length % known != 0))
                 throw Wrong(name + " must hold " + known + " numbers for each, not " + length);
-            string[] parts = loose.Split('+');
-            int more = parts.Length < 2 ? 0 : int.Parse(parts[1]);
-            Sizes[parts[0].Trim()] = known > 0 ? Math.Max((int)(length / known) - more, 0) : 0;
+            foreach (string dim in loose) Sizes[dim] = (int)(length / Math.Max(known, 1));
+            return values;
         }
 
         // ---- what goes in ----
@@ -137,37 +117,30 @@ namespace Hf
             return pinned[pinned.Count - 1].AddrOfPinnedObject();
         }
 
-        public void* Array(Array values, string name, params string[] dims)
-        {
-            if (values != null) Fit(values.Length, name, dims);
-            return (void*)Pin(values);
-        }
+        public void* Array(Array values, string name, params string[] dims) => (void*)Pin(Fit(values, name, dims));
 
         /// <summary>An hf_array: rows of the numbers that the caller has.</summary>
-        public hf_array View(Array values, string name, params string[] dims)
+        public hf_array View(Array values, string name, params string[] dims) => new hf_array
         {
-            if (values == null) return default(hf_array);
-            var data = (IntPtr)Array(values, name, dims);
-            int type = values is double[] ? Constants.HF_TYPE_DOUBLE : values is ushort[] ? Constants.HF_TYPE_UINT16 : Constants.HF_TYPE_PLAIN;
-            return new hf_array { data = data, count = (uint)Size(dims[0]), type = type };
-        }
+            data = Pin(Fit(values, name, dims)),
+            count = values == null ? 0 : (uint)Size(dims[0]),
+            type = values is double[] ? Constants.HF_TYPE_DOUBLE : values is ushort[] ? Constants.HF_TYPE_UINT16 : 0
+        };
 
         /// <summary>Memory of zeros until the call is over.</summary>
         public void* New(int size) => (void*)Pin(new long[size / sizeof(long) + 1]);
 
         public void* Rows(int size, params string[] dims) => New(checked(size * Product(dims)));
 
-        public void* Given(Array rows, string name, int size, params string[] dims)
-        {
-            if (rows != null) Fit(rows.Length, name, dims);
-            return rows == null ? null : New(checked(size * rows.Length));
-        }
+        public void* Given(Array rows, string name, int size, params string[] dims) =>
+            Fit(rows, name, dims) == null ? null : New(checked(size * rows.Length));
 
         /// <summary>A field of every row, `each` numbers apart.</summary>
         public void Spread(double[] values, string name, int each, double* first, int stride, string dim)
         {
-            if (values != null) Fit(values.Length, name, new[] { each.ToString(), dim });
-            for (int i = 0; values != null && i < values.Length; ++i) ((double*)((byte*)first + i / each * stride))[i % each] = values[i];
+            Fit(values, name, each.ToString(), dim);
+            for (int i = 0; values != null && i < values.Length; ++i)
+                ((double*)((byte*)first + i / each * stride))[i % each] = values[i];
         }
 
         /// <summary>A field of a fixed number of numbers.</summary>
@@ -183,8 +156,7 @@ namespace Hf
         public void Lists(uint[][] lists, string name, string key, out IntPtr counts, out IntPtr all)
         {
             counts = all = IntPtr.Zero;
-            if (lists == null) return;
-            Fit(lists.Length, name, new[] { key });
+            if (Fit(lists, name, key) == null) return;
             var together = new List<uint>();
             int missing = System.Array.IndexOf(lists, null);
             if (missing >= 0) throw Wrong(name + "[" + missing + "] is null", Constants.HF_ERROR_NULL_POINTER);
@@ -211,12 +183,8 @@ namespace Hf
         // ---- what comes out ----
 
         /// <summary>An array for the library to fill; none where it has no place.</summary>
-        public static hf_array_out Out(void* place, bool isDouble, int rows)
-        {
-            if (place == null) return default(hf_array_out);
-            int type = isDouble ? Constants.HF_TYPE_DOUBLE : Constants.HF_TYPE_PLAIN;
-            return new hf_array_out { data = (IntPtr)place, count = (uint)rows, type = type };
-        }
+        public static hf_array_out Out(void* place, bool isDouble, int rows) => place == null ? default(hf_array_out)
+            : new hf_array_out { data = (IntPtr)place, count = (uint)rows, type = isDouble ? Constants.HF_TYPE_DOUBLE : 0 };
 
         /// <summary>The caller's array has the right length.</summary>
         public void Need(int length, string name, params string[] dims)
@@ -238,15 +206,16 @@ namespace Hf
         public bool Again(string function, int result, params (string Key, uint Count)[] told)
         {
             bool fits = true, known = true;
-            foreach ((string Key, uint Count) count in told)
-                if (count.Key.EndsWith("capacity", StringComparison.Ordinal)) fits &= count.Count <= Size(count.Key);
-                else known &= count.Count == Size(count.Key);
+            foreach ((string Key, uint Count) one in told)
+            {
+                bool room = one.Key.EndsWith("capacity", StringComparison.Ordinal);
+                fits &= !room || one.Count <= Size(one.Key);
+                known &= room || one.Count == Size(one.Key);
+                Sizes[one.Key] = (int)Math.Min(one.Count, int.MaxValue);
+                long next = Math.Max(First, one.Count + one.Count / 8L);
+                lock (memory) memory[function + "." + one.Key] = (int)Math.Min(next, int.MaxValue);
+            }
             if (result != Constants.HF_ERROR_TOO_SMALL || fits) HfException.Check(result);
-            foreach ((string Key, uint Count) count in told) Sizes[count.Key] = (int)Math.Min(count.Count, int.MaxValue);
-            if (own != null && fits && known)
-                lock (own.Counts)
-                    foreach ((string Key, uint Count) count in told)
-                        own.Counts[function + "." + count.Key] = (int)Math.Min(Math.Max(First, count.Count + count.Count / 8L), int.MaxValue);
             return !fits || !known;
         }
 

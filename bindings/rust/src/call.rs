@@ -2,8 +2,7 @@
 //! grow.
 use crate::core::check;
 use crate::{raw, Error, Result};
-use std::any::Any;
-use std::collections::BTreeMap;
+use std::{any::Any, collections::BTreeMap};
 
 /// Slices of either of two types, from slices, vectors and arrays by reference.
 macro_rules! slices {
