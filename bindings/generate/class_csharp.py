@@ -212,7 +212,7 @@ class Steps:
         given = ", ".join([*map(self.value, values), "raw"])
         lines = ["var raw = (IntPtr*)c.New(sizeof(IntPtr));"]
         if kind == "create":  # Mono looks for the library when it compiles a method that calls it: this one, after Call has loaded it
-            lines.append(f"HfException.Check(Call.Late(() => Functions.{function}({given})));")
+            lines.append(f"HfException.Check(Library.Late(() => Functions.{function}({given})));")
         else:
             lines.append(f"HfException.Check(Functions.{function}({given}));")
         if who:

@@ -2100,7 +2100,7 @@ namespace Hf
             using (var c = new Call(null))
             {
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_progress_create(raw)));
+                HfException.Check(Library.Late(() => Functions.hf_progress_create(raw)));
                 Own(*raw, Functions.hf_progress_destroy, c);
             }
         }
@@ -2224,7 +2224,7 @@ namespace Hf
                 if (savedFactor != null) desc->saved_factor = savedFactor.Fill(c, "saved_factor.");
                 if (links != null) desc->links = links.Fill(c, "links.");
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_surface_create(desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_surface_create(desc, raw)));
                 Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
             }
         }
@@ -2279,7 +2279,7 @@ namespace Hf
                 desc->progress = c.Handle(progress);
                 if (savedFactor != null) desc->saved_factor = savedFactor.Fill(c, "saved_factor.");
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_surface_create_graph(desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_surface_create_graph(desc, raw)));
                 var made = new Surface();
                 made.Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
                 return made;
@@ -2842,7 +2842,7 @@ namespace Hf
                 c.Sizes["channel_count"] = (int)Math.Min(channelCount == 0 ? 1 : channelCount, int.MaxValue);
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_solver_destroy, c, "channel_count", "vertex_count");
             }
         }
@@ -3516,7 +3516,7 @@ namespace Hf
                 hf_geodesics_desc* desc = &descStruct;
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_geodesics_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_geodesics_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_geodesics_destroy, c, "vertex_count");
             }
         }
@@ -3686,7 +3686,7 @@ namespace Hf
                 hf_direction_desc* desc = &descStruct;
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_direction_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_direction_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_direction_destroy, c, "vertex_count");
             }
         }
@@ -3986,7 +3986,7 @@ namespace Hf
                     iteration_count = iterationCount, group_count = groupCount };
                 hf_pose_desc* desc = &descStruct;
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_pose_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_pose_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_pose_destroy, c, "vertex_count");
             }
         }
@@ -4687,7 +4687,7 @@ namespace Hf
                 desc->guide_count = (uint)c.Count("guide_count", 0);
                 desc->irregular_count = (uint)c.Count("irregular_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_quads_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_quads_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_quads_destroy, c);
             }
         }
@@ -4818,7 +4818,7 @@ namespace Hf
             {
                 c.Parent("surface.", surface);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_flow_create(c.Handle(surface), raw)));
+                HfException.Check(Library.Late(() => Functions.hf_flow_create(c.Handle(surface), raw)));
                 Own(*raw, Functions.hf_flow_destroy, c, "vertex_count");
             }
         }
@@ -4903,7 +4903,7 @@ namespace Hf
                 desc->positions = c.View(positions?.Values, "positions", "vertex_count", "3");
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_region_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_region_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_region_destroy, c, "vertex_count");
             }
         }
@@ -5181,8 +5181,8 @@ namespace Hf
                 desc->progress = c.Handle(progress);
                 desc->pair_count = (uint)c.Count("pair_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_detail_create(c.Handle(source), c.Handle(target), desc,
-                    raw)));
+                HfException.Check(Library.Late(() => Functions.hf_detail_create(c.Handle(source), c.Handle(target),
+                    desc, raw)));
                 Own(*raw, Functions.hf_detail_destroy, c, "vertex_count");
             }
         }
@@ -5332,8 +5332,8 @@ namespace Hf
                 Call.Fill(groundVelocity, "groundVelocity", 3, desc->ground_velocity);
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_retarget_create(c.Handle(source), c.Handle(target), desc,
-                    raw)));
+                HfException.Check(Library.Late(() => Functions.hf_retarget_create(c.Handle(source), c.Handle(target),
+                    desc, raw)));
                 Own(*raw, Functions.hf_retarget_destroy, c, "joint_count");
             }
         }
@@ -5528,7 +5528,7 @@ namespace Hf
                 desc->joint_count = (uint)c.Count("joint_count", 0);
                 desc->travel_count = (uint)c.Count("travel_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_skeleton_create(desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_skeleton_create(desc, raw)));
                 Own(*raw, Functions.hf_skeleton_destroy, c, "joint_count");
             }
         }
@@ -5702,8 +5702,8 @@ namespace Hf
                 Call.Fill(sourceAxes, "sourceAxes", 9, desc->source_axes);
                 Call.Fill(targetAxes, "targetAxes", 9, desc->target_axes);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_transfer_create(c.Handle(source), c.Handle(target), desc,
-                    raw)));
+                HfException.Check(Library.Late(() => Functions.hf_transfer_create(c.Handle(source), c.Handle(target),
+                    desc, raw)));
                 Own(*raw, Functions.hf_transfer_destroy, c, "vertex_count");
             }
         }
@@ -6103,8 +6103,8 @@ namespace Hf
                 desc->joint_count = (uint)c.Count("joint_count", 0);
                 c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_weights_create(c.Handle(surface), desc, influenceCount,
-                    raw)));
+                HfException.Check(Library.Late(() => Functions.hf_weights_create(c.Handle(surface), desc,
+                    influenceCount, raw)));
                 Own(*raw, Functions.hf_weights_destroy, c, "vertex_count");
             }
         }

@@ -11,18 +11,20 @@ namespace Hf
     /// <summary>An array of float or of double.</summary>
     public sealed class Reals
     {
-        internal Array Values;
-        public static implicit operator Reals(float[] values) => values == null ? null : new Reals { Values = values };
-        public static implicit operator Reals(double[] values) => values == null ? null : new Reals { Values = values };
+        internal readonly Array Values;
+        Reals(Array values) => Values = values;
+        public static implicit operator Reals(float[] values) => values == null ? null : new Reals(values);
+        public static implicit operator Reals(double[] values) => values == null ? null : new Reals(values);
     }
 
     /// <summary>An array of whole numbers of 32 or 16 bits.</summary>
     public sealed class Indices
     {
-        internal Array Values;
-        public static implicit operator Indices(uint[] values) => values == null ? null : new Indices { Values = values };
-        public static implicit operator Indices(int[] values) => values == null ? null : new Indices { Values = values };
-        public static implicit operator Indices(ushort[] values) => values == null ? null : new Indices { Values = values };
+        internal readonly Array Values;
+        Indices(Array values) => Values = values;
+        public static implicit operator Indices(uint[] values) => values == null ? null : new Indices(values);
+        public static implicit operator Indices(int[] values) => values == null ? null : new Indices(values);
+        public static implicit operator Indices(ushort[] values) => values == null ? null : new Indices(values);
     }
 
     /// <summary>Places may be given as a vertex or as a hit.</summary>
@@ -35,7 +37,9 @@ namespace Hf
 
     sealed unsafe class Call : IDisposable
     {
-        const int First = 1024;  // rows to try when nothing is known. Double makes the first call slower, half asks twice more often
+        // Rows to try when nothing is known. Double makes the first call slower, half asks twice more often.
+        const int First = 1024;
+        const int Double = Constants.HF_TYPE_DOUBLE;
         public readonly Dictionary<string, int> Sizes = new Dictionary<string, int>();
         readonly Dictionary<string, int> memory;  // of the object: which room sufficed
         readonly List<GCHandle> pinned = new List<GCHandle>();
@@ -48,15 +52,11 @@ namespace Hf
             Parent("", own);
         }
 
-        public static int Late(Func<int> call) => call();
-
         public void Dispose()
         {
             foreach (GCHandle pin in pinned) pin.Free();
             GC.KeepAlive(kept);
         }
-
-        static HfException Wrong(string words, int code = Constants.HF_ERROR_INVALID_ARGUMENT) => new HfException(words, code);
 
         // ---- counts ----
 
@@ -65,7 +65,7 @@ namespace Hf
             Handle(thing);
             if (thing == null) return;
             lock (thing.Counts)
-                foreach (KeyValuePair<string, int> count in thing.Counts) Sizes[prefix + count.Key] = Sizes[count.Key] = count.Value;
+                foreach (var count in thing.Counts) Sizes[prefix + count.Key] = Sizes[count.Key] = count.Value;
         }
 
         public int Count(string key, int least) => Sizes[key] = Size(key) < 0 ? least : Size(key);
@@ -83,7 +83,7 @@ namespace Hf
             long product = 1;
             foreach (string dim in dims) product *= Math.Max(Size(dim), 0);
             if (product <= int.MaxValue) return (int)product;
-            throw Wrong("an array of " + product + " numbers is more than C# holds", Constants.HF_ERROR_TOO_LARGE);
+            throw new HfException("an array of " + product + " numbers is more than C# holds", Constants.HF_ERROR_TOO_LARGE);
         }
 
         /// <summary>Checks how many numbers there are; a dimension that is not known yet becomes known.</summary>
@@ -93,10 +93,10 @@ namespace Hf
             long known = 1, length = values.Length;
             string[] loose = System.Array.FindAll(dims, dim => Size(dim) < 0);
             foreach (string dim in dims) known *= Size(dim) < 0 ? 1 : Size(dim);
-            if (loose.Length > 1) throw Wrong(name + " cannot be read without what it belongs to");
-            if (loose.Length == 0 && length != known) throw Wrong(name + " must hold " + known + " numbers, not " + length);
-            if (length > 0 && (known == 0 || length % known != 0))
-                throw Wrong(name + " must hold " + known + " numbers for each, not " + length);
+            if (loose.Length > 1) throw new HfException(name + " cannot be read without what it belongs to");
+            string each = loose.Length == 0 ? "" : " for each";
+            if (loose.Length == 0 ? length != known : length > 0 && (known == 0 || length % known != 0))
+                throw new HfException(name + " must hold " + known + " numbers" + each + ", not " + length);
             foreach (string dim in loose) Sizes[dim] = (int)(length / Math.Max(known, 1));
             return values;
         }
@@ -124,7 +124,7 @@ namespace Hf
         {
             data = Pin(Fit(values, name, dims)),
             count = values == null ? 0 : (uint)Size(dims[0]),
-            type = values is double[] ? Constants.HF_TYPE_DOUBLE : values is ushort[] ? Constants.HF_TYPE_UINT16 : 0
+            type = values is double[] ? Double : values is ushort[] ? Constants.HF_TYPE_UINT16 : 0
         };
 
         /// <summary>Memory of zeros until the call is over.</summary>
@@ -147,7 +147,7 @@ namespace Hf
         public static void Fill(Array values, string name, int count, void* place)
         {
             if (values == null) return;
-            if (values.Length != count) throw Wrong(name + " must hold " + count + " numbers, not " + values.Length);
+            if (values.Length != count) throw new HfException(name + " must hold " + count + " numbers, not " + values.Length);
             if (values is double[]) Marshal.Copy((double[])values, 0, (IntPtr)place, count);
             else Marshal.Copy((int[])values, 0, (IntPtr)place, count);
         }
@@ -159,24 +159,20 @@ namespace Hf
             if (Fit(lists, name, key) == null) return;
             var together = new List<uint>();
             int missing = System.Array.IndexOf(lists, null);
-            if (missing >= 0) throw Wrong(name + "[" + missing + "] is null", Constants.HF_ERROR_NULL_POINTER);
+            if (missing >= 0) throw new HfException(name + "[" + missing + "] is null", Constants.HF_ERROR_NULL_POINTER);
             foreach (uint[] list in lists) together.AddRange(list);
             counts = Pin(System.Array.ConvertAll(lists, list => (uint)list.Length));
             all = Pin(together.ToArray());
         }
 
         /// <summary>Lines in UTF-8, one for each.</summary>
-        public void* Text(string[] lines)
-        {
-            if (lines == null) return null;
-            string[] clean = System.Array.ConvertAll(lines, line => (line ?? "").Replace('\n', ' ').Replace('\0', ' ') + "\n");
-            return (void*)Pin(Encoding.UTF8.GetBytes(string.Concat(clean) + "\0"));
-        }
+        public void* Text(string[] lines) => lines == null ? null : (void*)Pin(Encoding.UTF8.GetBytes(string.Concat(
+            System.Array.ConvertAll(lines, line => (line ?? "").Replace('\n', ' ').Replace('\0', ' ') + "\n")) + "\0"));
 
         public void* Place(Place place, string name)
         {
             var raw = (hf_place*)New(sizeof(hf_place));
-            (place ?? throw Wrong(name + " is null", Constants.HF_ERROR_NULL_POINTER)).Write(raw);
+            (place ?? throw new HfException(name + " is null", Constants.HF_ERROR_NULL_POINTER)).Write(raw);
             return raw;
         }
 
@@ -184,13 +180,13 @@ namespace Hf
 
         /// <summary>An array for the library to fill; none where it has no place.</summary>
         public static hf_array_out Out(void* place, bool isDouble, int rows) => place == null ? default(hf_array_out)
-            : new hf_array_out { data = (IntPtr)place, count = (uint)rows, type = isDouble ? Constants.HF_TYPE_DOUBLE : 0 };
+            : new hf_array_out { data = (IntPtr)place, count = (uint)rows, type = isDouble ? Double : 0 };
 
         /// <summary>The caller's array has the right length.</summary>
         public void Need(int length, string name, params string[] dims)
         {
             if (length == Product(dims)) return;
-            throw Wrong(name + " must hold " + Product(dims) + " numbers, not " + length, Constants.HF_ERROR_TOO_SMALL);
+            throw new HfException(name + " must hold " + Product(dims) + " numbers, not " + length, Constants.HF_ERROR_TOO_SMALL);
         }
 
         /// <summary>How many rows of an array that grows are tried: a count that is known, or what sufficed last time.</summary>

@@ -1,6 +1,8 @@
 // hf for .NET, Mono and Unity: the base of all classes (Api.cs). Handles are SafeHandles, failures are HfExceptions.
 using System;
 using System.Collections.Generic;
+using System.IO;
+using System.Reflection;
 using System.Runtime.InteropServices;
 using System.Text;
 using Hf.Native;
@@ -17,20 +19,14 @@ namespace Hf
         /// <summary>Vertex, triangle, site, handle or position in a list; null when there is none.</summary>
         public uint? Index { get; }
 
-        public HfException(string message, int code = Constants.HF_ERROR_INVALID_ARGUMENT, uint? index = null, string function = "")
-            : base((function.Length > 0 ? function + ": " : "") + message + " (" + NameOf(code) + ")")
+        public HfException(string message, int code = Constants.HF_ERROR_INVALID_ARGUMENT, uint? index = null,
+            string function = "") : base((function.Length > 0 ? function + ": " : "") + message + " (" + NameOf(code) + ")")
         {
             Code = code;
             Index = index;
         }
 
-        static string NameOf(int code)
-        {
-            Library.Load();
-            return Known(code) ?? "unknown";
-        }
-
-        static string Known(int code) => Marshal.PtrToStringAnsi(Functions.hf_result_get_name(code));
+        static string NameOf(int code) => Library.Late(() => Marshal.PtrToStringAnsi(Functions.hf_result_get_name(code)));
 
         internal static unsafe void Check(int result)
         {
@@ -59,7 +55,7 @@ namespace Hf
         {
             destroy = destroyer;
             SetHandle(raw);
-            foreach (KeyValuePair<string, int> size in c.Sizes)
+            foreach (var size in c.Sizes)
                 if (Array.IndexOf(counts, size.Key.Substring(size.Key.LastIndexOf('.') + 1)) >= 0) Counts[size.Key] = size.Value;
         }
 
@@ -71,8 +67,8 @@ namespace Hf
         internal void Exchange(HfObject other)
         {
             IntPtr mine = handle;
-            handle = other.handle;
-            other.handle = mine;
+            SetHandle(other.handle);
+            other.SetHandle(mine);
         }
 
         /// <summary>The handle of the C ABI; stale after Dispose, which the library finds out.</summary>
@@ -114,5 +110,97 @@ namespace Hf
             Exchange(from.Peek());
             to.Push(from.Pop());
         }
+    }
+
+    // Found as by the other bindings: $HF_LIBRARY, then beside this assembly, then where the system looks. Unity finds it
+    // itself, among its plug-ins.
+    /// <summary>The shared library of the binding.</summary>
+    public static class Library
+    {
+        static readonly object Lock = new object();
+        static bool found;
+        static string file;
+
+        /// <summary>Loads the library, once. Every class does this by itself.</summary>
+        /// <exception cref="DllNotFoundException">It is nowhere; the message says where to put it.</exception>
+        public static void Load()
+        {
+            lock (Lock)
+            {
+                if (found) return;
+#if !UNITY_5_3_OR_NEWER
+                file = Chosen();
+                if (file != null) Bind();
+#endif
+                Func<uint> ask = () => Probe.hf_version_get();
+                try { ask(); }
+                catch (DllNotFoundException failure)
+                {
+                    throw new DllNotFoundException("the hf library was not found" + (file != null ? " as " + file : "") +
+                        "; set HF_LIBRARY to libhf.so or hf.dll, or put it beside Hf.dll", failure);
+                }
+                found = true;
+            }
+        }
+
+        // Calls once the library is loaded. Mono looks for a library when it compiles the method, or lambda, that calls it.
+        internal static T Late<T>(Func<T> call)
+        {
+            Load();
+            return call();
+        }
+
+        static class Probe
+        {
+            [DllImport(Functions.LibraryName, CallingConvention = CallingConvention.Cdecl)]
+            public static extern uint hf_version_get();
+        }
+
+#if !UNITY_5_3_OR_NEWER
+        static bool IsWindows => Path.DirectorySeparatorChar == '\\';
+
+        // The file of $HF_LIBRARY, else the first name that lies beside the assembly, else null: the system's own search.
+        static string Chosen()
+        {
+            string given = Environment.GetEnvironmentVariable("HF_LIBRARY"), place = typeof(Library).Assembly.Location;
+            if (!string.IsNullOrEmpty(given)) return Path.GetFullPath(given);
+            if (string.IsNullOrEmpty(place)) return null;
+            string[] names = IsWindows ? new[] { "hf.dll" } : new[] { "libhf.so.0", "libhf.so", "libhf.dylib" };
+            Converter<string, string> beside = name => Path.Combine(Path.GetDirectoryName(place), name);
+            return Array.Find(Array.ConvertAll(names, beside), File.Exists);
+        }
+
+        // Each runtime has its own way to say which file a name means. .NET has a resolver; it is named by reflection,
+        // since Mono and older frameworks lack it. Mono has a map. Windows takes a library that is already loaded.
+        static void Bind()
+        {
+            if (Loader != null)
+            {
+                MethodInfo set = Loader.GetMethod("SetDllImportResolver");
+                Func<string, Assembly, DllImportSearchPath?, IntPtr> own = Resolve;
+                Delegate resolve = Delegate.CreateDelegate(set.GetParameters()[1].ParameterType, own.Method);
+                set.Invoke(null, new object[] { typeof(Library).Assembly, resolve });
+                return;
+            }
+            try { mono_dllmap_insert(IntPtr.Zero, Functions.LibraryName, null, file, null); }
+            catch (Exception) { if (IsWindows) LoadLibraryW(file); }  // no Mono
+        }
+
+        static Type Loader =>
+            Type.GetType("System.Runtime.InteropServices.NativeLibrary, System.Runtime.InteropServices")
+            ?? typeof(Marshal).Assembly.GetType("System.Runtime.InteropServices.NativeLibrary");
+
+        static IntPtr Resolve(string name, Assembly assembly, DllImportSearchPath? path)
+        {
+            var arguments = new object[] { file, IntPtr.Zero };
+            MethodInfo load = Loader.GetMethod("TryLoad", new[] { typeof(string), typeof(IntPtr).MakeByRefType() });
+            if (name == Functions.LibraryName) load.Invoke(null, arguments);
+            return (IntPtr)arguments[1];
+        }
+
+        [DllImport("__Internal", CharSet = CharSet.Ansi)]
+        static extern void mono_dllmap_insert(IntPtr assembly, string name, string function, string to, string toFunction);
+        [DllImport("kernel32", CharSet = CharSet.Unicode)] static extern IntPtr LoadLibraryW(string file);
+#endif
     }
 }
