@@ -106,12 +106,12 @@ class Steps:
     def do_record(self, var, type, fields, dims):
         name = lower(var)
         return [f"var {name}Struct = new {type}();", f"{type}* {name} = &{name}Struct;"] + [
-            f'Call.Fill({lower(given)}, "{lower(given)}", {f["count"]}, {name}->{f["name"]});' for f, given in fields]
+            line for f, given in fields for line in filled(lower(given), lower(given), f["count"], f"{name}->{f['name']}")]
 
     def do_records(self, var, type, fields, dims):
         name = lower(var)
         lines = [f"var {name} = ({type}*)c.Rows(sizeof({type}), {self.dims(dims)});"]
-        return lines + [f'c.Spread({lower(given)}, "{lower(given)}", {f["count"]}, {name}->{f["name"]}, sizeof({type}), {self.dims(dims)});' for f, given in fields]
+        return lines + [line for f, given in fields for line in filled(lower(given), lower(given), f["count"], f"{name}[i / {f['count']}].{f['name']}", self.dims(dims))]
 
     def do_array(self, var, name, item):
         if item["view"]:
@@ -147,7 +147,7 @@ class Steps:
         name, type_name = field["name"], field["type"]
         rows, given = lower(name) + "Rows", self.given(name)
         return [f'var {rows} = ({type_name}*)c.Given({given}, "{lower(name)}", sizeof({type_name}), {self.dims(field["dims"])});',
-                f"for (int i = 0; {given} != null && i < {given}.Length; ++i) {given}[i].Write({rows} + i);", f"{var}->{name} = (IntPtr){rows};"]
+                f"for (int i = 0; {given} != null && i < {given}.Length; ++i) {given}[i].Write(c, {rows} + i);", f"{var}->{name} = (IntPtr){rows};"]
 
     def field_blob(self, var, field, count):
         given = self.given(field["name"])
@@ -158,7 +158,7 @@ class Steps:
 
     def field_fixed(self, var, field):
         name = field["name"]
-        return [f'Call.Fill({self.given(name)}, "{lower(name)}", {field["count"]}, {var}->{name});']
+        return filled(self.given(name), lower(name), field["count"], f"{var}->{name}")
 
     def field_handle(self, var, field):
         return [f"{var}->{field['name']} = c.Handle({self.given(field['name'])});"]
@@ -230,7 +230,7 @@ class Steps:
         for name, item, on_request in arrays:
             kind = TYPES.get(item["type"])
             lines += [f"{kind}[] all{upper(name)} = null;"] if kind else [f"void* {lower(name)}Place = null;"]
-        lines += [f'c.Room("{function}", "{key}", ' + (f'"{known}");' if known else "null);") for key, known in rooms] + ["int result;", "do", "{"]
+        lines += [f'c.Room("{key}", "{known or function + "." + key}");' for key, known in rooms] + ["int result;", "do", "{"]
         lines += [f'    {lower(into)}->{key} = (uint)c.Size("{key}");' for key, _ in rooms if into]
         for name, item, on_request in arrays:
             dims = self.dims(item["dims"])
@@ -452,16 +452,16 @@ class Writer:
             source = f"raw->{raw_safe(f['name'])}"
             if f["role"] == "value":
                 into.append(f"{upper(f['name'])} = new {cs(f['type'])}(&{source});")
-                back.append(f"{upper(f['name'])}.Write(&{source});")
+                back.append(f"{upper(f['name'])}.Write(c, &{source});")
             elif f["role"] == "fixed":
                 into.append(f"for (int i = 0; i < {f['count']}; ++i) {upper(f['name'])}[i] = {source}[i];")
-                back.append(f'Call.Fill({upper(f["name"])}, "{upper(f["name"])}", {f["count"]}, {source});')
+                back += filled(upper(f["name"]), upper(f["name"]), f["count"], source)
             else:
                 into.append(f"{upper(f['name'])} = " + {"enum": f"({hint}){source}", "flag": f"{source} != 0"}.get(f["role"], source) + ";")
                 back.append(f"{source} = {self_number(f)};")
         out += ["", f"        internal {cs(name)}({name}* raw)", "        {", *indented(into, 12), "        }"]
         if plain:
-            out += ["", f"        public {cs(name)}() {{ }}", "", f"        internal void Write({name}* raw)", "        {", *indented(back, 12), "        }"]
+            out += ["", f"        public {cs(name)}() {{ }}", "", f"        internal void Write(Call c, {name}* raw)", "        {", *indented(back, 12), "        }"]
         return out + ["    }"]
 
     def result_class(self, item):
@@ -500,6 +500,12 @@ class Writer:
         head = ["// Generated from include/hf/*.h by bindings/generate; do not edit. Classes, enums and results of the C# binding.",
                 "using System;", "using System.Runtime.InteropServices;", "using Hf.Native;", "", "namespace Hf", "{"]
         return "\n".join(head + [*self.enums(), *infos, *results, *descs, *bodies][1:] + ["}"]) + "\n"
+
+
+def filled(given, name, count, place, rows=""):
+    """A field of a fixed number of numbers, of one struct or of rows of it."""
+    return [f'c.Fit({given}, "{name}", "{count}"{rows and ", " + rows});',
+            f"for (int i = 0; {given} != null && i < {given}.Length; ++i) {place}[i{f' % {count}' if rows else ''}] = {given}[i];"]
 
 
 def self_number(f):

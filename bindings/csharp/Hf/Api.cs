@@ -440,11 +440,13 @@ namespace Hf
 
         public Link() { }
 
-        internal void Write(hf_link* raw)
+        internal void Write(Call c, hf_link* raw)
         {
             raw->vertex = Vertex;
-            Call.Fill(Corners, "Corners", 3, raw->corners);
-            Call.Fill(Barycentrics, "Barycentrics", 3, raw->barycentrics);
+            c.Fit(Corners, "Corners", "3");
+            for (int i = 0; Corners != null && i < Corners.Length; ++i) raw->corners[i] = Corners[i];
+            c.Fit(Barycentrics, "Barycentrics", "3");
+            for (int i = 0; Barycentrics != null && i < Barycentrics.Length; ++i) raw->barycentrics[i] = Barycentrics[i];
             raw->length = Length;
             raw->weight = Weight;
             raw->in_tree = InTree ? 1 : 0;
@@ -709,10 +711,12 @@ namespace Hf
 
         public Place() { }
 
-        internal void Write(hf_place* raw)
+        internal void Write(Call c, hf_place* raw)
         {
-            Call.Fill(Corners, "Corners", 3, raw->corners);
-            Call.Fill(Barycentrics, "Barycentrics", 3, raw->barycentrics);
+            c.Fit(Corners, "Corners", "3");
+            for (int i = 0; Corners != null && i < Corners.Length; ++i) raw->corners[i] = Corners[i];
+            c.Fit(Barycentrics, "Barycentrics", "3");
+            for (int i = 0; Barycentrics != null && i < Barycentrics.Length; ++i) raw->barycentrics[i] = Barycentrics[i];
         }
     }
 
@@ -921,7 +925,7 @@ namespace Hf
 
         public CriticalPoint() { }
 
-        internal void Write(hf_critical_point* raw)
+        internal void Write(Call c, hf_critical_point* raw)
         {
             raw->vertex = Vertex;
             raw->kind = (int)Kind;
@@ -976,12 +980,13 @@ namespace Hf
 
         public Extremity() { }
 
-        internal void Write(hf_extremity* raw)
+        internal void Write(Call c, hf_extremity* raw)
         {
             raw->vertex = Vertex;
             raw->component = Component;
             raw->length = Length;
-            Call.Fill(Position, "Position", 3, raw->position);
+            c.Fit(Position, "Position", "3");
+            for (int i = 0; Position != null && i < Position.Length; ++i) raw->position[i] = Position[i];
         }
     }
 
@@ -1005,7 +1010,7 @@ namespace Hf
 
         public Singularity() { }
 
-        internal void Write(hf_singularity* raw)
+        internal void Write(Call c, hf_singularity* raw)
         {
             raw->triangle = Triangle;
             raw->vertex = Vertex;
@@ -1187,14 +1192,15 @@ namespace Hf
 
         public HandleProposal() { }
 
-        internal void Write(hf_handle_proposal* raw)
+        internal void Write(Call c, hf_handle_proposal* raw)
         {
             raw->vertex = Vertex;
             raw->component = Component;
             raw->reason = (int)Reason;
             raw->pinned = Pinned ? 1 : 0;
             raw->joint = Joint;
-            Call.Fill(Position, "Position", 3, raw->position);
+            c.Fit(Position, "Position", "3");
+            for (int i = 0; Position != null && i < Position.Length; ++i) raw->position[i] = Position[i];
             raw->radius = Radius;
             raw->length = Length;
         }
@@ -1336,7 +1342,7 @@ namespace Hf
 
         public ChainMatch() { }
 
-        internal void Write(hf_chain_match* raw)
+        internal void Write(Call c, hf_chain_match* raw)
         {
             raw->role = (int)Role;
             raw->side = (int)Side;
@@ -1415,7 +1421,7 @@ namespace Hf
 
         public JointInfo() { }
 
-        internal void Write(hf_joint_info* raw)
+        internal void Write(Call c, hf_joint_info* raw)
         {
             raw->kind = (int)Kind;
             raw->role = (int)Role;
@@ -1454,7 +1460,7 @@ namespace Hf
 
         public Chain() { }
 
-        internal void Write(hf_chain* raw)
+        internal void Write(Call c, hf_chain* raw)
         {
             raw->role = (int)Role;
             raw->side = (int)Side;
@@ -1922,7 +1928,7 @@ namespace Hf
             desc->joint_parents = (IntPtr)c.Array(JointParents, "jointParents", prefix + "joint_count");
             desc->tags = (IntPtr)c.Array(Tags, "tags", "vertex_count");
             var linksRows = (hf_link*)c.Given(Links, "links", sizeof(hf_link), prefix + "link_count");
-            for (int i = 0; Links != null && i < Links.Length; ++i) Links[i].Write(linksRows + i);
+            for (int i = 0; Links != null && i < Links.Length; ++i) Links[i].Write(c, linksRows + i);
             desc->links = (IntPtr)linksRows;
             desc->light_vertices = (IntPtr)c.Array(LightVertices, "lightVertices", prefix + "light_count");
             desc->heavy_vertices = (IntPtr)c.Array(HeavyVertices, "heavyVertices", prefix + "heavy_count");
@@ -2004,7 +2010,7 @@ namespace Hf
             desc->struct_size = (uint)sizeof(hf_sites_desc);
             desc->vertices = (IntPtr)c.Array(Vertices, "vertices", prefix + "site_count");
             var placesRows = (hf_place*)c.Given(Places, "places", sizeof(hf_place), prefix + "site_count");
-            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(placesRows + i);
+            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(c, placesRows + i);
             desc->places = (IntPtr)placesRows;
             desc->points = (IntPtr)c.Array(Points, "points", prefix + "site_count", "3");
             desc->values = (IntPtr)c.Array(Values, "values", prefix + "site_count", "channel_count");
@@ -2048,7 +2054,7 @@ namespace Hf
             desc->kind = (int)Kind;
             desc->vertices = (IntPtr)c.Array(Vertices, "vertices", prefix + "point_count");
             var placesRows = (hf_place*)c.Given(Places, "places", sizeof(hf_place), prefix + "point_count");
-            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(placesRows + i);
+            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(c, placesRows + i);
             desc->places = (IntPtr)placesRows;
             desc->points = (IntPtr)c.Array(Points, "points", prefix + "point_count", "3");
             desc->point_count = (uint)c.Count(prefix + "point_count", 0);
@@ -2339,7 +2345,7 @@ namespace Hf
             {
                 uint count = 0;
                 uint[] allComponents = null;
-                c.Room("hf_surface_get_components", "capacity", null);
+                c.Room("capacity", "hf_surface_get_components.capacity");
                 int result;
                 do
                 {
@@ -2376,7 +2382,7 @@ namespace Hf
             {
                 uint count = 0;
                 void* linksPlace = null;
-                c.Room("hf_surface_get_links", "capacity", null);
+                c.Room("capacity", "hf_surface_get_links.capacity");
                 int result;
                 do
                 {
@@ -2401,7 +2407,7 @@ namespace Hf
                 uint count = 0;
                 uint[] allPieces = null;
                 int[] allLight = null;
-                c.Room("hf_surface_get_pieces", "capacity", null);
+                c.Room("capacity", "hf_surface_get_pieces.capacity");
                 int result;
                 do
                 {
@@ -2432,7 +2438,7 @@ namespace Hf
                 hf_array positions_Array = c.View(positions?.Values, "positions", "vertex_count", "3");
                 hf_array* positions_ = &positions_Array;
                 double[] allGaps = null;
-                c.Room("hf_surface_measure_gaps", "capacity", null);
+                c.Room("capacity", "hf_surface_measure_gaps.capacity");
                 int result;
                 do
                 {
@@ -2483,7 +2489,7 @@ namespace Hf
                 desc->joint_parents = (IntPtr)c.Array(jointParents, "jointParents", "joint_count");
                 desc->tags = (IntPtr)c.Array(tags, "tags", "vertex_count");
                 var linksRows = (hf_link*)c.Given(links, "links", sizeof(hf_link), "link_count");
-                for (int i = 0; links != null && i < links.Length; ++i) links[i].Write(linksRows + i);
+                for (int i = 0; links != null && i < links.Length; ++i) links[i].Write(c, linksRows + i);
                 desc->links = (IntPtr)linksRows;
                 desc->light_vertices = (IntPtr)c.Array(lightVertices, "lightVertices", "light_count");
                 desc->heavy_vertices = (IntPtr)c.Array(heavyVertices, "heavyVertices", "heavy_count");
@@ -2643,8 +2649,8 @@ namespace Hf
                 uint[] allLineStarts = null;
                 uint[] allLineLevels = null;
                 int[] allLineClosed = null;
-                c.Room("hf_surface_trace_isolines", "point_capacity", null);
-                c.Room("hf_surface_trace_isolines", "line_capacity", null);
+                c.Room("point_capacity", "hf_surface_trace_isolines.point_capacity");
+                c.Room("line_capacity", "hf_surface_trace_isolines.line_capacity");
                 int result;
                 do
                 {
@@ -2688,7 +2694,7 @@ namespace Hf
                 hf_array field_Array = c.View(field?.Values, "field", "vertex_count");
                 hf_array* field_ = &field_Array;
                 void* pointsPlace = null;
-                c.Room("hf_surface_find_critical_points", "capacity", null);
+                c.Room("capacity", "hf_surface_find_critical_points.capacity");
                 int result;
                 do
                 {
@@ -2738,7 +2744,7 @@ namespace Hf
                     desc->out_field = (IntPtr)fieldPlace;
                     uint count = 0;
                     void* extremitiesPlace = null;
-                    c.Room("hf_surface_find_extremities", "capacity", null);
+                    c.Room("capacity", "hf_surface_find_extremities.capacity");
                     int result;
                     do
                     {
@@ -2777,12 +2783,13 @@ namespace Hf
                 hf_handle_proposals_desc* desc = &descStruct;
                 desc->joints = (IntPtr)c.Array(joints, "joints", "joint_count", "3");
                 desc->parents = (IntPtr)c.Array(parents, "parents", "joint_count");
-                Call.Fill(up, "up", 3, desc->up);
+                c.Fit(up, "up", "3");
+                for (int i = 0; up != null && i < up.Length; ++i) desc->up[i] = up[i];
                 desc->progress = c.Handle(progress);
                 desc->joint_count = (uint)c.Count("joint_count", 0);
                 uint count = 0;
                 void* proposalsPlace = null;
-                c.Room("hf_surface_propose_handles", "capacity", null);
+                c.Room("capacity", "hf_surface_propose_handles.capacity");
                 int result;
                 do
                 {
@@ -2899,7 +2906,7 @@ namespace Hf
                 hf_sites_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "site_count");
                 var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "site_count");
-                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(c, placesRows + i);
                 desc->places = (IntPtr)placesRows;
                 desc->points = (IntPtr)c.Array(points, "points", "site_count", "3");
                 desc->values = (IntPtr)c.Array(values, "values", "site_count", "channel_count");
@@ -2969,7 +2976,7 @@ namespace Hf
                 hf_sites_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "site_count");
                 var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "site_count");
-                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(c, placesRows + i);
                 desc->places = (IntPtr)placesRows;
                 desc->points = (IntPtr)c.Array(points, "points", "site_count", "3");
                 desc->values = (IntPtr)c.Array(values, "values", "site_count", "channel_count");
@@ -3054,7 +3061,7 @@ namespace Hf
                 double[] allStiffness = null;
                 double[] allFlux = null;
                 double[] allRadii = null;
-                c.Room("hf_solver_get_sites", "capacity", null);
+                c.Room("capacity", "hf_solver_get_sites.capacity");
                 int result;
                 do
                 {
@@ -3612,7 +3619,7 @@ namespace Hf
                 uint[] allPointEdges = null;
                 double[] allParameters = null;
                 double[] allPositions = null;
-                c.Room("hf_geodesics_find_path", "point_capacity", null);
+                c.Room("point_capacity", "hf_geodesics_find_path.point_capacity");
                 int result;
                 do
                 {
@@ -3818,7 +3825,7 @@ namespace Hf
                 uint[] allSites = null;
                 uint[] allVertices = null;
                 double[] allVectors = null;
-                c.Room("hf_direction_get_sites", "capacity", null);
+                c.Room("capacity", "hf_direction_get_sites.capacity");
                 int result;
                 do
                 {
@@ -3918,7 +3925,7 @@ namespace Hf
             {
                 uint count = 0;
                 void* singularitiesPlace = null;
-                c.Room("hf_direction_get_singularities", "capacity", null);
+                c.Room("capacity", "hf_direction_get_singularities.capacity");
                 int result;
                 do
                 {
@@ -4054,7 +4061,7 @@ namespace Hf
                     out desc->region_vertices);
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "handle_count");
                 var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "handle_count");
-                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(c, placesRows + i);
                 desc->places = (IntPtr)placesRows;
                 desc->points = (IntPtr)c.Array(points, "points", "handle_count", "3");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "handle_count");
@@ -4118,9 +4125,10 @@ namespace Hf
             {
                 void* handles_ = c.Array(handles, "handles", "handle_count");
                 var transforms = (hf_transform*)c.Rows(sizeof(hf_transform), "handle_count");
-                c.Spread(rotations, "rotations", 4, transforms->rotation, sizeof(hf_transform), "handle_count");
-                c.Spread(translations, "translations", 3, transforms->translation, sizeof(hf_transform),
-                    "handle_count");
+                c.Fit(rotations, "rotations", "4", "handle_count");
+                for (int i = 0; rotations != null && i < rotations.Length; ++i) transforms[i / 4].rotation[i % 4] = rotations[i];
+                c.Fit(translations, "translations", "3", "handle_count");
+                for (int i = 0; translations != null && i < translations.Length; ++i) transforms[i / 3].translation[i % 3] = translations[i];
                 HfException.Check(Functions.hf_pose_set_transforms(RawHandle, (uint)c.Count("handle_count", 1),
                     handles_, transforms));
             }
@@ -4138,8 +4146,10 @@ namespace Hf
             {
                 var transformStruct = new hf_transform();
                 hf_transform* transform = &transformStruct;
-                Call.Fill(rotation, "rotation", 4, transform->rotation);
-                Call.Fill(translation, "translation", 3, transform->translation);
+                c.Fit(rotation, "rotation", "4");
+                for (int i = 0; rotation != null && i < rotation.Length; ++i) transform->rotation[i] = rotation[i];
+                c.Fit(translation, "translation", "3");
+                for (int i = 0; translation != null && i < translation.Length; ++i) transform->translation[i] = translation[i];
                 HfException.Check(Functions.hf_pose_set_transform(RawHandle, handle, transform));
             }
         }
@@ -4522,8 +4532,8 @@ namespace Hf
                 double[] allScales = null;
                 uint[] allVertexJoints = null;
                 float[] allVertexWeights = null;
-                c.Room("hf_pose_get_skin", "joint_capacity", "joint_count");
-                c.Room("hf_pose_get_skin", "vertex_capacity", "vertex_count");
+                c.Room("joint_capacity", "joint_count");
+                c.Room("vertex_capacity", "vertex_count");
                 int result;
                 do
                 {
@@ -4681,7 +4691,8 @@ namespace Hf
                 desc->irregular_valences = (IntPtr)c.Array(irregularValences, "irregularValences", "irregular_count");
                 desc->irregular_directions = (IntPtr)c.Array(irregularDirections, "irregularDirections",
                     "irregular_count", "3");
-                Call.Fill(symmetryPlane, "symmetryPlane", 4, desc->symmetry_plane);
+                c.Fit(symmetryPlane, "symmetryPlane", "4");
+                for (int i = 0; symmetryPlane != null && i < symmetryPlane.Length; ++i) desc->symmetry_plane[i] = symmetryPlane[i];
                 desc->progress = c.Handle(progress);
                 desc->crease_count = (uint)c.Count("crease_count", 0);
                 desc->guide_count = (uint)c.Count("guide_count", 0);
@@ -4742,7 +4753,8 @@ namespace Hf
                 desc->irregular_valences = (IntPtr)c.Array(irregularValences, "irregularValences", "irregular_count");
                 desc->irregular_directions = (IntPtr)c.Array(irregularDirections, "irregularDirections",
                     "irregular_count", "3");
-                Call.Fill(symmetryPlane, "symmetryPlane", 4, desc->symmetry_plane);
+                c.Fit(symmetryPlane, "symmetryPlane", "4");
+                for (int i = 0; symmetryPlane != null && i < symmetryPlane.Length; ++i) desc->symmetry_plane[i] = symmetryPlane[i];
                 desc->progress = c.Handle(progress);
                 desc->crease_count = (uint)c.Count("crease_count", 0);
                 desc->guide_count = (uint)c.Count("guide_count", 0);
@@ -4780,8 +4792,8 @@ namespace Hf
                 uint[] allTriangles = null;
                 double[] allBarycentrics = null;
                 uint[] allCorners = null;
-                c.Room("hf_quads_get_mesh", "vertex_capacity", "vertex_count");
-                c.Room("hf_quads_get_mesh", "face_capacity", null);
+                c.Room("vertex_capacity", "vertex_count");
+                c.Room("face_capacity", "hf_quads_get_mesh.face_capacity");
                 int result;
                 do
                 {
@@ -4847,8 +4859,8 @@ namespace Hf
                 double[] allValues = null;
                 uint[] allLineStarts = null;
                 uint[] allLineEnds = null;
-                c.Room("hf_flow_trace", "point_capacity", null);
-                c.Room("hf_flow_trace", "line_capacity", null);
+                c.Room("point_capacity", "hf_flow_trace.point_capacity");
+                c.Room("line_capacity", "hf_flow_trace.line_capacity");
                 int result;
                 do
                 {
@@ -4996,7 +5008,7 @@ namespace Hf
             {
                 uint count = 0;
                 uint[] allVertices = null;
-                c.Room("hf_region_get_vertices", "capacity", null);
+                c.Room("capacity", "hf_region_get_vertices.capacity");
                 int result;
                 do
                 {
@@ -5018,7 +5030,7 @@ namespace Hf
             {
                 uint count = 0;
                 double[] allPoints = null;
-                c.Room("hf_region_get_curve", "capacity", null);
+                c.Room("capacity", "hf_region_get_curve.capacity");
                 int result;
                 do
                 {
@@ -5329,7 +5341,8 @@ namespace Hf
                 hf_retarget_desc* desc = &descStruct;
                 desc->source_rest = (IntPtr)c.Array(sourceRest, "sourceRest", "source.joint_count", "10");
                 desc->target_rest = (IntPtr)c.Array(targetRest, "targetRest", "target.joint_count", "10");
-                Call.Fill(groundVelocity, "groundVelocity", 3, desc->ground_velocity);
+                c.Fit(groundVelocity, "groundVelocity", "3");
+                for (int i = 0; groundVelocity != null && i < groundVelocity.Length; ++i) desc->ground_velocity[i] = groundVelocity[i];
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Library.Late(() => Functions.hf_retarget_create(c.Handle(source), c.Handle(target),
@@ -5403,7 +5416,7 @@ namespace Hf
             {
                 uint count = 0;
                 void* chainsPlace = null;
-                c.Room("hf_retarget_get_chains", "capacity", null);
+                c.Room("capacity", "hf_retarget_get_chains.capacity");
                 int result;
                 do
                 {
@@ -5427,7 +5440,7 @@ namespace Hf
             {
                 uint count = 0;
                 uint[] allPartners = null;
-                c.Room("hf_retarget_get_partners", "capacity", null);
+                c.Room("capacity", "hf_retarget_get_partners.capacity");
                 int result;
                 do
                 {
@@ -5555,7 +5568,7 @@ namespace Hf
             {
                 uint count = 0;
                 void* jointsPlace = null;
-                c.Room("hf_skeleton_get_joints", "capacity", null);
+                c.Room("capacity", "hf_skeleton_get_joints.capacity");
                 int result;
                 do
                 {
@@ -5578,7 +5591,7 @@ namespace Hf
             {
                 uint count = 0;
                 void* chainsPlace = null;
-                c.Room("hf_skeleton_get_chains", "capacity", null);
+                c.Room("capacity", "hf_skeleton_get_chains.capacity");
                 int result;
                 do
                 {
@@ -5601,7 +5614,7 @@ namespace Hf
             {
                 uint count = 0;
                 uint[] allJoints = null;
-                c.Room("hf_skeleton_get_chain_joints", "capacity", null);
+                c.Room("capacity", "hf_skeleton_get_chain_joints.capacity");
                 int result;
                 do
                 {
@@ -5699,8 +5712,10 @@ namespace Hf
                 hf_transfer_desc* desc = &descStruct;
                 desc->source_rest = c.View(sourceRest?.Values, "sourceRest", "source.vertex_count", "3");
                 desc->target_rest = c.View(targetRest?.Values, "targetRest", "target.vertex_count", "3");
-                Call.Fill(sourceAxes, "sourceAxes", 9, desc->source_axes);
-                Call.Fill(targetAxes, "targetAxes", 9, desc->target_axes);
+                c.Fit(sourceAxes, "sourceAxes", "9");
+                for (int i = 0; sourceAxes != null && i < sourceAxes.Length; ++i) desc->source_axes[i] = sourceAxes[i];
+                c.Fit(targetAxes, "targetAxes", "9");
+                for (int i = 0; targetAxes != null && i < targetAxes.Length; ++i) desc->target_axes[i] = targetAxes[i];
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Library.Late(() => Functions.hf_transfer_create(c.Handle(source), c.Handle(target),
                     desc, raw)));
@@ -6016,8 +6031,8 @@ namespace Hf
                 double[] allScales = null;
                 uint[] allVertexJoints = null;
                 float[] allVertexWeights = null;
-                c.Room("hf_transfer_get_skin", "joint_capacity", "joint_count");
-                c.Room("hf_transfer_get_skin", "vertex_capacity", "vertex_count");
+                c.Room("joint_capacity", "joint_count");
+                c.Room("vertex_capacity", "vertex_count");
                 int result;
                 do
                 {
@@ -6181,7 +6196,7 @@ namespace Hf
                 hf_pins_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "pin_count");
                 var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "pin_count");
-                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(c, placesRows + i);
                 desc->places = (IntPtr)placesRows;
                 desc->points = (IntPtr)c.Array(points, "points", "pin_count", "3");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "pin_count");
@@ -6226,7 +6241,7 @@ namespace Hf
                 uint[] allJoints = null;
                 float[] allWeights = null;
                 byte[] allOrigins = null;
-                c.Room("hf_weights_get", "vertex_capacity", "vertex_count");
+                c.Room("vertex_capacity", "vertex_count");
                 int result;
                 do
                 {
@@ -6253,7 +6268,7 @@ namespace Hf
                 uint count = 0;
                 uint[] allFlags = null;
                 uint[] allVertexCounts = null;
-                c.Room("hf_weights_get_joints", "capacity", null);
+                c.Room("capacity", "hf_weights_get_joints.capacity");
                 int result;
                 do
                 {
@@ -6309,7 +6324,7 @@ namespace Hf
             {
                 uint count = 0;
                 uint[] allReasons = null;
-                c.Room("hf_weights_get_helpers", "capacity", null);
+                c.Room("capacity", "hf_weights_get_helpers.capacity");
                 int result;
                 do
                 {
@@ -6360,7 +6375,7 @@ namespace Hf
                 uint[] allJoints = null;
                 float[] allWeights = null;
                 byte[] allOrigins = null;
-                c.Room("hf_weights_transfer", "vertex_capacity", "vertex_count");
+                c.Room("vertex_capacity", "vertex_count");
                 int result;
                 do
                 {
@@ -6434,7 +6449,7 @@ namespace Hf
                 uint[] allJoints = null;
                 float[] allWeights = null;
                 byte[] allOrigins = null;
-                c.Room("hf_weights_mirror", "vertex_capacity", "vertex_count");
+                c.Room("vertex_capacity", "vertex_count");
                 int result;
                 do
                 {

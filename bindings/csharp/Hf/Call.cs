@@ -87,7 +87,7 @@ namespace Hf
         }
 
         /// <summary>Checks how many numbers there are; a dimension that is not known yet becomes known.</summary>
-        Array Fit(Array values, string name, params string[] dims)
+        public Array Fit(Array values, string name, params string[] dims)
         {
             if (values == null) return null;
             long known = 1, length = values.Length;
@@ -135,31 +135,14 @@ namespace Hf
         public void* Given(Array rows, string name, int size, params string[] dims) =>
             Fit(rows, name, dims) == null ? null : New(checked(size * rows.Length));
 
-        /// <summary>A field of every row, `each` numbers apart.</summary>
-        public void Spread(double[] values, string name, int each, double* first, int stride, string dim)
-        {
-            Fit(values, name, each.ToString(), dim);
-            for (int i = 0; values != null && i < values.Length; ++i)
-                ((double*)((byte*)first + i / each * stride))[i % each] = values[i];
-        }
-
-        /// <summary>A field of a fixed number of numbers.</summary>
-        public static void Fill(Array values, string name, int count, void* place)
-        {
-            if (values == null) return;
-            if (values.Length != count) throw new HfException(name + " must hold " + count + " numbers, not " + values.Length);
-            if (values is double[]) Marshal.Copy((double[])values, 0, (IntPtr)place, count);
-            else Marshal.Copy((int[])values, 0, (IntPtr)place, count);
-        }
-
         /// <summary>Lists of different lengths, one after the other.</summary>
         public void Lists(uint[][] lists, string name, string key, out IntPtr counts, out IntPtr all)
         {
             counts = all = IntPtr.Zero;
             if (Fit(lists, name, key) == null) return;
             var together = new List<uint>();
-            int missing = System.Array.IndexOf(lists, null);
-            if (missing >= 0) throw new HfException(name + "[" + missing + "] is null", Constants.HF_ERROR_NULL_POINTER);
+            int none = System.Array.IndexOf(lists, null);
+            if (none >= 0) throw new HfException(name + "[" + none + "] is null", Constants.HF_ERROR_NULL_POINTER);
             foreach (uint[] list in lists) together.AddRange(list);
             counts = Pin(System.Array.ConvertAll(lists, list => (uint)list.Length));
             all = Pin(together.ToArray());
@@ -172,7 +155,7 @@ namespace Hf
         public void* Place(Place place, string name)
         {
             var raw = (hf_place*)New(sizeof(hf_place));
-            (place ?? throw new HfException(name + " is null", Constants.HF_ERROR_NULL_POINTER)).Write(raw);
+            (place ?? throw new HfException(name + " is null", Constants.HF_ERROR_NULL_POINTER)).Write(this, raw);
             return raw;
         }
 
@@ -190,11 +173,7 @@ namespace Hf
         }
 
         /// <summary>How many rows of an array that grows are tried: a count that is known, or what sufficed last time.</summary>
-        public void Room(string function, string key, string known)
-        {
-            int room = Math.Max(known == null ? -1 : Size(known), Size(function + "." + key));
-            Sizes[key] = room < 0 ? First : room;
-        }
+        public void Room(string key, string like) => Sizes[key] = Size(like) < 0 ? First : Size(like);
 
         public IntPtr Make<T>(out T[] array, params string[] dims) => Pin(array = new T[Product(dims)]);
 

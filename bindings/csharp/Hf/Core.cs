@@ -33,8 +33,7 @@ namespace Hf
             if (result == Constants.HF_OK) return;
             hf_error_detail detail;
             Functions.hf_error_get_detail(&detail);
-            uint? index = detail.index;
-            if (detail.index == Constants.HF_NO_INDEX) index = null;
+            uint? index = detail.index == Constants.HF_NO_INDEX ? (uint?)null : detail.index;
             throw new HfException(Text(detail.message, 256), result, index, Text(detail.function, 48));
         }
 
@@ -59,17 +58,7 @@ namespace Hf
                 if (Array.IndexOf(counts, size.Key.Substring(size.Key.LastIndexOf('.') + 1)) >= 0) Counts[size.Key] = size.Value;
         }
 
-        internal int Known(string count)
-        {
-            lock (Counts) return Counts.TryGetValue(count, out int known) ? known : 0;
-        }
-
-        internal void Exchange(HfObject other)
-        {
-            IntPtr mine = handle;
-            SetHandle(other.handle);
-            other.SetHandle(mine);
-        }
+        internal int Known(string count) { lock (Counts) return Counts.TryGetValue(count, out int known) ? known : 0; }
 
         /// <summary>The handle of the C ABI; stale after Dispose, which the library finds out.</summary>
         public IntPtr RawHandle => handle;
@@ -91,11 +80,7 @@ namespace Hf
         internal abstract Recorded State();
 
         /// <summary>Keeps the present state for Undo.</summary>
-        public void Record()
-        {
-            past.Push(State());
-            undone.Clear();
-        }
+        public void Record() { past.Push(State()); undone.Clear(); }
 
         /// <summary>Goes back to the last record, bit for bit.</summary>
         public void Undo() => Exchange(past, undone, "nothing is recorded; call Record before the edits");
@@ -107,8 +92,11 @@ namespace Hf
         {
             if (IsClosed) State();  // throws what every call on a disposed object throws
             if (from.Count == 0) throw new HfException(nothing, Constants.HF_ERROR_EMPTY);
-            Exchange(from.Peek());
-            to.Push(from.Pop());
+            Recorded state = from.Pop();
+            IntPtr mine = handle;
+            SetHandle(state.handle);
+            state.SetHandle(mine);
+            to.Push(state);
         }
     }
 
@@ -174,15 +162,11 @@ namespace Hf
         // since Mono and older frameworks lack it. Mono has a map. Windows takes a library that is already loaded.
         static void Bind()
         {
-            if (Loader != null)
-            {
-                MethodInfo set = Loader.GetMethod("SetDllImportResolver");
-                Func<string, Assembly, DllImportSearchPath?, IntPtr> own = Resolve;
-                Delegate resolve = Delegate.CreateDelegate(set.GetParameters()[1].ParameterType, own.Method);
-                set.Invoke(null, new object[] { typeof(Library).Assembly, resolve });
-                return;
-            }
-            try { mono_dllmap_insert(IntPtr.Zero, Functions.LibraryName, null, file, null); }
+            MethodInfo set = Loader?.GetMethod("SetDllImportResolver");
+            Func<string, Assembly, DllImportSearchPath?, IntPtr> own = Resolve;
+            Func<Delegate> resolver = () => Delegate.CreateDelegate(set.GetParameters()[1].ParameterType, own.Method);
+            if (set != null) set.Invoke(null, new object[] { typeof(Library).Assembly, resolver() });
+            try { if (set == null) mono_dllmap_insert(IntPtr.Zero, Functions.LibraryName, null, file, null); }
             catch (Exception) { if (IsWindows) LoadLibraryW(file); }  // no Mono
         }
 
@@ -199,7 +183,7 @@ namespace Hf
         }
 
         [DllImport("__Internal", CharSet = CharSet.Ansi)]
-        static extern void mono_dllmap_insert(IntPtr assembly, string name, string function, string to, string toFunction);
+        static extern void mono_dllmap_insert(IntPtr assembly, string name, string function, string to, string call);
         [DllImport("kernel32", CharSet = CharSet.Unicode)] static extern IntPtr LoadLibraryW(string file);
 #endif
     }
