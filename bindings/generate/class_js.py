@@ -61,7 +61,8 @@ class Steps:
         return [f"delete c.n.{key}; // of the list given here"]
 
     def do_known(self, key, default):
-        return [f"c.known('{key}', {js(key)}{' || ' + default if default else ''});"]
+        given = f"scalar('u32', {js(key)}, '{js(key)}')"
+        return [f"c.n.{key} = {given} || {default};" if default else f"if ({given}) c.n.{key} = {js(key)};"]
 
     def do_struct(self, var, type, fields):
         options = ", ".join(name if js(name) == name else f"{name}: {js(name)}" for name in fields)
@@ -75,8 +76,9 @@ class Steps:
         return [f"const {js(var)} = c.struct('{type}', {{}});"] + [line for f, name in fields for line in self.field_fixed(js(var), f, js(name))]
 
     def do_records(self, var, type, fields, dims):
-        given = ", ".join(f"{f['name']}: ['{js(name)}', {js(name)}]" for f, name in fields)
-        return [f"const {js(var)} = c.records('{type}', {self.dims(dims)}, {{ {given} }});"]
+        given = ", ".join(f"{f['name']}: {js(name)} && c.numbers('{js(name)}', {js(name)}, 'f8', [{self.dims(dims)[1:-1]}, {f['count']}])" for f, name in fields)
+        return [f"const {js(var)}Fields = c.fields({{ {given} }}, c.product({self.dims(dims)}));",
+                f"const {js(var)} = c.rows('{js(var)}', {js(var)}Fields, {self.dims(dims)}, (fields) => c.plain('{type}', fields));"]
 
     def do_array(self, var, name, item):
         if item["view"]:
@@ -110,8 +112,8 @@ class Steps:
     def field_written(self, var, field):
         name = js(field["name"])
         if field["type"] == PLACE:
-            return [f"{var}.set('{field['name']}', c.places('{name}', {name}, {self.dims(field['dims'])}));"]
-        return [f"{var}.set('{field['name']}', c.written('{name}', {name}, '{field['type']}', {self.dims(field['dims'])}));"]
+            return [f"{var}.set('{field['name']}', c.rows('{name}', {name}, {self.dims(field['dims'])}, c.place));"]
+        return [f"{var}.set('{field['name']}', c.rows('{name}', {name}, {self.dims(field['dims'])}, (row) => c.plain('{field['type']}', row)));"]
 
     def field_blob(self, var, field, count):
         name = js(field["name"])
@@ -134,7 +136,7 @@ class Steps:
         return [f"const {js(var)} = c.out(null, '{kinds}', {dims});"]
 
     def do_view(self, var, name, item):
-        return [f"const {js(var)} = c.viewOut({js(name)}, {self.dims(item['dims'])});"]
+        return [f"const {js(var)} = c.viewOf('hf_array_out', written, {js(name)}, {self.dims(item['dims'])});"]
 
     def do_fill(self, var, item, twin, given):
         kinds = self.kinds(item, item.get("twin"))
@@ -142,7 +144,7 @@ class Steps:
 
     def do_point(self, var, field, twin, optional):
         name = js(var) + "_" * optional
-        value = f"c.viewOut({name}, {self.dims(field['dims'])})" if field["view"] else f"written({name})"
+        value = f"c.viewOf('hf_array_out', written, {name}, {self.dims(field['dims'])})" if field["view"] else f"written({name})"
         return [f"desc.set('{field['name']}', {name} && {value});"]
 
     def do_scalar(self, var, item):
@@ -250,7 +252,7 @@ class Writer(Types):
             body.append(f"const c = new Call({own}{', { ' + objects + ' }' if objects else ''});")
         told = [a for a in plan.arguments if a.role == "info"]
         for a in told:
-            body.append(f"const {js(a.name)} = " + (f"c.told(this, '{a.item['type']}');" if m.own else f"c.struct('{a.item['type']}', {{}});"))
+            body.append(f"const {js(a.name)} = " + (f"Call.told(this, '{a.item['type']}');" if m.own else f"c.struct('{a.item['type']}', {{}});"))
         for op, values in plan.steps:
             if op == "desc":  # options that are left are the desc's: it refuses others
                 ahead_names = [js(a.name) for a in ahead if a.struct is desc and a.role != "out"]
@@ -306,7 +308,7 @@ class Writer(Types):
         taken |= {f["type"] for name in taken for f in self.structs[name].inner}
         taken |= {f["type"] for name in taken for f in self.structs[name].inner}
         out = ["// Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.", "",
-               "export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, written }) {"]
+               "export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, scalar, written }) {"]
         for name, struct in self.structs.items():
             out += self.filler(struct) if name in taken and struct.asked() else []
         self.methods = {}
@@ -325,7 +327,7 @@ class Writer(Types):
                     plans.append(plan)
                     told += [a.item["type"] for a in plan.arguments if a.role == "info" and m.own and a.item["type"] not in told]
             for struct in told:
-                out += ["", f"    get {js(struct[3:])}() {{", f"      return Call.told(this, '{struct}');", "    }"]
+                out += ["", f"    get {js(struct[3:])}() {{", f"      return Call.told(this, '{struct}').toObject();", "    }"]
             out.append("  }")
             self.methods[name] = (handle, methods, plans, told, counts)
         out += ["", "  return { " + ", ".join(camel(h["name"]) for h, _ in self.groups) + " };", "}"]

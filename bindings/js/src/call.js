@@ -1,38 +1,23 @@
 // One call of the library: arrays in and out, and the counts that follow from them and from the objects.
 import { constants, layouts } from './raw.js';
-import { Struct, camel, fail, missing, numbers, read, rows, scalar, types, written } from './marshal.js';
+import { Struct, camel, fail, isArray, missing, numbers, read, rows, types, written } from './marshal.js';
 
 const snake = (name) => name.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
-const mapped = (object, make) => Object.fromEntries(Object.entries(object).map(([key, value]) => [key, make(value, key)]));
-
-/** Structs as one packed array. */
-function packed(structs) {
-  const bytes = new Uint8Array(structs.reduce((sum, struct) => sum + struct.bytes.length, 0));
-  structs.forEach((struct, i) => bytes.set(struct.bytes, i * struct.bytes.length));
-  return read(bytes);
-}
+const mapped = (all, change) => Object.fromEntries(Object.entries(all).map(([key, one]) => [key, change(one, key)]));
 
 export function callClass({ width }) {
   const make = (type, fields) => new Struct(width, type, fields);
 
   return class Call {
+    /** A struct of figures that the object keeps. */
     static told(owner, type) {
-      return (owner._told?.[type] ?? make(type)).toObject();
+      return ((owner._told ??= {})[type] ??= make(type));
     }
 
     constructor(owner, named) {
       this.n = { ...owner?._n };
       for (const name in named)
-        for (const [key, value] of Object.entries(named[name]?._n ?? {})) this.n[`${name}.${key}`] = this.n[key] = value;
-    }
-
-    /** A struct of figures that the object keeps. */
-    told(owner, type) {
-      return ((owner._told ??= {})[type] ??= make(type));
-    }
-
-    known(key, value) {
-      if (scalar('u32', value, key)) this.n[key] = value;
+        for (const key in named[name]?._n) this.n[`${name}.${key}`] = this.n[key] = named[name]._n[key];
     }
 
     struct(type, options) {
@@ -45,7 +30,7 @@ export function callClass({ width }) {
     /** What a dimension such as 'face_count + 1' is; null: not known yet. */
     size(dim) {
       const [base, more = 0] = String(dim).split(' + ');
-      return typeof dim === 'number' ? dim : base in this.n ? this.n[base] + Number(more) : null;
+      return typeof dim === 'number' ? dim : base in this.n ? this.n[base] + Number(more) : (this.n[dim] ?? null);
     }
 
     product(dims) {
@@ -55,13 +40,11 @@ export function callClass({ width }) {
     /** Checks how many numbers there are; a dimension that is not known yet becomes known. */
     fit(length, name, dims) {
       const loose = dims.filter((dim) => this.size(dim) === null);
-      const known = this.product(dims.filter((dim) => this.size(dim) !== null));
+      const known = this.product(dims.filter((dim) => !loose.includes(dim)));
       if (loose.length > 1) fail(`${name} cannot be read without what it belongs to`);
       if (!loose.length && length !== known) fail(`${name} must hold ${known} numbers, not ${length}`);
       if (known ? length % known : length) fail(`${name} must hold ${known} numbers for each, not ${length}`);
-      if (!loose.length) return;
-      const [base, more = 0] = loose[0].split(' + ');
-      this.n[base] = known ? Math.max(length / known - more, 0) : 0;
+      for (const dim of loose) this.n[dim] = length / (known || 1);
     }
 
     // ---- what goes in
@@ -74,8 +57,8 @@ export function callClass({ width }) {
 
     array(name, values, kinds, dims) {
       if (missing(values)) return null;
-      const oneForAll = typeof values === 'number' && dims.every((dim) => this.size(dim) !== null);
-      return read(this.numbers(name, oneForAll ? new Array(this.product(dims)).fill(values) : values, kinds, dims));
+      const all = typeof values === 'number' && dims.every((dim) => this.size(dim) !== null); // one number for all
+      return read(this.numbers(name, all ? new Array(this.product(dims)).fill(values) : values, kinds, dims));
     }
 
     /** An hf_array of numbers, or null. */
@@ -83,13 +66,9 @@ export function callClass({ width }) {
       return missing(values) ? null : this.viewOf('hf_array', read, this.numbers(name, values, kinds, dims), dims);
     }
 
-    viewOut(array, dims) {
-      return this.viewOf('hf_array_out', written, array, dims);
-    }
-
     viewOf(struct, mark, array, dims) {
-      const type = array instanceof Float64Array ? 'HF_TYPE_DOUBLE' : array instanceof Uint16Array ? 'HF_TYPE_UINT16' : 'HF_TYPE_PLAIN';
-      return make(struct, { data: mark(array), count: this.size(dims[0]) ?? 0, type: constants[type] });
+      const type = { 8: 'HF_TYPE_DOUBLE', 2: 'HF_TYPE_UINT16' }[array.BYTES_PER_ELEMENT];
+      return make(struct, { data: mark(array), count: this.size(dims[0]) ?? 0, type: constants[type] ?? 0 });
     }
 
     /** Lists of different lengths, one after the other: their lengths, and they. */
@@ -104,39 +83,30 @@ export function callClass({ width }) {
       return [read(Uint32Array.from(arrays, (array) => array.length)), read(Uint32Array.from(all))];
     }
 
-    /** Rows of a plain struct, given field by field: field -> [name, values]. */
-    records(type, dims, fields) {
-      const given = Object.entries(fields).filter(([, [, values]]) => !missing(values));
-      const columns = given.map(([field, [name, values]]) => {
-        const count = layouts[type].fields[field][2];
-        return [field, this.numbers(name, values, 'f8', [...dims, count]), count];
-      });
-      const row = (i) => columns.map(([field, array, count]) => [field, array.subarray(i * count, (i + 1) * count)]);
-      return packed(Array.from({ length: this.n[dims[0]] ?? 0 }, (_, i) => make(type, Object.fromEntries(row(i)))));
-    }
-
-    /** Rows that the library wrote, given back to it. */
-    written(name, values, type, dims) {
-      const row = (value) => make(type, Object.fromEntries(Object.entries(value).map(([key, field]) => [snake(key), field])));
-      return this.rows(name, values, dims, row);
-    }
-
+    /** Rows of a struct, one after the other. make(value, name): its struct. */
     rows(name, values, dims, row) {
       if (missing(values)) return null;
-      if (!Array.isArray(values)) fail(`${name} must be a list of objects`);
+      if (!Array.isArray(values)) fail(`${name} must be a list`);
       this.fit(values.length, name, dims);
-      return packed(values.map(row));
+      const bytes = values.flatMap((value, i) => Array.from(row(value, `${name}[${i}]`).bytes));
+      return read(Uint8Array.from(bytes));
     }
 
-    places(name, values, dims) {
-      return this.rows(name, values, dims, (value, i) => this.place(value, `${name}[${i}]`));
+    /** Fields of rows: the i-th part of each array. */
+    fields(columns, count) {
+      const part = (array, i) => array?.subarray((i * array.length) / count, ((i + 1) * array.length) / count);
+      return Array.from({ length: count }, (_, i) => mapped(columns, (array) => part(array, i)));
+    }
+
+    /** A struct that the library wrote, given back to it. */
+    plain(type, value) {
+      return make(type, Object.fromEntries(Object.keys(value).map((key) => [snake(key), value[key]])));
     }
 
     /** One place: a vertex, a hit, or three corners of a triangle and their barycentrics. */
     place(value, name) {
-      const { corners, barycentrics } = Number.isInteger(value)
-        ? { corners: [value, value, value], barycentrics: [1, 0, 0] }
-        : (value?.place ?? value ?? {});
+      const vertex = Number.isInteger(value) && { corners: [value, value, value], barycentrics: [1, 0, 0] };
+      const { corners, barycentrics } = vertex || (value?.place ?? value ?? {});
       if (corners?.length !== 3 || barycentrics?.length !== 3)
         fail(`${name} must be a vertex, a hit, or an object with three corners and three barycentrics`);
       return make('hf_place', { corners, barycentrics });
@@ -146,13 +116,13 @@ export function callClass({ width }) {
     text(values, name) {
       if (missing(values)) return null;
       if (typeof values !== 'string' && !Array.isArray(values)) fail(`${name} must be a string or a list of strings`);
-      const lines = typeof values === 'string' ? values : values.map((line) => `${String(line).replace(/[\0\n]/g, ' ')}\n`).join('');
-      return read(new TextEncoder().encode(`${lines}\0`));
+      const clean = (line) => `${String(line).replace(/[\0\n]/g, ' ')}\n`;
+      return read(new TextEncoder().encode(`${Array.isArray(values) ? values.map(clean).join('') : values}\0`));
     }
 
     /** A desc inside a desc: an object of its options, or its first array alone. */
     inner(given, first, fill, prefix) {
-      return missing(given) ? null : fill(this, prefix, Array.isArray(given) || ArrayBuffer.isView(given) ? { [first]: given } : given);
+      return missing(given) ? null : fill(this, prefix, isArray(given) ? { [first]: given } : given);
     }
 
     // ---- what comes out
@@ -161,10 +131,11 @@ export function callClass({ width }) {
     out(given, kinds, dims, Type, name = 'out') {
       const count = this.product(dims);
       const allowed = kinds.split(' ').map((kind) => types[kind]);
-      if (missing(given)) return new (Type ?? allowed[0])(count);
-      if (!allowed.some((kind) => given instanceof kind)) fail(`${name} must be a ${allowed.map((kind) => kind.name).join(' or ')}`);
-      if (given.length !== count) fail(`${name} must hold ${count} numbers, not ${given.length}`, 'HF_ERROR_TOO_SMALL');
-      return given;
+      const array = given ?? new (Type ?? allowed[0])(count);
+      const right = allowed.some((kind) => array instanceof kind);
+      if (!right) fail(`${name} must be a ${allowed.map((kind) => kind.name).join(' or ')}`);
+      if (array.length !== count) fail(`${name} must hold ${count} numbers, not ${array.length}`, 'HF_ERROR_TOO_SMALL');
+      return array;
     }
 
     into(struct, room, arrays) {
@@ -179,27 +150,27 @@ export function callClass({ width }) {
       let room = mapped(rooms, (known, key) => known ?? memory[name + key] ?? 1024);
       for (;;) {
         Object.assign(this.n, room);
-        const made = mapped(arrays, ([kind, dims]) => new (types[kind] ?? Uint8Array)(this.product(dims) * (layouts[kind]?.size[width] ?? 1)));
-        let failure = null;
+        const made = mapped(arrays, ([kind, dims]) => {
+          const each = layouts[kind]?.size[width] ?? 1;
+          return new (types[kind] ?? Uint8Array)(each * this.product(dims));
+        });
+        const fits = () => Object.keys(room).every((key) => tell()[key] <= room[key]);
         try {
           run(room, made);
         } catch (error) {
-          failure = error;
+          if (error.code !== constants.HF_ERROR_TOO_SMALL || fits()) throw error;
         }
         const counts = tell();
-        const fits = Object.keys(room).every((key) => counts[key] <= room[key]);
-        const known = Object.keys(counts).every((key) => key in room || counts[key] === this.n[key]);
-        if (failure && (fits || failure.code !== constants.HF_ERROR_TOO_SMALL)) throw failure;
+        const done = fits() && Object.keys(counts).every((key) => key in room || counts[key] === this.n[key]);
         Object.assign(this.n, counts);
-        for (const key in room) memory[name + key] = Math.max(1024, counts[key] + (counts[key] >> 3));
-        if (fits && known) return mapped(made, (array, key) => this.cut(array, ...arrays[key]));
         room = mapped(room, (_, key) => counts[key]);
+        for (const key in room) memory[name + key] = Math.max(1024, counts[key] + (counts[key] >> 3));
+        if (done)
+          return mapped(made, (array, key) => {
+            const [kind, dims] = arrays[key];
+            return types[kind] ? array.subarray(0, this.product(dims)) : rows(width, kind, array, this.product(dims));
+          });
       }
-    }
-
-    cut(array, kind, dims) {
-      const count = this.product(dims);
-      return types[kind] ? array.subarray(0, count) : rows(width, kind, array, count);
     }
   };
 }

@@ -1,6 +1,6 @@
 // Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.
 
-export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, written }) {
+export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, scalar, written }) {
 
   const factorDesc = (c, prefix, options) => {
     const { bytes = null, ...more } = options;
@@ -20,7 +20,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     desc.set('weights', c.array('weights', weights, 'f4', ['vertex_count', prefix + 'influence_count']));
     desc.set('joint_parents', c.array('jointParents', jointParents, 'u4', [prefix + 'joint_count']));
     desc.set('tags', c.array('tags', tags, 'u4', ['vertex_count']));
-    desc.set('links', c.written('links', links, 'hf_link', [prefix + 'link_count']));
+    desc.set('links', c.rows('links', links, [prefix + 'link_count'], (row) => c.plain('hf_link', row)));
     desc.set('light_vertices', c.array('lightVertices', lightVertices, 'u4', [prefix + 'light_count']));
     desc.set('heavy_vertices', c.array('heavyVertices', heavyVertices, 'u4', [prefix + 'heavy_count']));
     desc.set('influence_count', (c.n[prefix + 'influence_count'] ??= 0));
@@ -66,7 +66,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const desc = c.struct('hf_graph_desc', { vertex_count: vertexCount, allow_negative: allowNegative,
             field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
             edge_limit: edgeLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
-    c.known('vertex_count', vertexCount);
+    if (scalar('u32', vertexCount, 'vertexCount')) c.n.vertex_count = vertexCount;
     desc.set('edges', c.view('edges', edges, 'u4 u2', ['edge_count', 2]));
     desc.set('weights', c.view('weights', weights, 'f4 f8', ['edge_count']));
     desc.set('masses', c.view('masses', masses, 'f4 f8', ['vertex_count']));
@@ -88,7 +88,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_solver_desc', { field_kind: fieldKind, channel_count: channelCount,
             site_limit: siteLimit });
-    c.known('channel_count', channelCount || 1);
+    c.n.channel_count = scalar('u32', channelCount, 'channelCount') || 1;
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
   };
@@ -99,7 +99,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_sites_desc', {});
     desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'site_count']));
-    desc.set('places', c.places('places', places, [prefix + 'site_count']));
+    desc.set('places', c.rows('places', places, [prefix + 'site_count'], c.place));
     desc.set('points', c.array('points', points, 'f8', [prefix + 'site_count', 3]));
     desc.set('values', c.array('values', values, 'f8', [prefix + 'site_count', 'channel_count']));
     desc.set('stiffness', c.array('stiffness', stiffness, 'f8', [prefix + 'site_count']));
@@ -138,7 +138,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_extremities_desc', { kind, least_length_share: leastLengthShare,
             source_count: sourceCount });
-    c.known('source_count', sourceCount || 40);
+    c.n.source_count = scalar('u32', sourceCount, 'sourceCount') || 40;
     desc.set('geodesics', handleOf(geodesics, Geodesics, 'geodesics') || null);
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
@@ -168,7 +168,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const regionVertices_ = c.lists('regionVertices', regionVertices, [prefix + 'handle_count']);
     desc.set('region_counts', regionVertices_[0]).set('region_vertices', regionVertices_[1]);
     desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'handle_count']));
-    desc.set('places', c.places('places', places, [prefix + 'handle_count']));
+    desc.set('places', c.rows('places', places, [prefix + 'handle_count'], c.place));
     desc.set('points', c.array('points', points, 'f8', [prefix + 'handle_count', 3]));
     desc.set('radii', c.array('radii', radii, 'f8', [prefix + 'handle_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
@@ -182,7 +182,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_deform_desc', { iteration_count: iterationCount, restart, refine,
             refine_from_last: refineFromLast, first_vertex: firstVertex, vertex_count: vertexCount });
-    c.known('vertex_count', vertexCount);
+    if (scalar('u32', vertexCount, 'vertexCount')) c.n.vertex_count = vertexCount;
     return desc;
   };
 
@@ -236,7 +236,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_curve_desc', { side, seed_vertex: seedVertex, kind });
     desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'point_count']));
-    desc.set('places', c.places('places', places, [prefix + 'point_count']));
+    desc.set('places', c.rows('places', places, [prefix + 'point_count'], c.place));
     desc.set('points', c.array('points', points, 'f8', [prefix + 'point_count', 3]));
     desc.set('point_count', (c.n[prefix + 'point_count'] ??= 0));
     return desc;
@@ -390,7 +390,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_pins_desc', {});
     desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'pin_count']));
-    desc.set('places', c.places('places', places, [prefix + 'pin_count']));
+    desc.set('places', c.rows('places', places, [prefix + 'pin_count'], c.place));
     desc.set('points', c.array('points', points, 'f8', [prefix + 'pin_count', 3]));
     desc.set('radii', c.array('radii', radii, 'f8', [prefix + 'pin_count']));
     desc.set('joints', c.array('joints', joints, 'u4', [prefix + 'pin_count', prefix + 'influence_count']));
@@ -406,7 +406,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_weights_transfer_desc', { distance, angle, influence_count: influenceCount });
-    c.known('influence_count', influenceCount || 4);
+    c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
     desc.set('joints', c.array('joints', joints, 'u4', ['source.vertex_count', prefix + 'source_influence_count']));
     desc.set('weights', c.array('weights', weights, 'f4', ['source.vertex_count', prefix + 'source_influence_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
@@ -419,7 +419,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             distance = 0, angle = 0, influenceCount = 0, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_weights_mirror_desc', { to, distance, angle, influence_count: influenceCount });
-    c.known('influence_count', influenceCount || 4);
+    c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
     desc.set('heads', c.array('heads', heads, 'f8', [prefix + 'joint_count', 3]));
     desc.set('partners', c.array('partners', partners, 'u4', [prefix + 'joint_count']));
     desc.set('plane', c.array('plane', plane, 'f8', [6]));
@@ -536,7 +536,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     measureGaps(positions) {
       const c = new Call(this);
-      const info = c.told(this, 'hf_gaps_info');
+      const info = Call.told(this, 'hf_gaps_info');
       const positions_ = c.view('positions', positions, 'f4 f8', ['vertex_count', 3]);
       const found = c.grow(this, 'hf_surface_measure_gaps', (room, made) => call('hf_surface_measure_gaps',
               this._handle, positions === null || positions === undefined ? null : positions_, room.capacity,
@@ -598,7 +598,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     spaceLevels(field, levelCount, spacing = 0) {
       const c = new Call(this);
       const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
-      c.known('level_count', levelCount);
+      if (scalar('u32', levelCount, 'levelCount')) c.n.level_count = levelCount;
       const levels = c.out(null, 'f8', ['level_count']);
       call('hf_surface_space_levels', this._handle, field === null || field === undefined ? null : field_, spacing,
               levelCount, written(levels));
@@ -622,7 +622,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     findCriticalPoints(field) {
       const c = new Call(this);
-      const info = c.told(this, 'hf_critical_info');
+      const info = Call.told(this, 'hf_critical_info');
       const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
       const found = c.grow(this, 'hf_surface_find_critical_points', (room,
               made) => call('hf_surface_find_critical_points', this._handle,
@@ -656,11 +656,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
 
     get gapsInfo() {
-      return Call.told(this, 'hf_gaps_info');
+      return Call.told(this, 'hf_gaps_info').toObject();
     }
 
     get criticalInfo() {
-      return Call.told(this, 'hf_critical_info');
+      return Call.told(this, 'hf_critical_info').toObject();
     }
   }
 
@@ -767,9 +767,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { Type = Float32Array, ...more } = options;
       none(more);
       const c = new Call(this);
-      const info = c.told(this, 'hf_solve_info');
+      const info = Call.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 'channel_count'], Type);
-      const outView = c.viewOut(out, ['vertex_count', 'channel_count']);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count', 'channel_count']);
       call('hf_solver_solve', this._handle, outView, info);
       return out;
     }
@@ -787,9 +787,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { Type = Float32Array, normals = null, ...more } = options;
       none(more);
       const c = new Call(this);
-      const info = c.told(this, 'hf_solve_info');
+      const info = Call.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      const outView = c.viewOut(out, ['vertex_count', 3]);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count', 3]);
       const normals_ = normals && c.out(normals, 'f8', ['vertex_count', 3], null, 'normals');
       call('hf_solver_solve_vectors', this._handle, outView, written(normals), info);
       return out;
@@ -799,9 +799,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { correctionCount = 0, Type = Float32Array, ...more } = options;
       none(more);
       const c = new Call(this);
-      const info = c.told(this, 'hf_preview_info');
+      const info = Call.told(this, 'hf_preview_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 'channel_count'], Type);
-      const outView = c.viewOut(out, ['vertex_count', 'channel_count']);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count', 'channel_count']);
       call('hf_solver_solve_preview', this._handle, outView, correctionCount, info);
       return out;
     }
@@ -847,11 +847,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
 
     get solveInfo() {
-      return Call.told(this, 'hf_solve_info');
+      return Call.told(this, 'hf_solve_info').toObject();
     }
 
     get previewInfo() {
-      return Call.told(this, 'hf_preview_info');
+      return Call.told(this, 'hf_preview_info').toObject();
     }
   }
 
@@ -876,7 +876,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const sources_ = c.array('sources', sources, 'u4', ['source_count']);
       out = c.out(out, 'f4 f8', ['vertex_count'], Type);
-      const outView = c.viewOut(out, ['vertex_count']);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count']);
       call('hf_geodesics_solve', this._handle, (c.n.source_count ??= 1), sources_, outView);
       return out;
     }
@@ -978,9 +978,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { Type = Float32Array, ...more } = options;
       none(more);
       const c = new Call(this);
-      const info = c.told(this, 'hf_solve_info');
+      const info = Call.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      const outView = c.viewOut(out, ['vertex_count', 3]);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count', 3]);
       call('hf_direction_solve', this._handle, outView, info);
       return out;
     }
@@ -1003,7 +1003,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
 
     get solveInfo() {
-      return Call.told(this, 'hf_solve_info');
+      return Call.told(this, 'hf_solve_info').toObject();
     }
   }
 
@@ -1064,8 +1064,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
-      const transforms = c.records('hf_transform', ['handle_count'], { rotation: ['rotations', rotations],
-              translation: ['translations', translations] });
+      const transformsFields = c.fields({ rotation: rotations && c.numbers('rotations', rotations, 'f8',
+              ['handle_count', 4]), translation: translations && c.numbers('translations', translations, 'f8',
+              ['handle_count', 3]) }, c.product(['handle_count']));
+      const transforms = c.rows('transforms', transformsFields, ['handle_count'], (fields) => c.plain('hf_transform',
+              fields));
       call('hf_pose_set_transforms', this._handle, (c.n.handle_count ??= 1), handles_, transforms);
     }
 
@@ -1127,7 +1130,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       out = c.out(out, 'f4 f8', ['vertex_count'], Type);
-      const outView = c.viewOut(out, ['vertex_count']);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count']);
       call('hf_pose_get_field', this._handle, handle, outView);
       return out;
     }
@@ -1135,12 +1138,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     deform(out = null, options = {}) {
       const { Type = Float32Array, normals = null, ...more } = options;
       const c = new Call(this);
-      const info = c.told(this, 'hf_deform_info');
+      const info = Call.told(this, 'hf_deform_info');
       const desc = deformDesc(c, '', more);
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      desc.set('positions', out && c.viewOut(out, ['vertex_count', 3]));
+      desc.set('positions', out && c.viewOf('hf_array_out', written, out, ['vertex_count', 3]));
       const normals_ = normals && c.out(normals, 'f4 f8', ['vertex_count', 3], null, 'normals');
-      desc.set('normals', normals_ && c.viewOut(normals_, ['vertex_count', 3]));
+      desc.set('normals', normals_ && c.viewOf('hf_array_out', written, normals_, ['vertex_count', 3]));
       call('hf_pose_deform', this._handle, desc, info);
       return out;
     }
@@ -1157,7 +1160,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       const skin = c.struct('hf_skin_info', { influence_count: influenceCount });
-      c.known('influence_count', influenceCount || 4);
+      c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
       const found = c.grow(this, 'hf_pose_get_skin', (room, made) => (c.into(skin, room, made), call('hf_pose_get_skin',
               this._handle, skin)), () => ({ joint_capacity: skin.get('joint_count'),
               vertex_capacity: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
@@ -1169,7 +1172,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
 
     get deformInfo() {
-      return Call.told(this, 'hf_deform_info');
+      return Call.told(this, 'hf_deform_info').toObject();
     }
   }
 
@@ -1308,9 +1311,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const desc = morphDesc(c, '', { weight, ...more });
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      desc.set('positions', out && c.viewOut(out, ['vertex_count', 3]));
+      desc.set('positions', out && c.viewOf('hf_array_out', written, out, ['vertex_count', 3]));
       const normals_ = normals && c.out(normals, 'f4 f8', ['vertex_count', 3], null, 'normals');
-      desc.set('normals', normals_ && c.viewOut(normals_, ['vertex_count', 3]));
+      desc.set('normals', normals_ && c.viewOf('hf_array_out', written, normals_, ['vertex_count', 3]));
       call('hf_region_morph', this._handle, desc);
       return out;
     }
@@ -1336,9 +1339,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const desc = morphDesc(c, '', { weight, ...more });
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      desc.set('positions', out && c.viewOut(out, ['vertex_count', 3]));
+      desc.set('positions', out && c.viewOf('hf_array_out', written, out, ['vertex_count', 3]));
       const normals_ = normals && c.out(normals, 'f4 f8', ['vertex_count', 3], null, 'normals');
-      desc.set('normals', normals_ && c.viewOut(normals_, ['vertex_count', 3]));
+      desc.set('normals', normals_ && c.viewOf('hf_array_out', written, normals_, ['vertex_count', 3]));
       call('hf_detail_morph', this._handle, desc);
       return out;
     }
@@ -1544,10 +1547,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const desc = transferFrame(c, '', { sourcePositions, ...more });
       out = c.out(out, 'f4 f8', ['target.vertex_count', 3], Type);
-      desc.set('target_positions', out && c.viewOut(out, ['target.vertex_count', 3]));
+      desc.set('target_positions', out && c.viewOf('hf_array_out', written, out, ['target.vertex_count', 3]));
       const targetNormals_ = targetNormals && c.out(targetNormals, 'f4 f8', ['target.vertex_count', 3], null,
               'targetNormals');
-      desc.set('target_normals', targetNormals_ && c.viewOut(targetNormals_, ['target.vertex_count', 3]));
+      desc.set('target_normals', targetNormals_ && c.viewOf('hf_array_out', written, targetNormals_,
+              ['target.vertex_count', 3]));
       call('hf_transfer_apply', this._handle, desc);
       return out;
     }
@@ -1564,7 +1568,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       const skin = c.struct('hf_skin_info', { influence_count: influenceCount });
-      c.known('influence_count', influenceCount || 4);
+      c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
       const found = c.grow(this, 'hf_transfer_get_skin', (room, made) => (c.into(skin, room, made),
               call('hf_transfer_get_skin', this._handle, skin)), () => ({ joint_capacity: skin.get('joint_count'),
               vertex_capacity: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
@@ -1589,7 +1593,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { influenceCount = 0, ...more } = options;
       const c = new Call(null, { surface });
       const desc = jointsDesc(c, '', more);
-      c.known('influence_count', influenceCount || 4);
+      c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
       this._own('hf_weights_create', c, handleOf(surface, Surface, 'surface'), desc, influenceCount);
     }
 

@@ -10,7 +10,8 @@ export function extend(classes, bare) {
       if (positions === bare) return super(bare);
       if (missing(positions)) fail(`positions is ${positions}`, 'HF_ERROR_NULL_POINTER');
       if (tags && !linkPieces) fail('tags need linkPieces');
-      super(positions, triangles, linkPieces ? { ...options, links: { ...Object(linkPieces), mode: constants.HF_LINK_PIECES, tags } } : options);
+      if (linkPieces) options.links = { ...Object(linkPieces), mode: constants.HF_LINK_PIECES, tags };
+      super(positions, triangles, options);
     }
   }
   return { ...classes, Surface };

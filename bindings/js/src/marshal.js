@@ -12,8 +12,8 @@ export class HfError extends Error {
   }
 }
 
-export function fail(message, code = 'HF_ERROR_INVALID_ARGUMENT', index = null) {
-  throw new HfError(message, constants[code], index);
+export function fail(message, code = 'HF_ERROR_INVALID_ARGUMENT', index = null, functionName = '') {
+  throw new HfError(message, constants[code], index, functionName);
 }
 
 export const missing = (value) => value === null || value === undefined;
@@ -21,15 +21,18 @@ export const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => lette
 
 const ranges = { i32: [-0x80000000, 0x7fffffff], u32: [0, 0xffffffff], size: [0, Number.MAX_SAFE_INTEGER] };
 
-/** A number as a field or parameter of that kind takes it; what a DataView or the call would wrap is refused by name.
- * Flags (int32) take booleans. */
+/** Refuses by name what a DataView, an array or the call would wrap. range: of whole numbers. */
+function check(value, range, name, index = null) {
+  if (range ? !Number.isInteger(value) : typeof value !== 'number')
+    fail(`${name()} must be a ${range ? 'whole ' : ''}number, not ${String(value)}`);
+  if (value < range?.[0] || value > range?.[1])
+    fail(`${name()} is ${value}; it must lie in ${range.join(' to ')}`, 'HF_ERROR_OUT_OF_RANGE', index);
+}
+
+/** A number as a field or parameter of that kind takes it. Flags (int32) take booleans. */
 export function scalar(kind, value, name) {
   if (kind === 'i32' && typeof value === 'boolean') return Number(value);
-  const [least, most] = ranges[kind] ?? [];
-  if (ranges[kind] ? !Number.isInteger(value) : typeof value !== 'number')
-    fail(`${name} must be a ${ranges[kind] ? 'whole ' : ''}number, not ${String(value)}`);
-  if (value < least || value > most)
-    fail(`${name} is ${value}; it must lie in ${least} to ${most}`, 'HF_ERROR_OUT_OF_RANGE');
+  check(value, ranges[kind], () => name);
   return value;
 }
 
@@ -43,7 +46,7 @@ export const read = (array) => (array?.length ? new Memory(array, false) : null)
 export const written = (array) => (array?.length ? new Memory(array, true) : null);
 
 export const types = { f4: Float32Array, f8: Float64Array, u4: Uint32Array, u2: Uint16Array, u1: Uint8Array, i4: Int32Array };
-const isArray = (values) => Array.isArray(values) || (ArrayBuffer.isView(values) && !(values instanceof DataView));
+export const isArray = (values) => Array.isArray(values) || (ArrayBuffer.isView(values) && !(values instanceof DataView));
 
 /** An array of a type that the library takes ('f4 f8'), as given when it is one; others are checked and converted. */
 export function numbers(values, name, kinds) {
@@ -51,14 +54,9 @@ export function numbers(values, name, kinds) {
   if (allowed.some((Type) => values instanceof Type)) return values;
   if (!isArray(values)) fail(`${name} must be an array of numbers`);
   const flat = Array.isArray(values) && isArray(values[0]) ? values.flatMap((row) => Array.from(row)) : values;
-  const whole = kinds[0] !== 'f';
-  const Type = whole ? allowed[0] : allowed.at(-1);
-  const most = whole ? 2 ** (8 * Type.BYTES_PER_ELEMENT) - 1 : Infinity;
-  for (let i = 0; i < flat.length; ++i) {
-    if (whole ? !Number.isInteger(flat[i]) : typeof flat[i] !== 'number')
-      fail(`${name}[${i}] must be a ${whole ? 'whole ' : ''}number, not ${String(flat[i])}`);
-    if (whole && (flat[i] < 0 || flat[i] > most)) fail(`${name}[${i}] is ${flat[i]}`, 'HF_ERROR_OUT_OF_RANGE', i);
-  }
+  const Type = kinds[0] === 'f' ? allowed.at(-1) : allowed[0];
+  const range = kinds[0] === 'f' ? null : [0, 2 ** (8 * Type.BYTES_PER_ELEMENT) - 1];
+  for (let i = 0; i < flat.length; ++i) check(flat[i], range, () => `${name}[${i}]`, i);
   return Type.from(flat);
 }
 

@@ -15,7 +15,8 @@ export function nativeBackend(koffi, path) {
     if (missing(argument)) return 0n;
     const memory = argument instanceof Memory ? argument.array : argument instanceof Struct ? argument.bytes : null;
     if (!memory) return argument;
-    for (const [at, target] of argument.pointers ?? []) argument.view.setBigUint64(at, BigInt(resolve(target, held)), true);
+    const { view, pointers = [] } = argument;
+    for (const [at, target] of pointers) view.setBigUint64(at, BigInt(resolve(target, held)), true);
     held.push(memory);
     return koffi.address(memory);
   };

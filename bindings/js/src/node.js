@@ -10,8 +10,8 @@ export { HfError } from './marshal.js';
 
 /** Loads the library: options.library, $HF_LIBRARY, dist/ of this package, the platform's package, or the system's. */
 export async function load({ library = process.env.HF_LIBRARY } = {}) {
-  const koffi = await import('koffi').catch((error) => {
-    throw new Error(`the native backend needs the package koffi (npm install koffi), or use hf-fields/wasm: ${error.message}`);
+  const koffi = await import('koffi').catch(({ message }) => {
+    throw new Error(`the native backend needs the package koffi (npm install koffi), or use hf-fields/wasm: ${message}`);
   });
   const failures = [];
   for (const path of library ? [library] : candidates()) {
@@ -29,8 +29,8 @@ function candidates() {
   const found = [fileURLToPath(new URL(`../dist/${name}`, import.meta.url))].filter(existsSync);
   try {
     // the package of this platform, which npm installs beside this one (optionalDependencies)
-    const file = `hf-fields-${process.platform}-${process.arch}/${process.platform === 'win32' ? 'hf.dll' : 'libhf.so'}`;
-    found.push(createRequire(import.meta.url).resolve(file));
+    const file = process.platform === 'win32' ? 'hf.dll' : 'libhf.so';
+    found.push(createRequire(import.meta.url).resolve(`hf-fields-${process.platform}-${process.arch}/${file}`));
   } catch {} // not installed
   return [...found, name];
 }

@@ -27,13 +27,10 @@ export function makeApi(backend) {
   class Handle {
     #open = false;
     constructor() {
-      // structuredClone, postMessage, spread and Object.assign read every property: a copy of the handle would be a
-      // second owner, or a number without meaning in another thread's module
+      // structuredClone, postMessage, JSON, spread and Object.assign read every property: a copy of the handle would be
+      // a second owner, or a number without meaning in another thread's module
       const get = () => fail(`a ${this.constructor.name} cannot be copied or sent${this.clone ? '; clone() it' : ''}`);
       Object.defineProperty(this, '_owned', { enumerable: true, get });
-    }
-    toJSON() {
-      fail(`a ${this.constructor.name} cannot be written as JSON`);
     }
     /** Makes the object: the last argument of the function receives its handle. */
     _own(name, callOf, ...args) {
@@ -98,7 +95,8 @@ export function makeApi(backend) {
   const version = [Math.floor(number / 1000000), Math.floor(number / 1000) % 1000, number % 1000];
   const [major, minor] = headerVersion.split('.').map(Number);
   if (version[0] !== major || version[1] < minor)
-    throw new Error(`the hf library is of version ${version.join('.')}, this package of ${headerVersion}; use matching ones`);
-  const classes = makeClasses({ Handle, Recorded, Call: callClass(backend), bare, call, direct, handleOf, newHandle, none, written });
+    throw new Error(`the hf library is of version ${version.join('.')}, this package of ${headerVersion}`);
+  const own = { Handle, Recorded, Call: callClass(backend), bare, call, direct, handleOf, newHandle, none };
+  const classes = makeClasses({ ...own, scalar, written });
   return Object.freeze({ ...extend(classes, bare), HfError, constants, backend: backend.name, version });
 }

@@ -1,7 +1,6 @@
 // The WebAssembly backend: arguments are copied into the module's memory for the call and results out of it. One block
 // holds all memory of a call, so a call allocates once.
-import { HfError, Memory, Struct } from './marshal.js';
-import { constants } from './raw.js';
+import { Memory, Struct, fail } from './marshal.js';
 
 const align = (size) => (size + 15) & ~15;
 const bytesOf = (argument) => {
@@ -30,7 +29,7 @@ export function wasmBackend(module) {
       const total = args.reduce((sum, argument) => sum + measure(argument), 0);
       const block = total ? module._malloc(total) >>> 0 : 0;
       if (total && !block)
-        throw new HfError(`${total} bytes of WebAssembly memory are not to be had`, constants.HF_ERROR_OUT_OF_MEMORY, null, name);
+        fail(`${total} bytes of WebAssembly memory are not to be had`, 'HF_ERROR_OUT_OF_MEMORY', null, name);
       let next = block;
       const back = [];
       const place = (argument) => {
