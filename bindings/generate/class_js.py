@@ -78,7 +78,7 @@ class Steps:
     def do_records(self, var, type, fields, dims):
         given = ", ".join(f"{f['name']}: {js(name)} && c.numbers('{js(name)}', {js(name)}, 'f8', [{self.dims(dims)[1:-1]}, {f['count']}])" for f, name in fields)
         return [f"const {js(var)}Fields = c.fields({{ {given} }}, c.product({self.dims(dims)}));",
-                f"const {js(var)} = c.rows('{js(var)}', {js(var)}Fields, {self.dims(dims)}, (fields) => c.plain('{type}', fields));"]
+                f"const {js(var)} = c.rows('{js(var)}', {js(var)}Fields, {self.dims(dims)}, (fields) => c.struct('{type}', fields));"]
 
     def do_array(self, var, name, item):
         if item["view"]:
@@ -113,7 +113,7 @@ class Steps:
         name = js(field["name"])
         if field["type"] == PLACE:
             return [f"{var}.set('{field['name']}', c.rows('{name}', {name}, {self.dims(field['dims'])}, c.place));"]
-        return [f"{var}.set('{field['name']}', c.rows('{name}', {name}, {self.dims(field['dims'])}, (row) => c.plain('{field['type']}', row)));"]
+        return [f"{var}.set('{field['name']}', c.rows('{name}', {name}, {self.dims(field['dims'])}, (row) => c.struct('{field['type']}', row)));"]
 
     def field_blob(self, var, field, count):
         name = js(field["name"])
@@ -178,7 +178,9 @@ class Steps:
             entry = f"{js(name)}: ['{kind}', {self.dims(item['dims'])}]"
             made.append(f"...({js(name)} ? {{ {entry} }} : {{}})" if on_request else entry)
         asked = self.do_call(function, values)[0].rstrip(";")
-        asked = f"(c.into({js(into)}, room, made), {asked})" if into else asked
+        if into:
+            sets = [f"'{key}', room.{key}" for key, _ in rooms] + [f"'{name}', written(made.{js(name)})" for name, _, _ in arrays]
+            asked = f"({js(into)}{''.join(f'.set({one})' for one in sets)}, {asked})"
         who = "this" if owner == "self" else js(owner)
         return [*lines, f"const found = c.grow({who}, '{function}', (room, made) => {asked}, () => ({{ {tells} }}), {{ {room} }}, {{ {', '.join(made)} }});"]
 

@@ -1,8 +1,7 @@
 // One call of the library: arrays in and out, and the counts that follow from them and from the objects.
 import { constants, layouts } from './raw.js';
-import { Struct, camel, fail, isArray, missing, numbers, read, rows, types, written } from './marshal.js';
+import { Struct, camel, fail, isArray, missing, numbers, read, rows, types } from './marshal.js';
 
-const snake = (name) => name.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
 const mapped = (all, change) => Object.fromEntries(Object.entries(all).map(([key, one]) => [key, change(one, key)]));
 
 export function callClass({ width }) {
@@ -75,9 +74,8 @@ export function callClass({ width }) {
     lists(name, lists, dims) {
       if (missing(lists)) return [null, null];
       if (!Array.isArray(lists)) fail(`${name} must be a list of lists`);
-      const none = lists.findIndex(missing);
-      if (none >= 0) fail(`${name}[${none}] is null`, 'HF_ERROR_NULL_POINTER');
-      const arrays = lists.map((list, i) => numbers(list, `${name}[${i}]`, 'u4'));
+      const refuse = (i) => fail(`${name}[${i}] is null`, 'HF_ERROR_NULL_POINTER');
+      const arrays = lists.map((list, i) => numbers(list ?? refuse(i), `${name}[${i}]`, 'u4'));
       this.fit(arrays.length, name, dims);
       const all = arrays.flatMap((array) => Array.from(array));
       return [read(Uint32Array.from(arrays, (array) => array.length)), read(Uint32Array.from(all))];
@@ -88,19 +86,13 @@ export function callClass({ width }) {
       if (missing(values)) return null;
       if (!Array.isArray(values)) fail(`${name} must be a list`);
       this.fit(values.length, name, dims);
-      const bytes = values.flatMap((value, i) => Array.from(row(value, `${name}[${i}]`).bytes));
-      return read(Uint8Array.from(bytes));
+      return read(Uint8Array.from(values.flatMap((value, i) => [...row(value, `${name}[${i}]`).bytes])));
     }
 
     /** Fields of rows: the i-th part of each array. */
     fields(columns, count) {
-      const part = (array, i) => array?.subarray((i * array.length) / count, ((i + 1) * array.length) / count);
-      return Array.from({ length: count }, (_, i) => mapped(columns, (array) => part(array, i)));
-    }
-
-    /** A struct that the library wrote, given back to it. */
-    plain(type, value) {
-      return make(type, Object.fromEntries(Object.keys(value).map((key) => [snake(key), value[key]])));
+      const part = (array, i) => array.subarray((i * array.length) / count, ((i + 1) * array.length) / count);
+      return Array.from({ length: count }, (_, i) => mapped(columns, (array) => (array ? part(array, i) : 0)));
     }
 
     /** One place: a vertex, a hit, or three corners of a triangle and their barycentrics. */
@@ -138,11 +130,6 @@ export function callClass({ width }) {
       return array;
     }
 
-    into(struct, room, arrays) {
-      for (const key in room) struct.set(key, room[key]);
-      for (const key in arrays) struct.set(snake(key), written(arrays[key]));
-    }
-
     /** Arrays of lengths that the library tells. run(room, arrays) calls it, and again with more room when that was too
      * little; tell() gives the counts. The room that sufficed is remembered. */
     grow(owner, name, run, tell, rooms, arrays) {
@@ -150,10 +137,8 @@ export function callClass({ width }) {
       let room = mapped(rooms, (known, key) => known ?? memory[name + key] ?? 1024);
       for (;;) {
         Object.assign(this.n, room);
-        const made = mapped(arrays, ([kind, dims]) => {
-          const each = layouts[kind]?.size[width] ?? 1;
-          return new (types[kind] ?? Uint8Array)(each * this.product(dims));
-        });
+        const size = (kind, dims) => this.product(dims) * (layouts[kind]?.size[width] ?? 1);
+        const made = mapped(arrays, ([kind, dims]) => new (types[kind] ?? Uint8Array)(size(kind, dims)));
         const fits = () => Object.keys(room).every((key) => tell()[key] <= room[key]);
         try {
           run(room, made);
@@ -165,11 +150,7 @@ export function callClass({ width }) {
         Object.assign(this.n, counts);
         room = mapped(room, (_, key) => counts[key]);
         for (const key in room) memory[name + key] = Math.max(1024, counts[key] + (counts[key] >> 3));
-        if (done)
-          return mapped(made, (array, key) => {
-            const [kind, dims] = arrays[key];
-            return types[kind] ? array.subarray(0, this.product(dims)) : rows(width, kind, array, this.product(dims));
-          });
+        if (done) return mapped(arrays, ([kind, dims], key) => rows(width, kind, made[key], this.product(dims)));
       }
     }
   };

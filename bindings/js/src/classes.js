@@ -20,7 +20,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     desc.set('weights', c.array('weights', weights, 'f4', ['vertex_count', prefix + 'influence_count']));
     desc.set('joint_parents', c.array('jointParents', jointParents, 'u4', [prefix + 'joint_count']));
     desc.set('tags', c.array('tags', tags, 'u4', ['vertex_count']));
-    desc.set('links', c.rows('links', links, [prefix + 'link_count'], (row) => c.plain('hf_link', row)));
+    desc.set('links', c.rows('links', links, [prefix + 'link_count'], (row) => c.struct('hf_link', row)));
     desc.set('light_vertices', c.array('lightVertices', lightVertices, 'u4', [prefix + 'light_count']));
     desc.set('heavy_vertices', c.array('heavyVertices', heavyVertices, 'u4', [prefix + 'heavy_count']));
     desc.set('influence_count', (c.n[prefix + 'influence_count'] ??= 0));
@@ -610,13 +610,16 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
       const levels_ = c.array('levels', levels, 'f8', ['level_count']);
       const lines = c.struct('hf_isolines', {});
-      const found = c.grow(this, 'hf_surface_trace_isolines', (room, made) => (c.into(lines, room, made),
-              call('hf_surface_trace_isolines', this._handle, field === null || field === undefined ? null : field_,
-              (c.n.level_count ??= 1), levels_, lines)), () => ({ point_capacity: lines.get('point_count'),
-              line_capacity: lines.get('line_count') }), { point_capacity: null, line_capacity: null },
-              { pointEdges: ['u4', ['point_capacity', 2]], parameters: ['f8', ['point_capacity']], positions: ['f8',
-              ['point_capacity', 3]], lineStarts: ['u4', ['line_capacity + 1']], lineLevels: ['u4', ['line_capacity']],
-              lineClosed: ['i4', ['line_capacity']] });
+      const found = c.grow(this, 'hf_surface_trace_isolines', (room, made) => (lines.set('point_capacity',
+              room.point_capacity).set('line_capacity', room.line_capacity).set('point_edges',
+              written(made.pointEdges)).set('parameters', written(made.parameters)).set('positions',
+              written(made.positions)).set('line_starts', written(made.lineStarts)).set('line_levels',
+              written(made.lineLevels)).set('line_closed', written(made.lineClosed)), call('hf_surface_trace_isolines',
+              this._handle, field === null || field === undefined ? null : field_, (c.n.level_count ??= 1), levels_,
+              lines)), () => ({ point_capacity: lines.get('point_count'), line_capacity: lines.get('line_count') }),
+              { point_capacity: null, line_capacity: null }, { pointEdges: ['u4', ['point_capacity', 2]],
+              parameters: ['f8', ['point_capacity']], positions: ['f8', ['point_capacity', 3]], lineStarts: ['u4',
+              ['line_capacity + 1']], lineLevels: ['u4', ['line_capacity']], lineClosed: ['i4', ['line_capacity']] });
       return { ...found, pointCount: lines.get('point_count'), lineCount: lines.get('line_count') };
     }
 
@@ -748,7 +751,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     sites() {
       const c = new Call(this);
       const info = c.struct('hf_sites_info', {});
-      const found = c.grow(this, 'hf_solver_get_sites', (room, made) => (c.into(info, room, made),
+      const found = c.grow(this, 'hf_solver_get_sites', (room, made) => (info.set('capacity',
+              room.capacity).set('sites', written(made.sites)).set('vertices', written(made.vertices)).set('components',
+              written(made.components)).set('values', written(made.values)).set('stiffness',
+              written(made.stiffness)).set('flux', written(made.flux)).set('radii', written(made.radii)),
               call('hf_solver_get_sites', this._handle, info)), () => ({ capacity: info.get('count') }),
               { capacity: null }, { sites: ['u4', ['capacity']], vertices: ['u4', ['capacity']], components: ['u4',
               ['capacity']], values: ['f8', ['capacity', 'channel_count']], stiffness: ['f8', ['capacity']],
@@ -884,8 +890,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     findPath(from, to) {
       const c = new Call(this);
       const path = c.struct('hf_path', {});
-      const found = c.grow(this, 'hf_geodesics_find_path', (room, made) => (c.into(path, room, made),
-              call('hf_geodesics_find_path', this._handle, c.place(from, 'from'), c.place(to, 'to'), path)),
+      const found = c.grow(this, 'hf_geodesics_find_path', (room, made) => (path.set('point_capacity',
+              room.point_capacity).set('point_edges', written(made.pointEdges)).set('parameters',
+              written(made.parameters)).set('positions', written(made.positions)), call('hf_geodesics_find_path',
+              this._handle, c.place(from, 'from'), c.place(to, 'to'), path)),
               () => ({ point_capacity: path.get('point_count') }), { point_capacity: null }, { pointEdges: ['u4',
               ['point_capacity', 2]], parameters: ['f8', ['point_capacity']], positions: ['f8', ['point_capacity',
               3]] });
@@ -1067,7 +1075,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const transformsFields = c.fields({ rotation: rotations && c.numbers('rotations', rotations, 'f8',
               ['handle_count', 4]), translation: translations && c.numbers('translations', translations, 'f8',
               ['handle_count', 3]) }, c.product(['handle_count']));
-      const transforms = c.rows('transforms', transformsFields, ['handle_count'], (fields) => c.plain('hf_transform',
+      const transforms = c.rows('transforms', transformsFields, ['handle_count'], (fields) => c.struct('hf_transform',
               fields));
       call('hf_pose_set_transforms', this._handle, (c.n.handle_count ??= 1), handles_, transforms);
     }
@@ -1161,13 +1169,18 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const skin = c.struct('hf_skin_info', { influence_count: influenceCount });
       c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
-      const found = c.grow(this, 'hf_pose_get_skin', (room, made) => (c.into(skin, room, made), call('hf_pose_get_skin',
-              this._handle, skin)), () => ({ joint_capacity: skin.get('joint_count'),
-              vertex_capacity: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
-              vertex_capacity: c.n.vertex_count }, { pivots: ['f8', ['joint_capacity', 3]], rotations: ['f8',
-              ['joint_capacity', 4]], translations: ['f8', ['joint_capacity', 3]], axes: ['f8', ['joint_capacity', 4]],
-              ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}), vertexJoints: ['u4', ['vertex_capacity',
-              'influence_count']], vertexWeights: ['f4', ['vertex_capacity', 'influence_count']] });
+      const found = c.grow(this, 'hf_pose_get_skin', (room, made) => (skin.set('joint_capacity',
+              room.joint_capacity).set('vertex_capacity', room.vertex_capacity).set('pivots',
+              written(made.pivots)).set('rotations', written(made.rotations)).set('translations',
+              written(made.translations)).set('axes', written(made.axes)).set('scales',
+              written(made.scales)).set('vertex_joints', written(made.vertexJoints)).set('vertex_weights',
+              written(made.vertexWeights)), call('hf_pose_get_skin', this._handle, skin)),
+              () => ({ joint_capacity: skin.get('joint_count'), vertex_capacity: skin.get('vertex_count') }),
+              { joint_capacity: c.n.joint_count, vertex_capacity: c.n.vertex_count }, { pivots: ['f8',
+              ['joint_capacity', 3]], rotations: ['f8', ['joint_capacity', 4]], translations: ['f8', ['joint_capacity',
+              3]], axes: ['f8', ['joint_capacity', 4]], ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}),
+              vertexJoints: ['u4', ['vertex_capacity', 'influence_count']], vertexWeights: ['f4', ['vertex_capacity',
+              'influence_count']] });
       return { ...found, jointCount: skin.get('joint_count'), vertexCount: skin.get('vertex_count') };
     }
 
@@ -1204,12 +1217,15 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     mesh() {
       const c = new Call(this);
       const mesh = c.struct('hf_quads_mesh', {});
-      const found = c.grow(this, 'hf_quads_get_mesh', (room, made) => (c.into(mesh, room, made),
-              call('hf_quads_get_mesh', this._handle, mesh)), () => ({ vertex_capacity: mesh.get('vertex_count'),
-              face_capacity: mesh.get('face_count') }), { vertex_capacity: c.n.vertex_count, face_capacity: null },
-              { positions: ['f8', ['vertex_capacity', 3]], faces: ['u4', ['face_capacity', 4]], triangles: ['u4',
-              ['vertex_capacity']], barycentrics: ['f8', ['vertex_capacity', 3]], corners: ['u4', ['vertex_capacity',
-              3]] });
+      const found = c.grow(this, 'hf_quads_get_mesh', (room, made) => (mesh.set('vertex_capacity',
+              room.vertex_capacity).set('face_capacity', room.face_capacity).set('positions',
+              written(made.positions)).set('faces', written(made.faces)).set('triangles',
+              written(made.triangles)).set('barycentrics', written(made.barycentrics)).set('corners',
+              written(made.corners)), call('hf_quads_get_mesh', this._handle, mesh)),
+              () => ({ vertex_capacity: mesh.get('vertex_count'), face_capacity: mesh.get('face_count') }),
+              { vertex_capacity: c.n.vertex_count, face_capacity: null }, { positions: ['f8', ['vertex_capacity', 3]],
+              faces: ['u4', ['face_capacity', 4]], triangles: ['u4', ['vertex_capacity']], barycentrics: ['f8',
+              ['vertex_capacity', 3]], corners: ['u4', ['vertex_capacity', 3]] });
       return { ...found, vertexCount: mesh.get('vertex_count'), faceCount: mesh.get('face_count') };
     }
   }
@@ -1236,8 +1252,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const lines = c.struct('hf_streamlines', { wanted_count: wantedCount });
       lines.set('seeds', c.array('seeds', seeds, 'u4', ['seed_count']));
       lines.set('seed_count', (c.n['seed_count'] ??= 0));
-      const found = c.grow(this, 'hf_flow_trace', (room, made) => (c.into(lines, room, made), call('hf_flow_trace',
-              this._handle, field === null || field === undefined ? null : field_, lines)),
+      const found = c.grow(this, 'hf_flow_trace', (room, made) => (lines.set('point_capacity',
+              room.point_capacity).set('line_capacity', room.line_capacity).set('positions',
+              written(made.positions)).set('values', written(made.values)).set('line_starts',
+              written(made.lineStarts)).set('line_ends', written(made.lineEnds)), call('hf_flow_trace', this._handle,
+              field === null || field === undefined ? null : field_, lines)),
               () => ({ point_capacity: lines.get('point_count'), line_capacity: lines.get('line_count') }),
               { point_capacity: null, line_capacity: null }, { positions: ['f8', ['point_capacity', 3]], values: ['f8',
               ['point_capacity']], lineStarts: ['u4', ['line_capacity + 1']], lineEnds: ['u4', ['line_capacity', 2]] });
@@ -1569,13 +1588,18 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const skin = c.struct('hf_skin_info', { influence_count: influenceCount });
       c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
-      const found = c.grow(this, 'hf_transfer_get_skin', (room, made) => (c.into(skin, room, made),
-              call('hf_transfer_get_skin', this._handle, skin)), () => ({ joint_capacity: skin.get('joint_count'),
-              vertex_capacity: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
-              vertex_capacity: c.n.vertex_count }, { pivots: ['f8', ['joint_capacity', 3]], rotations: ['f8',
-              ['joint_capacity', 4]], translations: ['f8', ['joint_capacity', 3]], axes: ['f8', ['joint_capacity', 4]],
-              ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}), vertexJoints: ['u4', ['vertex_capacity',
-              'influence_count']], vertexWeights: ['f4', ['vertex_capacity', 'influence_count']] });
+      const found = c.grow(this, 'hf_transfer_get_skin', (room, made) => (skin.set('joint_capacity',
+              room.joint_capacity).set('vertex_capacity', room.vertex_capacity).set('pivots',
+              written(made.pivots)).set('rotations', written(made.rotations)).set('translations',
+              written(made.translations)).set('axes', written(made.axes)).set('scales',
+              written(made.scales)).set('vertex_joints', written(made.vertexJoints)).set('vertex_weights',
+              written(made.vertexWeights)), call('hf_transfer_get_skin', this._handle, skin)),
+              () => ({ joint_capacity: skin.get('joint_count'), vertex_capacity: skin.get('vertex_count') }),
+              { joint_capacity: c.n.joint_count, vertex_capacity: c.n.vertex_count }, { pivots: ['f8',
+              ['joint_capacity', 3]], rotations: ['f8', ['joint_capacity', 4]], translations: ['f8', ['joint_capacity',
+              3]], axes: ['f8', ['joint_capacity', 4]], ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}),
+              vertexJoints: ['u4', ['vertex_capacity', 'influence_count']], vertexWeights: ['f4', ['vertex_capacity',
+              'influence_count']] });
       return { ...found, jointCount: skin.get('joint_count'), vertexCount: skin.get('vertex_count') };
     }
   }
@@ -1627,8 +1651,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     get() {
       const c = new Call(this);
       const weights = c.struct('hf_weights_out', {});
-      const found = c.grow(this, 'hf_weights_get', (room, made) => (c.into(weights, room, made), call('hf_weights_get',
-              this._handle, weights)), () => ({ vertex_capacity: weights.get('vertex_count'),
+      const found = c.grow(this, 'hf_weights_get', (room, made) => (weights.set('vertex_capacity',
+              room.vertex_capacity).set('joints', written(made.joints)).set('weights',
+              written(made.weights)).set('origins', written(made.origins)), call('hf_weights_get', this._handle,
+              weights)), () => ({ vertex_capacity: weights.get('vertex_count'),
               influence_count: weights.get('influence_count') }), { vertex_capacity: c.n.vertex_count },
               { joints: ['u4', ['vertex_capacity', 'influence_count']], weights: ['f4', ['vertex_capacity',
               'influence_count']], origins: ['u1', ['vertex_capacity']] });
@@ -1673,9 +1699,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const info = c.struct('hf_weights_transfer_info', {});
       const desc = weightsTransferDesc(c, '', options);
       const weights_ = c.struct('hf_weights_out', {});
-      const found = c.grow(source, 'hf_weights_transfer', (room, made) => (c.into(weights_, room, made),
-              call('hf_weights_transfer', handleOf(source, Surface, 'source'), handleOf(target, Surface, 'target'),
-              desc, weights_, info)), () => ({ vertex_capacity: weights_.get('vertex_count'),
+      const found = c.grow(source, 'hf_weights_transfer', (room, made) => (weights_.set('vertex_capacity',
+              room.vertex_capacity).set('joints', written(made.joints)).set('weights',
+              written(made.weights)).set('origins', written(made.origins)), call('hf_weights_transfer', handleOf(source,
+              Surface, 'source'), handleOf(target, Surface, 'target'), desc, weights_, info)),
+              () => ({ vertex_capacity: weights_.get('vertex_count'),
               influence_count: weights_.get('influence_count') }), { vertex_capacity: c.n.vertex_count },
               { joints: ['u4', ['vertex_capacity', 'influence_count']], weights: ['f4', ['vertex_capacity',
               'influence_count']], origins: ['u1', ['vertex_capacity']] });
@@ -1691,9 +1719,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const weights_ = c.struct('hf_weights_out', {});
       const partners_ = c.out(null, 'u4', ['joint_count']);
       const pairings = c.out(null, 'u4', ['joint_count']);
-      const found = c.grow(surface, 'hf_weights_mirror', (room, made) => (c.into(weights_, room, made),
-              call('hf_weights_mirror', handleOf(surface, Surface, 'surface'), desc, weights_, written(partners_),
-              written(pairings), info, statistics)), () => ({ vertex_capacity: weights_.get('vertex_count'),
+      const found = c.grow(surface, 'hf_weights_mirror', (room, made) => (weights_.set('vertex_capacity',
+              room.vertex_capacity).set('joints', written(made.joints)).set('weights',
+              written(made.weights)).set('origins', written(made.origins)), call('hf_weights_mirror', handleOf(surface,
+              Surface, 'surface'), desc, weights_, written(partners_), written(pairings), info, statistics)),
+              () => ({ vertex_capacity: weights_.get('vertex_count'),
               influence_count: weights_.get('influence_count') }), { vertex_capacity: c.n.vertex_count },
               { joints: ['u4', ['vertex_capacity', 'influence_count']], weights: ['f4', ['vertex_capacity',
               'influence_count']], origins: ['u1', ['vertex_capacity']] });

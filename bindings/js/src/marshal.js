@@ -18,35 +18,32 @@ export function fail(message, code = 'HF_ERROR_INVALID_ARGUMENT', index = null, 
 
 export const missing = (value) => value === null || value === undefined;
 export const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
+const snake = (name) => name.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
 
 const ranges = { i32: [-0x80000000, 0x7fffffff], u32: [0, 0xffffffff], size: [0, Number.MAX_SAFE_INTEGER] };
 
-/** Refuses by name what a DataView, an array or the call would wrap. range: of whole numbers. */
+/** A number; what a DataView, an array or the call would wrap is refused by name. range: of whole numbers. */
 function check(value, range, name, index = null) {
   if (range ? !Number.isInteger(value) : typeof value !== 'number')
     fail(`${name()} must be a ${range ? 'whole ' : ''}number, not ${String(value)}`);
   if (value < range?.[0] || value > range?.[1])
     fail(`${name()} is ${value}; it must lie in ${range.join(' to ')}`, 'HF_ERROR_OUT_OF_RANGE', index);
+  return value;
 }
 
 /** A number as a field or parameter of that kind takes it. Flags (int32) take booleans. */
 export function scalar(kind, value, name) {
   if (kind === 'i32' && typeof value === 'boolean') return Number(value);
-  check(value, ranges[kind], () => name);
-  return value;
+  return check(value, ranges[kind], () => name);
 }
 
 /** An array the library reads, or writes (copied back from WebAssembly's memory). */
-export class Memory {
-  constructor(array, written) {
-    Object.assign(this, { array, written });
-  }
-}
-export const read = (array) => (array?.length ? new Memory(array, false) : null);
-export const written = (array) => (array?.length ? new Memory(array, true) : null);
+export const read = (array) => (array?.length ? { array, written: false } : null);
+export const written = (array) => (array?.length ? { array, written: true } : null);
 
-export const types = { f4: Float32Array, f8: Float64Array, u4: Uint32Array, u2: Uint16Array, u1: Uint8Array, i4: Int32Array };
-export const isArray = (values) => Array.isArray(values) || (ArrayBuffer.isView(values) && !(values instanceof DataView));
+const wholes = { u4: Uint32Array, u2: Uint16Array, u1: Uint8Array, i4: Int32Array };
+export const types = { f4: Float32Array, f8: Float64Array, ...wholes };
+export const isArray = (list) => Array.isArray(list) || (ArrayBuffer.isView(list) && !(list instanceof DataView));
 
 /** An array of a type that the library takes ('f4 f8'), as given when it is one; others are checked and converted. */
 export function numbers(values, name, kinds) {
@@ -56,25 +53,23 @@ export function numbers(values, name, kinds) {
   const flat = Array.isArray(values) && isArray(values[0]) ? values.flatMap((row) => Array.from(row)) : values;
   const Type = kinds[0] === 'f' ? allowed.at(-1) : allowed[0];
   const range = kinds[0] === 'f' ? null : [0, 2 ** (8 * Type.BYTES_PER_ELEMENT) - 1];
-  for (let i = 0; i < flat.length; ++i) check(flat[i], range, () => `${name}[${i}]`, i);
-  return Type.from(flat);
+  return Type.from(flat, (value, i) => check(value, range, () => `${name}[${i}]`, i));
 }
 
 const accessors = { i32: 'Int32', u32: 'Uint32', f64: 'Float64' };
 
 /** A struct in the layout of a backend. Pointers are kept beside it and filled in for the call. */
 export class Struct {
-  constructor(width, type, fields = {}) {
-    const layout = layouts[type];
-    const bytes = new Uint8Array(layout.size[width]);
-    const pointers = new Map(); // offset -> Memory | Struct | handle
-    Object.assign(this, { width, layout, bytes, pointers, view: new DataView(bytes.buffer) });
-    if (layout.fields.struct_size) this.set('struct_size', bytes.length);
+  constructor(width, type, fields = {}, bytes = new Uint8Array(layouts[type].size[width])) {
+    const pointers = new Map(); // offset -> array | Struct | handle
+    const view = new DataView(bytes.buffer, bytes.byteOffset);
+    Object.assign(this, { width, layout: layouts[type], bytes, pointers, view });
+    if (this.layout.fields.struct_size) this.set('struct_size', bytes.length);
     for (const [name, value] of Object.entries(fields)) this.set(name, value);
   }
 
   set(name, value, shown = name) {
-    const [kind, offsets, count] = this.layout.fields[name];
+    const [kind, offsets, count] = this.layout.fields[snake(name)] ?? fail(`no option '${name}'`);
     const at = offsets[this.width];
     if (missing(value)) return this;
     if (kind === 'ptr') this.pointers.set(at, value);
@@ -84,7 +79,7 @@ export class Struct {
     } else if (kind === 'size' && this.width) this.view.setBigUint64(at, BigInt(scalar(kind, value, shown)), true);
     else
       for (let i = 0; i < (count || 1); ++i) {
-        const number = count ? scalar(kind, value[i], `${shown}[${i}]`) : scalar(kind, value, shown);
+        const number = scalar(kind, count ? value[i] : value, count ? `${shown}[${i}]` : shown);
         this.view[`set${accessors[kind] ?? 'Uint32'}`](at + i * (kind === 'f64' ? 8 : 4), number, true);
       }
     return this;
@@ -94,24 +89,22 @@ export class Struct {
     const [kind, offsets, count] = this.layout.fields[name];
     const at = offsets[this.width];
     if (kind === 'char') return new TextDecoder().decode(this.bytes.slice(at, at + count)).split('\0')[0];
-    if (kind in layouts) return rows(this.width, kind, this.bytes.subarray(at), 1)[0];
+    if (kind in layouts) return new Struct(this.width, kind, {}, this.bytes.subarray(at)).toObject();
     const number = (i) => this.view[`get${accessors[kind]}`](at + i * (kind === 'f64' ? 8 : 4), true);
     return count ? Array.from({ length: count }, (_, i) => number(i)) : number(0);
   }
 
   /** The fields that are no pointers as a plain object with camelCase names. */
   toObject() {
-    const hidden = ([name, [kind]]) => kind === 'ptr' || name === 'struct_size' || name === 'reserved';
-    const shown = Object.entries(this.layout.fields).filter((field) => !hidden(field));
-    return Object.fromEntries(shown.map(([name]) => [camel(name), this.get(name)]));
+    const { struct_size, reserved, ...fields } = this.layout.fields;
+    const shown = Object.keys(fields).filter((name) => fields[name][0] !== 'ptr');
+    return Object.fromEntries(shown.map((name) => [camel(name), this.get(name)]));
   }
 }
 
-/** Rows of a packed array of structs as plain objects. */
+/** The first rows of an array; of a packed array of structs as plain objects. */
 export function rows(width, type, bytes, count) {
-  const row = new Struct(width, type);
-  return Array.from({ length: count }, (_, i) => {
-    row.bytes.set(bytes.subarray(i * row.bytes.length, (i + 1) * row.bytes.length));
-    return row.toObject();
-  });
+  if (types[type]) return bytes.subarray(0, count);
+  const row = (i) => new Struct(width, type, {}, bytes.subarray(i * layouts[type].size[width]));
+  return Array.from({ length: count }, (_, i) => row(i).toObject());
 }

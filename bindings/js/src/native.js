@@ -1,7 +1,7 @@
 // The native backend: the shared library through koffi. Memory of typed arrays is passed by its address and kept alive
 // for the call; nothing is copied.
 import { functions } from './raw.js';
-import { Memory, Struct, missing } from './marshal.js';
+import { missing } from './marshal.js';
 
 const whole = { i32: 'int32_t', u32: 'uint32_t', size: 'size_t', handle: 'uintptr_t', ptr: 'uintptr_t' };
 const kinds = { ...whole, f64: 'double', string: 'str', void: 'void' };
@@ -13,7 +13,7 @@ export function nativeBackend(koffi, path) {
   // the address an argument stands for; `held` keeps what it points to alive
   const resolve = (argument, held) => {
     if (missing(argument)) return 0n;
-    const memory = argument instanceof Memory ? argument.array : argument instanceof Struct ? argument.bytes : null;
+    const memory = argument.array ?? argument.bytes;
     if (!memory) return argument;
     const { view, pointers = [] } = argument;
     for (const [at, target] of pointers) view.setBigUint64(at, BigInt(resolve(target, held)), true);

@@ -11,7 +11,7 @@ export { HfError } from './marshal.js';
 /** Loads the library: options.library, $HF_LIBRARY, dist/ of this package, the platform's package, or the system's. */
 export async function load({ library = process.env.HF_LIBRARY } = {}) {
   const koffi = await import('koffi').catch(({ message }) => {
-    throw new Error(`the native backend needs the package koffi (npm install koffi), or use hf-fields/wasm: ${message}`);
+    throw new Error(`the native backend needs the package koffi (npm install koffi), or hf-fields/wasm: ${message}`);
   });
   const failures = [];
   for (const path of library ? [library] : candidates()) {

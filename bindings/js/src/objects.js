@@ -6,7 +6,6 @@ import { HfError, Struct, fail, missing, scalar, written } from './marshal.js';
 import { constants, functions, headerVersion } from './raw.js';
 
 export function makeApi(backend) {
-  const { newHandle } = backend;
   const direct = (name, ...args) => backend.call(name, args);
   const call = (name, ...args) => {
     functions[name][1].forEach((kind, i) => {
@@ -25,8 +24,8 @@ export function makeApi(backend) {
 
   /** Owns one handle. Objects may be closed in any order and more than once; a call on a closed one throws. */
   class Handle {
-    #open = false;
     constructor() {
+      this.closed = true;
       // structuredClone, postMessage, JSON, spread and Object.assign read every property: a copy of the handle would be
       // a second owner, or a number without meaning in another thread's module
       const get = () => fail(`a ${this.constructor.name} cannot be copied or sent${this.clone ? '; clone() it' : ''}`);
@@ -34,11 +33,11 @@ export function makeApi(backend) {
     }
     /** Makes the object: the last argument of the function receives its handle. */
     _own(name, callOf, ...args) {
-      const handle = newHandle();
+      const handle = backend.newHandle();
       call(name, ...args, written(handle));
       const { counts } = this.constructor;
       this._n = Object.fromEntries(Object.entries(callOf.n).filter(([key]) => counts.includes(key.split('.').pop())));
-      this.#open = true;
+      this.closed = false;
       this._hold(handle[0]);
     }
     _hold(handle) {
@@ -46,12 +45,9 @@ export function makeApi(backend) {
       registry.unregister(this);
       registry.register(this, { destroy: this.constructor.destroy, handle }, this);
     }
-    get closed() {
-      return !this.#open;
-    }
     close() {
-      if (!this.#open) return;
-      this.#open = false;
+      if (this.closed) return;
+      this.closed = true;
       registry.unregister(this);
       direct(this.constructor.destroy, this._handle);
     }
@@ -88,15 +84,12 @@ export function makeApi(backend) {
     return thing?._handle ?? 0;
   };
   /** Options that nothing takes are refused by name. */
-  const none = (options) => {
-    for (const key of Object.keys(options)) fail(`no option '${key}'; index.d.ts lists them`);
-  };
-  const number = direct('hf_version_get');
-  const version = [Math.floor(number / 1000000), Math.floor(number / 1000) % 1000, number % 1000];
+  const none = (options) => Object.keys(options).forEach((key) => fail(`no option '${key}'; index.d.ts lists them`));
+  const version = [1e6, 1e3, 1].map((unit) => Math.floor(direct('hf_version_get') / unit) % 1000);
   const [major, minor] = headerVersion.split('.').map(Number);
   if (version[0] !== major || version[1] < minor)
     throw new Error(`the hf library is of version ${version.join('.')}, this package of ${headerVersion}`);
-  const own = { Handle, Recorded, Call: callClass(backend), bare, call, direct, handleOf, newHandle, none };
-  const classes = makeClasses({ ...own, scalar, written });
+  const own = { Handle, Recorded, Call: callClass(backend), bare, call, direct, handleOf, none, scalar, written };
+  const classes = makeClasses({ ...own, newHandle: backend.newHandle });
   return Object.freeze({ ...extend(classes, bare), HfError, constants, backend: backend.name, version });
 }

@@ -1,12 +1,11 @@
 // The WebAssembly backend: arguments are copied into the module's memory for the call and results out of it. One block
 // holds all memory of a call, so a call allocates once.
-import { Memory, Struct, fail } from './marshal.js';
+import { fail } from './marshal.js';
 
 const align = (size) => (size + 15) & ~15;
 const bytesOf = (argument) => {
-  if (argument instanceof Struct) return argument.bytes;
-  const array = argument instanceof Memory ? argument.array : null;
-  return array && new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+  const memory = argument?.array ?? argument?.bytes;
+  return memory && new Uint8Array(memory.buffer, memory.byteOffset, memory.byteLength);
 };
 const measure = (argument) => {
   const inside = [...(argument?.pointers?.values() ?? [])];
