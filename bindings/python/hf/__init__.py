@@ -13,13 +13,13 @@ headers is here: faces as hosts store them, matrices row by row.
 
 from typing import Any, Dict, Optional
 
-import numpy as np
+import numpy as _np
 
-from . import _api, _errors
+from . import _api, _errors, _library
 from . import _raw as constants
 from ._api import *  # noqa: F401,F403
 from ._errors import *  # noqa: F401,F403
-from ._library import ArrayLike, converted, numbers, require, version
+from ._library import ArrayLike, version
 
 __version__ = constants.HEADER_VERSION
 NO_INDEX = constants.HF_NO_INDEX
@@ -29,11 +29,11 @@ __all__ = sorted({*_api.__all__, *_errors.__all__, "NO_INDEX", "constants", "ver
 def _faces(faces: Any) -> Dict[str, Any]:
     """(m, k) corners, (offsets, corners) or (starts, sizes, corners) as the fields of hf_faces_desc."""
     if not isinstance(faces, tuple):
-        around = numbers(faces, "faces")
+        around = _library.numbers(faces, "faces")
         wide = around.ndim == 2 and around.shape[1] > 2
-        require(wide, "faces must have the shape (m, 3) or wider, not {}", around.shape)
-        faces = None, np.full(len(around), around.shape[1], np.uint32), around
-    require(len(faces) in (2, 3), "faces must be (offsets, corners) or (starts, sizes, corners)")
+        _library.require(wide, "faces must have the shape (m, 3) or wider, not {}", around.shape)
+        faces = None, _np.full(len(around), around.shape[1], _np.uint32), around
+    _library.require(len(faces) in (2, 3), "faces must be (offsets, corners) or (starts, sizes, corners)")
     return {"starts": faces[0], "sizes": faces[1] if len(faces) == 3 else None, "corners": faces[-1]}
 
 
@@ -46,8 +46,8 @@ class Surface(_api.Surface):
 
     def __init__(self, positions: ArrayLike, triangles: Optional[ArrayLike] = None, *, faces: Any = None,
                  link_pieces: bool = False, tags: Optional[ArrayLike] = None, **options: Any) -> None:
-        require(positions is not None, "positions is None", error=_errors.NullPointerError)
-        require(link_pieces or tags is None, "tags need link_pieces=True")
+        _library.require(positions is not None, "positions is None", error=_errors.NullPointerError)
+        _library.require(link_pieces or tags is None, "tags need link_pieces=True")
         if link_pieces:
             options["links"] = {"mode": _api.LinkMode.PIECES, "tags": tags}
         super().__init__(positions, triangles, **options, faces=None if faces is None else _faces(faces))
@@ -58,6 +58,6 @@ class Pose(_api.Pose):
 
     def set_matrices(self, handles: ArrayLike, matrices: ArrayLike) -> None:
         """Rigid 4 x 4 matrices rest -> posed, (k, 4, 4) in the usual row-by-row reading."""
-        rows = converted(matrices, "matrices", "f8")
-        require(rows.size % 16 == 0, "matrices must have the shape (k, 4, 4), not {}", rows.shape)
+        rows = _library.converted(matrices, "matrices", "f8")
+        _library.require(rows.size % 16 == 0, "matrices must have the shape (k, 4, 4), not {}", rows.shape)
         super().set_matrices(handles, rows.reshape(-1, 4, 4).transpose(0, 2, 1))

@@ -99,6 +99,8 @@ def converted(values: ArrayLike, name: str, kinds: Any, sentinel: bool = False) 
 def number(value: Any, name: str, kind: Any = ctypes.c_uint32, flag: bool = True) -> Any:
     """A number of a C type. ctypes would wrap what does not fit, and take floats and bools for counts; here they are refused by
     name. Flags (int32_t) take bools."""
+    if value.__class__ is int and 0 <= value < 1 << 31:
+        return value  # fits every type
     is_flag = flag and kind is ctypes.c_int32 and isinstance(value, (bool, np.bool_))
     array = converted(int(value) if is_flag else value, name, kind)
     require(array.ndim == 0, "{} must be one number, not {!r}", name, value)
@@ -166,9 +168,9 @@ class Call:
         if array.ndim != len(dims) and len(loose) < 2:  # one after the other
             found = [array.size // (known or 1) if size is None else size for size in sizes]
         right = len(found) == len(dims) and all(size in (None, have) for size, have in zip(sizes, found))
-        wanted = ", ".join(str(dim if size is None else size) for dim, size in zip(dims, sizes))
-        right = right and math.prod(found) == array.size
-        require(right, "{} must have the shape ({}), not {}", name, wanted, array.shape)
+        if not right or math.prod(found) != array.size:
+            wanted = ", ".join(str(dim if size is None else size) for dim, size in zip(dims, sizes))
+            require(False, "{} must have the shape ({}), not {}", name, wanted, array.shape)
         self.n.update({dim: size for dim, size in zip(dims, found) if dim in loose})
         return array
 
@@ -271,7 +273,7 @@ class Call:
             require(dtype is None or np.dtype(dtype) in wanted, "dtype must be one of {}, not {}", wanted, dtype)
             return np.empty(shape, dtype or wanted[0])
         usual = isinstance(out, np.ndarray) and not isinstance(out, np.ma.MaskedArray)
-        require(usual and out.dtype in wanted, "{} must be an array of {}", name, " or ".join(map(str, wanted)))
+        require(usual and out.dtype in wanted, "{} must be an array of {}", name, wanted)
         fits = out.size == math.prod(shape)
         require(fits, "{} must have the shape {}, not {}", name, shape, out.shape, error=TooSmallError)
         require(out.flags.writeable, "{} is read-only", name)
