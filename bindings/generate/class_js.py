@@ -76,21 +76,25 @@ class Steps:
         return [f"const {js(var)} = c.struct('{type}', {{}});"] + [line for f, name in fields for line in self.field_fixed(js(var), f, js(name))]
 
     def do_records(self, var, type, fields, dims):
-        given = ", ".join(f"{f['name']}: {js(name)} && c.numbers('{js(name)}', {js(name)}, 'f8', [{self.dims(dims)[1:-1]}, {f['count']}])" for f, name in fields)
-        return [f"const {js(var)}Fields = c.fields({{ {given} }}, c.product({self.dims(dims)}));",
-                f"const {js(var)} = c.rows('{js(var)}', {js(var)}Fields, {self.dims(dims)}, (fields) => c.struct('{type}', fields));"]
+        lines = [f"const {js(name)}_ = {js(name)} && c.numbers('{js(name)}', {js(name)}, 'f8', [{self.dims(dims)[1:-1]}, {f['count']}]);" for f, name in fields]
+        part = ", ".join(f"{f['name']}: {js(name)}_?.subarray({f['count']} * i, {f['count']} * (i + 1)) ?? 0" for f, name in fields)
+        indices = f"[...Array(c.product({self.dims(dims)})).keys()]"
+        return [*lines, f"const {js(var)} = c.rows('{js(var)}', {indices}, {self.dims(dims)}, (i) => c.struct('{type}', {{ {part} }}));"]
 
     def do_array(self, var, name, item):
         if item["view"]:
-            return [f"const {js(var)} = c.view('{js(name)}', {js(name)}, '{self.kinds(item, item['twin'])}', {self.dims(item['dims'])});"]
+            return [f"const {js(var)} = {self.view(name, item, self.dims(item['dims']))};"]
         return [f"const {js(var)} = c.array('{js(name)}', {js(name)}, '{self.kinds(item)}', {self.dims(item['dims'])});"]
+
+    def view(self, name, item, shape):
+        return f"c.viewOf('hf_array', read, {js(name)} && c.numbers('{js(name)}', {js(name)}, '{self.kinds(item, item['twin'])}', {shape}), {shape})"
 
     def do_rows(self, struct, field, name, var="desc"):
         shape = self.dims(field["dims"])
         for missing, other in field["without"].items():
             shape = f"{js(missing)} ? {shape} : {self.dims(other)}"
         if field["view"]:
-            return [f"{js(var)}.set('{field['name']}', c.view('{js(name)}', {js(name)}, '{self.kinds(field, field['twin'])}', {shape}));"]
+            return [f"{js(var)}.set('{field['name']}', {self.view(name, field, shape)});"]
         return [f"{js(var)}.set('{field['name']}', c.array('{js(name)}', {js(name)}, '{self.kinds(field)}', {shape}));"]
 
     def do_fields(self, struct, var):
@@ -310,7 +314,7 @@ class Writer(Types):
         taken |= {f["type"] for name in taken for f in self.structs[name].inner}
         taken |= {f["type"] for name in taken for f in self.structs[name].inner}
         out = ["// Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.", "",
-               "export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, scalar, written }) {"]
+               "export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, read, scalar, written }) {"]
         for name, struct in self.structs.items():
             out += self.filler(struct) if name in taken and struct.asked() else []
         self.methods = {}

@@ -60,12 +60,9 @@ export function callClass({ width }) {
       return read(this.numbers(name, all ? new Array(this.product(dims)).fill(values) : values, kinds, dims));
     }
 
-    /** An hf_array of numbers, or null. */
-    view(name, values, kinds, dims) {
-      return missing(values) ? null : this.viewOf('hf_array', read, this.numbers(name, values, kinds, dims), dims);
-    }
-
+    /** An hf_array or hf_array_out of numbers, or null. */
     viewOf(struct, mark, array, dims) {
+      if (!array) return null;
       const type = { 8: 'HF_TYPE_DOUBLE', 2: 'HF_TYPE_UINT16' }[array.BYTES_PER_ELEMENT];
       return make(struct, { data: mark(array), count: this.size(dims[0]) ?? 0, type: constants[type] ?? 0 });
     }
@@ -77,8 +74,7 @@ export function callClass({ width }) {
       const refuse = (i) => fail(`${name}[${i}] is null`, 'HF_ERROR_NULL_POINTER');
       const arrays = lists.map((list, i) => numbers(list ?? refuse(i), `${name}[${i}]`, 'u4'));
       this.fit(arrays.length, name, dims);
-      const all = arrays.flatMap((array) => Array.from(array));
-      return [read(Uint32Array.from(arrays, (array) => array.length)), read(Uint32Array.from(all))];
+      return [arrays.map((a) => a.length), arrays.flatMap((a) => [...a])].map((all) => read(Uint32Array.from(all)));
     }
 
     /** Rows of a struct, one after the other. make(value, name): its struct. */
@@ -86,13 +82,10 @@ export function callClass({ width }) {
       if (missing(values)) return null;
       if (!Array.isArray(values)) fail(`${name} must be a list`);
       this.fit(values.length, name, dims);
-      return read(Uint8Array.from(values.flatMap((value, i) => [...row(value, `${name}[${i}]`).bytes])));
-    }
-
-    /** Fields of rows: the i-th part of each array. */
-    fields(columns, count) {
-      const part = (array, i) => array.subarray((i * array.length) / count, ((i + 1) * array.length) / count);
-      return Array.from({ length: count }, (_, i) => mapped(columns, (array) => (array ? part(array, i) : 0)));
+      const structs = values.map((value, i) => row(value, `${name}[${i}]`).bytes);
+      const bytes = new Uint8Array(structs.length && structs.length * structs[0].length);
+      structs.forEach((struct, i) => bytes.set(struct, i * struct.length));
+      return read(bytes);
     }
 
     /** One place: a vertex, a hit, or three corners of a triangle and their barycentrics. */

@@ -1,6 +1,6 @@
 // Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.
 
-export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, scalar, written }) {
+export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, read, scalar, written }) {
 
   const factorDesc = (c, prefix, options) => {
     const { bytes = null, ...more } = options;
@@ -35,9 +35,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { corners = null, sizes = null, starts = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_faces_desc', {});
-    desc.set('corners', c.view('corners', corners, 'u4', ['corner_count']));
-    desc.set('sizes', c.view('sizes', sizes, 'u4', ['faces']));
-    desc.set('starts', c.view('starts', starts, 'u4', sizes ? ['faces'] : ['faces + 1']));
+    desc.set('corners', c.viewOf('hf_array', read, corners && c.numbers('corners', corners, 'u4', ['corner_count']),
+            ['corner_count']));
+    desc.set('sizes', c.viewOf('hf_array', read, sizes && c.numbers('sizes', sizes, 'u4', ['faces']), ['faces']));
+    desc.set('starts', c.viewOf('hf_array', read, starts && c.numbers('starts', starts, 'u4',
+            sizes ? ['faces'] : ['faces + 1']), sizes ? ['faces'] : ['faces + 1']));
     return desc;
   };
 
@@ -49,8 +51,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const desc = c.struct('hf_surface_desc', { weld, weld_tolerance: weldTolerance, operator_kind: operatorKind,
             field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
             triangle_limit: triangleLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
-    desc.set('positions', c.view('positions', positions, 'f4 f8', ['vertex_count', 3]));
-    desc.set('triangles', c.view('triangles', triangles, 'u4 u2', ['triangle_count', 3]));
+    desc.set('positions', c.viewOf('hf_array', read, positions && c.numbers('positions', positions, 'f4 f8',
+            ['vertex_count', 3]), ['vertex_count', 3]));
+    desc.set('triangles', c.viewOf('hf_array', read, triangles && c.numbers('triangles', triangles, 'u4 u2',
+            ['triangle_count', 3]), ['triangle_count', 3]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('faces', c.inner(faces, 'corners', facesDesc, 'faces.'));
     desc.set('saved_factor', c.inner(savedFactor, 'bytes', factorDesc, 'saved_factor.'));
@@ -67,9 +71,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
             edge_limit: edgeLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
     if (scalar('u32', vertexCount, 'vertexCount')) c.n.vertex_count = vertexCount;
-    desc.set('edges', c.view('edges', edges, 'u4 u2', ['edge_count', 2]));
-    desc.set('weights', c.view('weights', weights, 'f4 f8', ['edge_count']));
-    desc.set('masses', c.view('masses', masses, 'f4 f8', ['vertex_count']));
+    desc.set('edges', c.viewOf('hf_array', read, edges && c.numbers('edges', edges, 'u4 u2', ['edge_count', 2]),
+            ['edge_count', 2]));
+    desc.set('weights', c.viewOf('hf_array', read, weights && c.numbers('weights', weights, 'f4 f8', ['edge_count']),
+            ['edge_count']));
+    desc.set('masses', c.viewOf('hf_array', read, masses && c.numbers('masses', masses, 'f4 f8', ['vertex_count']),
+            ['vertex_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('saved_factor', c.inner(savedFactor, 'bytes', factorDesc, 'saved_factor.'));
     return desc;
@@ -79,7 +86,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { positions = null, frontOnly = false, ...more } = options;
     none(more);
     const desc = c.struct('hf_pick_desc', { front_only: frontOnly });
-    desc.set('positions', c.view('positions', positions, 'f4 f8', ['vertex_count', 3]));
+    desc.set('positions', c.viewOf('hf_array', read, positions && c.numbers('positions', positions, 'f4 f8',
+            ['vertex_count', 3]), ['vertex_count', 3]));
     return desc;
   };
 
@@ -226,7 +234,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { positions = null, base = 0, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_region_desc', { base });
-    desc.set('positions', c.view('positions', positions, 'f4 f8', ['vertex_count', 3]));
+    desc.set('positions', c.viewOf('hf_array', read, positions && c.numbers('positions', positions, 'f4 f8',
+            ['vertex_count', 3]), ['vertex_count', 3]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
   };
@@ -327,8 +336,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_transfer_desc', { mode, cluster_count: clusterCount, ground, kernel_width: kernelWidth,
             scale, alignment_angle: alignmentAngle });
-    desc.set('source_rest', c.view('sourceRest', sourceRest, 'f4 f8', ['source.vertex_count', 3]));
-    desc.set('target_rest', c.view('targetRest', targetRest, 'f4 f8', ['target.vertex_count', 3]));
+    desc.set('source_rest', c.viewOf('hf_array', read, sourceRest && c.numbers('sourceRest', sourceRest, 'f4 f8',
+            ['source.vertex_count', 3]), ['source.vertex_count', 3]));
+    desc.set('target_rest', c.viewOf('hf_array', read, targetRest && c.numbers('targetRest', targetRest, 'f4 f8',
+            ['target.vertex_count', 3]), ['target.vertex_count', 3]));
     desc.set('source_axes', sourceAxes && c.numbers('sourceAxes', sourceAxes, 'f8', [9]));
     desc.set('target_axes', targetAxes && c.numbers('targetAxes', targetAxes, 'f8', [9]));
     return desc;
@@ -361,7 +372,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { sourcePositions = null, holdPairs = null, holdPositions = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_transfer_frame', {});
-    desc.set('source_positions', c.view('sourcePositions', sourcePositions, 'f4 f8', ['source.vertex_count', 3]));
+    desc.set('source_positions', c.viewOf('hf_array', read, sourcePositions && c.numbers('sourcePositions',
+            sourcePositions, 'f4 f8', ['source.vertex_count', 3]), ['source.vertex_count', 3]));
     desc.set('hold_pairs', c.array('holdPairs', holdPairs, 'u4', [prefix + 'hold_count']));
     desc.set('hold_positions', c.array('holdPositions', holdPositions, 'f8', [prefix + 'hold_count', 3]));
     desc.set('hold_count', (c.n[prefix + 'hold_count'] ??= 0));
@@ -537,7 +549,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     measureGaps(positions) {
       const c = new Call(this);
       const info = Call.told(this, 'hf_gaps_info');
-      const positions_ = c.view('positions', positions, 'f4 f8', ['vertex_count', 3]);
+      const positions_ = c.viewOf('hf_array', read, positions && c.numbers('positions', positions, 'f4 f8',
+              ['vertex_count', 3]), ['vertex_count', 3]);
       const found = c.grow(this, 'hf_surface_measure_gaps', (room, made) => call('hf_surface_measure_gaps',
               this._handle, positions === null || positions === undefined ? null : positions_, room.capacity,
               written(made.gaps), info), () => ({ capacity: info.get('link_count') }), { capacity: null },
@@ -597,7 +610,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     spaceLevels(field, levelCount, spacing = 0) {
       const c = new Call(this);
-      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
+      const field_ = c.viewOf('hf_array', read, field && c.numbers('field', field, 'f4 f8', ['vertex_count']),
+              ['vertex_count']);
       if (scalar('u32', levelCount, 'levelCount')) c.n.level_count = levelCount;
       const levels = c.out(null, 'f8', ['level_count']);
       call('hf_surface_space_levels', this._handle, field === null || field === undefined ? null : field_, spacing,
@@ -607,7 +621,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     traceIsolines(field, levels) {
       const c = new Call(this);
-      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
+      const field_ = c.viewOf('hf_array', read, field && c.numbers('field', field, 'f4 f8', ['vertex_count']),
+              ['vertex_count']);
       const levels_ = c.array('levels', levels, 'f8', ['level_count']);
       const lines = c.struct('hf_isolines', {});
       const found = c.grow(this, 'hf_surface_trace_isolines', (room, made) => (lines.set('point_capacity',
@@ -626,7 +641,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     findCriticalPoints(field) {
       const c = new Call(this);
       const info = Call.told(this, 'hf_critical_info');
-      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
+      const field_ = c.viewOf('hf_array', read, field && c.numbers('field', field, 'f4 f8', ['vertex_count']),
+              ['vertex_count']);
       const found = c.grow(this, 'hf_surface_find_critical_points', (room,
               made) => call('hf_surface_find_critical_points', this._handle,
               field === null || field === undefined ? null : field_, room.capacity, written(made.points), info),
@@ -1072,11 +1088,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
-      const transformsFields = c.fields({ rotation: rotations && c.numbers('rotations', rotations, 'f8',
-              ['handle_count', 4]), translation: translations && c.numbers('translations', translations, 'f8',
-              ['handle_count', 3]) }, c.product(['handle_count']));
-      const transforms = c.rows('transforms', transformsFields, ['handle_count'], (fields) => c.struct('hf_transform',
-              fields));
+      const rotations_ = rotations && c.numbers('rotations', rotations, 'f8', ['handle_count', 4]);
+      const translations_ = translations && c.numbers('translations', translations, 'f8', ['handle_count', 3]);
+      const transforms = c.rows('transforms', [...Array(c.product(['handle_count'])).keys()], ['handle_count'],
+              (i) => c.struct('hf_transform', { rotation: rotations_?.subarray(4 * i, 4 * (i + 1)) ?? 0,
+              translation: translations_?.subarray(3 * i, 3 * (i + 1)) ?? 0 }));
       call('hf_pose_set_transforms', this._handle, (c.n.handle_count ??= 1), handles_, transforms);
     }
 
@@ -1248,7 +1264,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { seeds = null, wantedCount = 0, ...more } = options;
       none(more);
       const c = new Call(this);
-      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
+      const field_ = c.viewOf('hf_array', read, field && c.numbers('field', field, 'f4 f8', ['vertex_count']),
+              ['vertex_count']);
       const lines = c.struct('hf_streamlines', { wanted_count: wantedCount });
       lines.set('seeds', c.array('seeds', seeds, 'u4', ['seed_count']));
       lines.set('seed_count', (c.n['seed_count'] ??= 0));

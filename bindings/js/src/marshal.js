@@ -25,16 +25,16 @@ const ranges = { i32: [-0x80000000, 0x7fffffff], u32: [0, 0xffffffff], size: [0,
 /** A number; what a DataView, an array or the call would wrap is refused by name. range: of whole numbers. */
 function check(value, range, name, index = null) {
   if (range ? !Number.isInteger(value) : typeof value !== 'number')
-    fail(`${name()} must be a ${range ? 'whole ' : ''}number, not ${String(value)}`);
+    fail(`${name} must be a ${range ? 'whole ' : ''}number, not ${String(value)}`);
   if (value < range?.[0] || value > range?.[1])
-    fail(`${name()} is ${value}; it must lie in ${range.join(' to ')}`, 'HF_ERROR_OUT_OF_RANGE', index);
+    fail(`${name} is ${value}; it must lie in ${range.join(' to ')}`, 'HF_ERROR_OUT_OF_RANGE', index);
   return value;
 }
 
 /** A number as a field or parameter of that kind takes it. Flags (int32) take booleans. */
 export function scalar(kind, value, name) {
   if (kind === 'i32' && typeof value === 'boolean') return Number(value);
-  return check(value, ranges[kind], () => name);
+  return check(value, ranges[kind], name);
 }
 
 /** An array the library reads, or writes (copied back from WebAssembly's memory). */
@@ -53,7 +53,9 @@ export function numbers(values, name, kinds) {
   const flat = Array.isArray(values) && isArray(values[0]) ? values.flatMap((row) => Array.from(row)) : values;
   const Type = kinds[0] === 'f' ? allowed.at(-1) : allowed[0];
   const range = kinds[0] === 'f' ? null : [0, 2 ** (8 * Type.BYTES_PER_ELEMENT) - 1];
-  return Type.from(flat, (value, i) => check(value, range, () => `${name}[${i}]`, i));
+  const right = range ? (v) => Number.isInteger(v) && v >= 0 && v <= range[1] : (v) => typeof v === 'number';
+  for (let i = 0; i < flat.length; ++i) if (!right(flat[i])) check(flat[i], range, `${name}[${i}]`, i);
+  return Type.from(flat);
 }
 
 const accessors = { i32: 'Int32', u32: 'Uint32', f64: 'Float64' };
@@ -69,7 +71,8 @@ export class Struct {
   }
 
   set(name, value, shown = name) {
-    const [kind, offsets, count] = this.layout.fields[snake(name)] ?? fail(`no option '${name}'`);
+    const { fields } = this.layout;
+    const [kind, offsets, count] = fields[name] ?? fields[snake(name)] ?? fail(`no option '${name}'`);
     const at = offsets[this.width];
     if (missing(value)) return this;
     if (kind === 'ptr') this.pointers.set(at, value);
@@ -97,8 +100,8 @@ export class Struct {
   /** The fields that are no pointers as a plain object with camelCase names. */
   toObject() {
     const { struct_size, reserved, ...fields } = this.layout.fields;
-    const shown = Object.keys(fields).filter((name) => fields[name][0] !== 'ptr');
-    return Object.fromEntries(shown.map((name) => [camel(name), this.get(name)]));
+    this.layout.shown ??= Object.keys(fields).filter((n) => fields[n][0] !== 'ptr').map((n) => [camel(n), n]);
+    return Object.fromEntries(this.layout.shown.map(([key, name]) => [key, this.get(name)]));
   }
 }
 

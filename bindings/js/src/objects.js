@@ -2,7 +2,7 @@
 import { callClass } from './call.js';
 import { makeClasses } from './classes.js';
 import { extend } from './extras.js';
-import { HfError, Struct, fail, missing, scalar, written } from './marshal.js';
+import { HfError, Struct, fail, missing, read, scalar, written } from './marshal.js';
 import { constants, functions, headerVersion } from './raw.js';
 
 export function makeApi(backend) {
@@ -89,7 +89,7 @@ export function makeApi(backend) {
   const [major, minor] = headerVersion.split('.').map(Number);
   if (version[0] !== major || version[1] < minor)
     throw new Error(`the hf library is of version ${version.join('.')}, this package of ${headerVersion}`);
-  const own = { Handle, Recorded, Call: callClass(backend), bare, call, direct, handleOf, none, scalar, written };
+  const own = { Handle, Recorded, Call: callClass(backend), bare, call, direct, handleOf, none, read, scalar, written };
   const classes = makeClasses({ ...own, newHandle: backend.newHandle });
   return Object.freeze({ ...extend(classes, bare), HfError, constants, backend: backend.name, version });
 }
