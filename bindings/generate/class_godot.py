@@ -69,7 +69,7 @@ def write(api):
             continue
         name = NAMES.get(m.name, name)
         table.append(f'{{"{name}", {sum(a.required for a in plan.arguments)}, {len(plan.arguments)}, {name}}}')
-        out += ["", f"// {name}({', '.join(a.name for a in plan.arguments)})", f"Value {name}(Surface& s, const Arguments& a) {{"]
+        out += ["", f"// {name}({', '.join(a.name for a in plan.arguments)})", f"Value {name}(Surface& s, const Arguments&{' a' * bool(plan.arguments)}) {{"]
         out += [line for text in body for line in fold(text.lstrip(), 2, 4)] + ["}"]
     entries = [f"      {one}," for one in table]
     end = ["", "}  // namespace", "", "const std::vector<Entry>& made_methods() {", "  static const std::vector<Entry> all = {", *entries, "  };",

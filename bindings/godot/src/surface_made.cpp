@@ -6,7 +6,7 @@ namespace hf_godot {
 namespace {
 
 // surface_info()
-Value surface_info(Surface& s, const Arguments& a) {
+Value surface_info(Surface& s, const Arguments&) {
   auto info = make<hf_surface_info>();
   check(hf_surface_get_info(s.get(), &info));
   return named({{"vertex_count", info.vertex_count}, {"triangle_count", info.triangle_count}, {"weld", info.weld},
@@ -18,7 +18,7 @@ Value surface_info(Surface& s, const Arguments& a) {
 }
 
 // surface_report()
-Value surface_report(Surface& s, const Arguments& a) {
+Value surface_report(Surface& s, const Arguments&) {
   auto info = make<hf_surface_report>();
   check(hf_surface_get_report(s.get(), &info));
   return named({{"vertex_count", info.vertex_count}, {"triangle_count", info.triangle_count}, {"welded_vertex_count",
@@ -32,7 +32,7 @@ Value surface_report(Surface& s, const Arguments& a) {
 }
 
 // surface_mesh_statistics()
-Value surface_mesh_statistics(Surface& s, const Arguments& a) {
+Value surface_mesh_statistics(Surface& s, const Arguments&) {
   auto info = make<hf_mesh_statistics>();
   check(hf_surface_get_mesh_statistics(s.get(), &info));
   return named({{"polygon_count", info.polygon_count}, {"non_planar_count", info.non_planar_count}, {"largest_face",
@@ -42,7 +42,7 @@ Value surface_mesh_statistics(Surface& s, const Arguments& a) {
 }
 
 // surface_links_info()
-Value surface_links_info(Surface& s, const Arguments& a) {
+Value surface_links_info(Surface& s, const Arguments&) {
   auto info = make<hf_links_info>();
   check(hf_surface_get_links_info(s.get(), &info));
   return named({{"piece_count", info.piece_count}, {"link_count", info.link_count}, {"light_piece_count",
@@ -51,7 +51,7 @@ Value surface_links_info(Surface& s, const Arguments& a) {
 }
 
 // surface_statistics()
-Value surface_statistics(Surface& s, const Arguments& a) {
+Value surface_statistics(Surface& s, const Arguments&) {
   auto info = make<hf_surface_statistics>();
   check(hf_surface_get_statistics(s.get(), &info));
   return named({{"unknown_count", info.unknown_count}, {"weld_ms", info.weld_ms}, {"operator_ms", info.operator_ms},
@@ -62,7 +62,7 @@ Value surface_statistics(Surface& s, const Arguments& a) {
 }
 
 // solver_info()
-Value solver_info(Surface& s, const Arguments& a) {
+Value solver_info(Surface& s, const Arguments&) {
   auto info = make<hf_solver_info>();
   check(hf_solver_get_info(solver_of(s), &info));
   return named({{"field_kind", info.field_kind}, {"channel_count", info.channel_count}, {"site_limit", info.site_limit},
@@ -92,7 +92,7 @@ Value set_screening(Surface& s, const Arguments& a) {
 }
 
 // statistics()
-Value statistics(Surface& s, const Arguments& a) {
+Value statistics(Surface& s, const Arguments&) {
   auto info = make<hf_solver_statistics>();
   check(hf_solver_get_statistics(solver_of(s), &info));
   return named({{"site_count", info.site_count}, {"factorisation_count", info.factorisation_count}, {"path_solve_count",
@@ -136,7 +136,7 @@ Value direction_rotate_sites(Surface& s, const Arguments& a) {
 }
 
 // direction_statistics()
-Value direction_statistics(Surface& s, const Arguments& a) {
+Value direction_statistics(Surface& s, const Arguments&) {
   auto info = make<hf_direction_statistics>();
   check(hf_direction_get_statistics(s.direction.get(), &info));
   return named({{"degree", info.degree}, {"site_limit", info.site_limit}, {"unknown_count", info.unknown_count},
@@ -148,7 +148,7 @@ Value direction_statistics(Surface& s, const Arguments& a) {
 }
 
 // pose_info()
-Value pose_info(Surface& s, const Arguments& a) {
+Value pose_info(Surface& s, const Arguments&) {
   auto info = make<hf_pose_info>();
   check(hf_pose_get_info(pose_of(s), &info));
   return named({{"band_count", info.band_count}, {"iteration_count", info.iteration_count}, {"group_count",
@@ -200,7 +200,7 @@ Value set_matrices(Surface& s, const Arguments& a) {
 }
 
 // pose_statistics()
-Value pose_statistics(Surface& s, const Arguments& a) {
+Value pose_statistics(Surface& s, const Arguments&) {
   auto info = make<hf_pose_statistics>();
   check(hf_pose_get_statistics(pose_of(s), &info));
   return named({{"cluster_count", info.cluster_count}, {"solve_ms", info.solve_ms}, {"blend_ms", info.blend_ms},
@@ -208,7 +208,7 @@ Value pose_statistics(Surface& s, const Arguments& a) {
 }
 
 // quads_info()
-Value quads_info(Surface& s, const Arguments& a) {
+Value quads_info(Surface& s, const Arguments&) {
   auto info = make<hf_quads_info>();
   check(hf_quads_get_info(s.quads.get(), &info));
   return named({{"vertex_count", info.vertex_count}, {"face_count", info.face_count}, {"euler_characteristic",
@@ -216,7 +216,7 @@ Value quads_info(Surface& s, const Arguments& a) {
 }
 
 // region_statistics()
-Value region_statistics(Surface& s, const Arguments& a) {
+Value region_statistics(Surface& s, const Arguments&) {
   auto info = make<hf_region_statistics>();
   check(hf_region_get_statistics(s.region.get(), &info));
   return named({{"inserted_count", info.inserted_count}, {"removed_count", info.removed_count}, {"kept_count",
@@ -232,7 +232,7 @@ Value transfer_remove_pairs(Surface& s, const Arguments& a) {
 }
 
 // transfer_info()
-Value transfer_info(Surface& s, const Arguments& a) {
+Value transfer_info(Surface& s, const Arguments&) {
   auto info = make<hf_transfer_info>();
   check(hf_transfer_get_info(s.transfer.get(), &info));
   return named({{"pair_count", info.pair_count}, {"cluster_count", info.cluster_count}, {"aligned_count",
@@ -241,7 +241,7 @@ Value transfer_info(Surface& s, const Arguments& a) {
 }
 
 // transfer_statistics()
-Value transfer_statistics(Surface& s, const Arguments& a) {
+Value transfer_statistics(Surface& s, const Arguments&) {
   auto info = make<hf_transfer_statistics>();
   check(hf_transfer_get_statistics(s.transfer.get(), &info));
   return named({{"source_factorisation_count", info.source_factorisation_count}, {"target_factorisation_count",
@@ -249,7 +249,7 @@ Value transfer_statistics(Surface& s, const Arguments& a) {
 }
 
 // transfer_dials()
-Value transfer_dials(Surface& s, const Arguments& a) {
+Value transfer_dials(Surface& s, const Arguments&) {
   auto info = make<hf_transfer_dials>();
   check(hf_transfer_get_dials(s.transfer.get(), &info));
   return named({{"stride", info.stride}, {"hip_height_share", info.hip_height_share}, {"neck_follow", info.neck_follow},
