@@ -78,14 +78,14 @@ class Steps:
             return safe(rest[0])
         return {"self": "get()", "null": "nullptr"}.get(kind) or {
             "ref": "&{name}", "ref_if": "&{name}", "text": "c.text({name})", "figure": "&{name}", "count": 'c.count("{raw}", 1)',
-            "room": 'room.get("{raw}")', "grown": "room.at({name})", "literal": "{raw}", "size_of": "{name}.size()"}[kind].format(name=safe(rest[0]), raw=rest[0])
+            "room": 'c.count("{raw}", 0)', "grown": "{raw}_at", "literal": "{raw}", "size_of": "{name}.size()"}[kind].format(name=safe(rest[0]), raw=rest[0])
 
     def called(self, function, values):
         parameters = self.w.function(function)["parameters"]
         return f"{function}({', '.join(self.value(v, p) for v, p in zip(values, parameters))})"
 
     def do_forget(self, key):
-        return [f'c.forget("{key}");  // of the list given here']
+        return [f'c.sizes.erase("{key}");  // of the list given here']
 
     def do_known(self, key, default):
         name = self.given(key)
@@ -202,18 +202,17 @@ class Steps:
 
     def do_grow(self, function, owner, values, tell, rooms, arrays, into):
         lines = ["uint32_t count = 0;"] if any(var == "count" for _, var, _ in tell) else []
-        room = ", ".join(f'{{"{key}", {f"c.size({chr(34)}{known}{chr(34)})" if known else "-1"}}}' for key, known in rooms)
-        lines.append(f"Room room({{{room}}});")
+        lines += [f'c.sizes["{key}"] = {f"c.count({chr(34)}{known}{chr(34)}, Call::kFirst)" if known else "Call::kFirst"};' for key, known in rooms]
         mine = {name: f"found.{name}" if into else safe(name) for name, _, _ in arrays}
         lines += [f"{camel(named(self.w.api['structs'], self.w.struct_of(self.plan, into))['name'])} found;"] if into else [
             f"std::vector<{item['type']}> {safe(name)};" for name, item, _ in arrays]
+        lines += ["for (bool done = false; !done;) {"] + [f'  {safe(into)}.{key} = c.count("{key}", 0);' for key, _ in rooms if into]
         for name, item, on_request in arrays:
-            place = f", &{safe(into)}.{name}" if into else ", nullptr" * on_request
-            lines.append(f"room.array({mine[name]}, {self.dims(item['dims'])}{place}{f', want_{name}' * on_request});")
-        lines += ["do {", "  room.begin(c);"]
-        lines += [f'  {safe(into)}.{key} = room.get("{key}");' for key, _ in rooms if into]
+            room = f"c.room({mine[name]}, {self.dims(item['dims'])})"
+            lines.append(f"  {safe(into) + '.' + name if into else f'auto* {name}_at'} = {f'want_{name} ? {room} : nullptr' if on_request else room};")
         told = ", ".join(f'{{"{key}", {safe(var)}{("->" if self.is_pointer(var) else ".") + field if field else ""}}}' for key, var, field in tell)
-        lines += [f"  room.code = {self.called(function, values)};", f"}} while (!room.enough(c, {{{told}}}));"]
+        lines += [f"  const hf_result code = {self.called(function, values)};", f"  done = c.enough(code, {{{told}}});", "}"]
+        lines += [f"{f'if (want_{name}) ' if on_request else ''}{mine[name]}.resize(c.product({self.dims(item['dims'])}));" for name, item, on_request in arrays]
         if into:
             struct = self.w.structs[self.w.struct_of(self.plan, into)]
             lines += [f"found.{safe(f['name'])} = {safe(into)}.{safe(f['name'])};" for f in self.w.figures_of(struct)]

@@ -78,15 +78,15 @@ class Steps:
         return {"self": "RawHandle", "null": "null"}.get(kind) or {
             "handle": "c.Handle({name})", "place": "c.Place({name}, \"{name}\")", "ref": "{name}", "ref_if": "{last} == null ? null : {name}",
             "var": "{name}", "text": "c.Text({name})", "figure": "&{name}", "address": "{name}Place", "count": "(uint)c.Count(\"{raw}\", 1)",
-            "info": "&{name}", "room": "(uint)found[\"{raw}\"]", "grown": "found.Place(\"{raw}\")", "literal": "(UIntPtr){raw}",
+            "info": "&{name}", "room": "(uint)c.Size(\"{raw}\")", "grown": "{name}Place", "literal": "(UIntPtr){raw}",
             "size_of": "(UIntPtr){name}.Length"}[kind].format(name=name, raw=rest[0], last=lower(rest[-1]) if isinstance(rest[-1], str) else "")
 
     def do_forget(self, key):
-        return [f'c.Forget("{key}");  // of the list given here']
+        return [f'c.Sizes.Remove("{key}");  // of the list given here']
 
     def do_known(self, key, default):
         name = self.given(key)
-        return [f'c.Known("{key}", {f"{name} == 0 ? {default} : {name}" if default else name});']
+        return [("" if default else f"if ({name} != 0) ") + f'c.Sizes["{key}"] = (int)Math.Min({f"{name} == 0 ? {default} : {name}" if default else name}, int.MaxValue);']
 
     def do_struct(self, var, type, fields):
         struct, name = self.w.structs[type].struct, lower(var)
@@ -106,16 +106,16 @@ class Steps:
     def do_record(self, var, type, fields, dims):
         name = lower(var)
         return [f"var {name}Struct = new {type}();", f"{type}* {name} = &{name}Struct;"] + [
-            f'c.Fixed({lower(given)}, "{lower(given)}", {f["count"]}, {name}->{f["name"]});' for f, given in fields]
+            line for f, given in fields for line in filled(lower(given), lower(given), f["count"], f"{name}->{f['name']}")]
 
     def do_records(self, var, type, fields, dims):
         name = lower(var)
         lines = [f"var {name} = ({type}*)c.Rows(sizeof({type}), {self.dims(dims)});"]
-        return lines + [f'c.Spread({lower(given)}, "{lower(given)}", {f["count"]}, {name}->{f["name"]}, sizeof({type}), {self.dims(dims)});' for f, given in fields]
+        return lines + [line for f, given in fields for line in filled(lower(given), lower(given), f["count"], f"{name}[i / {f['count']}].{f['name']}", self.dims(dims))]
 
     def do_array(self, var, name, item):
         if item["view"]:
-            view = f'c.View({lower(name)}, "{lower(name)}", {self.dims(item["dims"])})'
+            view = f'c.View({lower(name)}{"?.Values" * bool(item["twin"])}, "{lower(name)}", {self.dims(item["dims"])})'
             return [f"hf_array {lower(var)}Array = {view};", f"hf_array* {lower(var)} = &{lower(var)}Array;"]
         return [f'void* {lower(var)} = c.Array({lower(name)}, "{lower(name)}", {self.dims(item["dims"])});']
 
@@ -124,7 +124,7 @@ class Steps:
         for missing, other in field["without"].items():
             dims = f"{self.given(missing)} == null ? new[] {{ {self.dims(other)} }} : new[] {{ {dims} }}"
         if field["view"]:
-            return [f'{target} = c.View({given}, "{lower(name)}", {dims});']
+            return [f'{target} = c.View({given}{"?.Values" * bool(field["twin"])}, "{lower(name)}", {dims});']
         return [f'{target} = (IntPtr)c.Array({given}, "{lower(name)}", {dims});']
 
     def do_fields(self, struct, var):
@@ -147,7 +147,7 @@ class Steps:
         name, type_name = field["name"], field["type"]
         rows, given = lower(name) + "Rows", self.given(name)
         return [f'var {rows} = ({type_name}*)c.Given({given}, "{lower(name)}", sizeof({type_name}), {self.dims(field["dims"])});',
-                f"for (int i = 0; {given} != null && i < {given}.Length; ++i) {given}[i].Write({rows} + i);", f"{var}->{name} = (IntPtr){rows};"]
+                f"for (int i = 0; {given} != null && i < {given}.Length; ++i) {given}[i].Write(c, {rows} + i);", f"{var}->{name} = (IntPtr){rows};"]
 
     def field_blob(self, var, field, count):
         given = self.given(field["name"])
@@ -158,7 +158,7 @@ class Steps:
 
     def field_fixed(self, var, field):
         name = field["name"]
-        return [f'c.Fixed({self.given(name)}, "{lower(name)}", {field["count"]}, {var}->{name});']
+        return filled(self.given(name), lower(name), field["count"], f"{var}->{name}")
 
     def field_handle(self, var, field):
         return [f"{var}->{field['name']} = c.Handle({self.given(field['name'])});"]
@@ -212,7 +212,7 @@ class Steps:
         given = ", ".join([*map(self.value, values), "raw"])
         lines = ["var raw = (IntPtr*)c.New(sizeof(IntPtr));"]
         if kind == "create":  # Mono looks for the library when it compiles a method that calls it: this one, after Call has loaded it
-            lines.append(f"HfException.Check(Call.Late(() => Functions.{function}({given})));")
+            lines.append(f"HfException.Check(Library.Late(() => Functions.{function}({given})));")
         else:
             lines.append(f"HfException.Check(Functions.{function}({given}));")
         if who:
@@ -227,22 +227,23 @@ class Steps:
 
     def do_grow(self, function, owner, values, tell, rooms, arrays, into):
         lines = ["uint count = 0;"] if any(var == "count" for _, var, _ in tell) else []
-        who = "this" if owner == "self" else lower(owner)
-        lines.append(f'var found = new Growth(c, {who}, "{function}");')
-        lines += [f'found.Room("{key}", ' + (f'"{known}");' if known else "null);") for key, known in rooms]
         for name, item, on_request in arrays:
-            inner = named(self.w.api["structs"], item["type"])
-            made = f'found.Rows("{name}", sizeof({item["type"]}), ' if inner else f'found.Array<{TYPES[item["type"]]}>("{name}", '
-            lines.append((f"if ({lower(name)}) " if on_request else "") + made + self.dims(item["dims"]) + ");")
-        lines += ["do", "{", "    found.Begin();"]
-        if into:
-            lines += [f'    {lower(into)}->{key} = (uint)found["{key}"];' for key, _ in rooms]
-            lines += [f'    {lower(into)}->{name} = (IntPtr)found.Place("{name}");' for name, _, _ in arrays]
-        lines.append(f"    found.Result = {self.called(function, values)};")
-        for key, var, field in tell:
-            place = f"{lower(var)}->{field}" if field and not any(a.name == var and a.role == "info" for a in self.arguments) else f"{lower(var)}.{field}"
-            lines.append(f'    found.Told("{key}", {place if field else lower(var)});')
-        return lines + ["}", "while (found.Again());"]
+            kind = TYPES.get(item["type"])
+            lines += [f"{kind}[] all{upper(name)} = null;"] if kind else [f"void* {lower(name)}Place = null;"]
+        lines += [f'c.Room("{key}", "{known or function + "." + key}");' for key, known in rooms] + ["int result;", "do", "{"]
+        lines += [f'    {lower(into)}->{key} = (uint)c.Size("{key}");' for key, _ in rooms if into]
+        for name, item, on_request in arrays:
+            dims = self.dims(item["dims"])
+            made = f"c.Make(out all{upper(name)}, {dims})" if item["type"] in TYPES else f"c.Rows(sizeof({item['type']}), {dims})"
+            made = f"{lower(name)} ? {made} : IntPtr.Zero" if on_request else made
+            target = f"{lower(into)}->{name}" if into else f"{lower(name)}Place" if item["type"] not in TYPES else f"void* {lower(name)}Place"
+            lines.append(f"    {target} = {made if into or item['type'] not in TYPES else f'(void*){made}'};")
+        lines.append(f"    result = {self.called(function, values)};")
+        told = [f'("{key}", {lower(var) + ("." if self.is_info(var) else "->") + field if field else lower(var)})' for key, var, field in tell]
+        return lines + ["}", f'while (c.Again("{function}", result, {", ".join(told)}));']
+
+    def is_info(self, var):
+        return any(a.name == var and a.role == "info" for a in self.arguments)
 
     arguments = ()
 
@@ -302,6 +303,9 @@ class Writer:
 
     # ---- methods ----
 
+    def dims(self, item):
+        return Steps(self).dims(item["dims"])
+
     def returned(self, plan):
         """[(name, type, expression)], and lines in front."""
         found, lines = [], []
@@ -312,12 +316,12 @@ class Writer:
             elif kind == "grown" and named(self.api["structs"], item["type"]):
                 rows = lower(name)
                 self.infos[item["type"]] = True
-                lines += [f'var {rows} = new {cs(item["type"])}[found.Length("{name}")];', f"for (int i = 0; i < {rows}.Length; ++i)",
-                          f'    {rows}[i] = new {cs(item["type"])}(({item["type"]}*)found.Place("{name}") + i);']
+                lines += [f'var {rows} = new {cs(item["type"])}[c.Product({self.dims(item)})];', f"for (int i = 0; i < {rows}.Length; ++i)",
+                          f'    {rows}[i] = new {cs(item["type"])}(({item["type"]}*){rows}Place + i);']
                 found.append((shown, cs(item["type"]) + "[]", rows))
             elif kind == "grown":
                 kind = TYPES[item["type"]]
-                found.append((shown, kind + "[]", f'found.Take<{kind}>("{name}")'))
+                found.append((shown, kind + "[]", f"c.Cut(all{shown}, {self.dims(item)})"))
             elif kind == "bytes":
                 found.append((shown, "byte[]", "block"))
             elif kind == "string":
@@ -336,7 +340,7 @@ class Writer:
             else:
                 self.results[item.name] = item
                 sets = [f"{upper(f['name'])} = {lower(name)}->{f['name']}" for f in item.results + [f for f in item.scalars if f["name"] in self.sizes]]
-                sets += [f"{upper(f['name'])} = found.Take<{TYPES[f['type']]}>(\"{f['name']}\")" for f in item.filled]
+                sets += [f"{upper(f['name'])} = c.Cut(all{upper(f['name'])}, {self.dims(f)})" for f in item.filled]
                 found.append((shown, cs(item.name), f"new {cs(item.name)} {{ {', '.join(sets)} }}"))
         return found, lines
 
@@ -377,7 +381,7 @@ class Writer:
         if plan.steps[0][0] != "returns":
             for p in m.parents:
                 if not p["optional"]:
-                    body.append(f'c.Parent("{p["name"]}", {lower(p["name"])});')
+                    body.append(f'c.Parent("{p["name"]}.", {lower(p["name"])});')
         for a in told:
             body.append(f"var {lower(a.name)} = new {a.item['type']} {{ struct_size = (uint)sizeof({a.item['type']}) }};")
         for op, values in plan.steps:
@@ -448,16 +452,16 @@ class Writer:
             source = f"raw->{raw_safe(f['name'])}"
             if f["role"] == "value":
                 into.append(f"{upper(f['name'])} = new {cs(f['type'])}(&{source});")
-                back.append(f"{upper(f['name'])}.Write(&{source});")
+                back.append(f"{upper(f['name'])}.Write(c, &{source});")
             elif f["role"] == "fixed":
                 into.append(f"for (int i = 0; i < {f['count']}; ++i) {upper(f['name'])}[i] = {source}[i];")
-                back.append(f'Call.Fill({upper(f["name"])}, "{upper(f["name"])}", {f["count"]}, {source});')
+                back += filled(upper(f["name"]), upper(f["name"]), f["count"], source)
             else:
                 into.append(f"{upper(f['name'])} = " + {"enum": f"({hint}){source}", "flag": f"{source} != 0"}.get(f["role"], source) + ";")
                 back.append(f"{source} = {self_number(f)};")
         out += ["", f"        internal {cs(name)}({name}* raw)", "        {", *indented(into, 12), "        }"]
         if plain:
-            out += ["", f"        public {cs(name)}() {{ }}", "", f"        internal void Write({name}* raw)", "        {", *indented(back, 12), "        }"]
+            out += ["", f"        public {cs(name)}() {{ }}", "", f"        internal void Write(Call c, {name}* raw)", "        {", *indented(back, 12), "        }"]
         return out + ["    }"]
 
     def result_class(self, item):
@@ -496,6 +500,12 @@ class Writer:
         head = ["// Generated from include/hf/*.h by bindings/generate; do not edit. Classes, enums and results of the C# binding.",
                 "using System;", "using System.Runtime.InteropServices;", "using Hf.Native;", "", "namespace Hf", "{"]
         return "\n".join(head + [*self.enums(), *infos, *results, *descs, *bodies][1:] + ["}"]) + "\n"
+
+
+def filled(given, name, count, place, rows=""):
+    """A field of a fixed number of numbers, of one struct or of rows of it."""
+    return [f'c.Fit({given}, "{name}", "{count}"{rows and ", " + rows});',
+            f"for (int i = 0; {given} != null && i < {given}.Length; ++i) {place}[i{f' % {count}' if rows else ''}] = {given}[i];"]
 
 
 def self_number(f):

@@ -61,7 +61,8 @@ class Steps:
         return [f"delete c.n.{key}; // of the list given here"]
 
     def do_known(self, key, default):
-        return [f"c.known('{key}', {js(key)}{' || ' + default if default else ''});"]
+        given = f"scalar('u32', {js(key)}, '{js(key)}')"
+        return [f"c.n.{key} = {given} || {default};" if default else f"if ({given}) c.n.{key} = {js(key)};"]
 
     def do_struct(self, var, type, fields):
         options = ", ".join(name if js(name) == name else f"{name}: {js(name)}" for name in fields)
@@ -72,24 +73,29 @@ class Steps:
         return [f"const {var} = {js(struct.name[3:])}(c, '', {given});"]
 
     def do_record(self, var, type, fields, dims):
-        return [f"const {js(var)} = c.struct('{type}', {{}});"] + [f"c.fixed({js(var)}, '{f['name']}', '{js(name)}', {js(name)});" for f, name in fields]
+        return [f"const {js(var)} = c.struct('{type}', {{}});"] + [line for f, name in fields for line in self.field_fixed(js(var), f, js(name))]
 
     def do_records(self, var, type, fields, dims):
-        given = ", ".join(f"{f['name']}: ['{js(name)}', {js(name)}]" for f, name in fields)
-        return [f"const {js(var)} = c.records('{type}', {self.dims(dims)}, {{ {given} }});"]
+        lines = [f"const {js(name)}_ = {js(name)} && c.numbers('{js(name)}', {js(name)}, 'f8', [{self.dims(dims)[1:-1]}, {f['count']}]);" for f, name in fields]
+        part = ", ".join(f"{f['name']}: {js(name)}_?.subarray({f['count']} * i, {f['count']} * (i + 1)) ?? 0" for f, name in fields)
+        indices = f"[...Array(c.product({self.dims(dims)})).keys()]"
+        return [*lines, f"const {js(var)} = c.rows('{js(var)}', {indices}, {self.dims(dims)}, (i) => c.struct('{type}', {{ {part} }}));"]
 
     def do_array(self, var, name, item):
         if item["view"]:
-            return [f"const {js(var)} = c.view('{js(name)}', {js(name)}, '{self.kinds(item, item['twin'])}', {self.dims(item['dims'])});"]
+            return [f"const {js(var)} = {self.view(name, item, self.dims(item['dims']))};"]
         return [f"const {js(var)} = c.array('{js(name)}', {js(name)}, '{self.kinds(item)}', {self.dims(item['dims'])});"]
+
+    def view(self, name, item, shape):
+        return f"c.viewOf('hf_array', read, {js(name)} && c.numbers('{js(name)}', {js(name)}, '{self.kinds(item, item['twin'])}', {shape}), {shape})"
 
     def do_rows(self, struct, field, name, var="desc"):
         shape = self.dims(field["dims"])
         for missing, other in field["without"].items():
             shape = f"{js(missing)} ? {shape} : {self.dims(other)}"
         if field["view"]:
-            return [f"{js(var)}.set('{field['name']}', c.view('{js(name)}', {js(name)}, '{self.kinds(field, field['twin'])}', {shape}));"]
-        return [f"c.rows({js(var)}, '{field['name']}', '{js(name)}', {js(name)}, '{self.kinds(field)}', {shape});"]
+            return [f"{js(var)}.set('{field['name']}', {self.view(name, field, shape)});"]
+        return [f"{js(var)}.set('{field['name']}', c.array('{js(name)}', {js(name)}, '{self.kinds(field)}', {shape}));"]
 
     def do_fields(self, struct, var):
         lines = []
@@ -99,29 +105,30 @@ class Steps:
             inner = self.w.structs[f["type"]]
             first = next((g["name"] for g, ahead in inner.asked() if ahead), "")
             lines.append(f"{js(var)}.set('{f['name']}', c.inner({js(f['name'])}, '{js(first)}', {js(f['type'][3:])}, '{f['name']}.'));")
-        if struct.counts:
-            prefix = "prefix + " if self.filler else ""
-            lines.append(f"c.counts({js(var)}, {{ {', '.join(f'''{f['name']}: [{prefix}'{f['name']}', {least(f)}]''' for f in struct.counts)} }});")
-        return lines
+        prefix = "prefix + " if self.filler else ""
+        return lines + [f"{js(var)}.set('{f['name']}', (c.n[{prefix}'{f['name']}'] ??= {least(f)}));" for f in struct.counts]
 
     def field_ragged(self, var, counts, field):
-        key = self.dims(counts["dims"])[1:-1]
-        return [f"c.ragged({var}, '{counts['name']}', '{field['name']}', '{js(field['name'])}', {js(field['name'])}, {key});"]
+        name = js(field["name"])
+        return [f"const {name}_ = c.lists('{name}', {name}, {self.dims(counts['dims'])});",
+                f"{var}.set('{counts['name']}', {name}_[0]).set('{field['name']}', {name}_[1]);"]
 
     def field_written(self, var, field):
         name = js(field["name"])
         if field["type"] == PLACE:
-            return [f"{var}.set('{field['name']}', c.places('{name}', {name}, {self.dims(field['dims'])}));"]
-        return [f"{var}.set('{field['name']}', c.written('{name}', {name}, '{field['type']}', {self.dims(field['dims'])}));"]
+            return [f"{var}.set('{field['name']}', c.rows('{name}', {name}, {self.dims(field['dims'])}, c.place));"]
+        return [f"{var}.set('{field['name']}', c.rows('{name}', {name}, {self.dims(field['dims'])}, (row) => c.struct('{field['type']}', row)));"]
 
     def field_blob(self, var, field, count):
-        return [f"c.bytes({var}, '{field['name']}', '{count}', {js(field['name'])}, '{js(field['name'])}');"]
+        name = js(field["name"])
+        return [f"{var}.set('{field['name']}', c.array('{name}', {name}, 'u1', [prefix + '{count}'])).set('{count}', c.n[prefix + '{count}']);"]
 
     def field_text(self, var, field):
         return [f"{var}.set('{field['name']}', c.text({js(field['name'])}, '{js(field['name'])}'));"]
 
-    def field_fixed(self, var, field):
-        return [f"c.fixed({var}, '{field['name']}', '{js(field['name'])}', {js(field['name'])});"]
+    def field_fixed(self, var, field, name=None):
+        name = name or js(field["name"])
+        return [f"{var}.set('{field['name']}', {name} && c.numbers('{name}', {name}, '{KINDS[field['type']]}', [{field['count']}]));"]
 
     def field_handle(self, var, field):
         return [f"{var}.set('{field['name']}', handleOf({js(field['name'])}, {camel(field['type'])}, '{js(field['name'])}') || null);"]
@@ -133,7 +140,7 @@ class Steps:
         return [f"const {js(var)} = c.out(null, '{kinds}', {dims});"]
 
     def do_view(self, var, name, item):
-        return [f"const {js(var)} = c.viewOut({js(name)}, {self.dims(item['dims'])});"]
+        return [f"const {js(var)} = c.viewOf('hf_array_out', written, {js(name)}, {self.dims(item['dims'])});"]
 
     def do_fill(self, var, item, twin, given):
         kinds = self.kinds(item, item.get("twin"))
@@ -141,7 +148,7 @@ class Steps:
 
     def do_point(self, var, field, twin, optional):
         name = js(var) + "_" * optional
-        value = f"c.viewOut({name}, {self.dims(field['dims'])})" if field["view"] else f"written({name})"
+        value = f"c.viewOf('hf_array_out', written, {name}, {self.dims(field['dims'])})" if field["view"] else f"written({name})"
         return [f"desc.set('{field['name']}', {name} && {value});"]
 
     def do_scalar(self, var, item):
@@ -163,7 +170,7 @@ class Steps:
 
     def do_bytes(self, function, first, second):
         first, second = self.do_call(function, first), self.do_call(function, second)
-        return ["const size = c.sizes();", *first, "const block = new Uint8Array(Number(size[0]));", *second]
+        return ["const size = newHandle();", *first, "const block = new Uint8Array(Number(size[0]));", *second]
 
     def do_grow(self, function, owner, values, tell, rooms, arrays, into):
         lines = ["const count = new Uint32Array(1);"] if any(var == "count" for _, var, _ in tell) else []
@@ -175,7 +182,9 @@ class Steps:
             entry = f"{js(name)}: ['{kind}', {self.dims(item['dims'])}]"
             made.append(f"...({js(name)} ? {{ {entry} }} : {{}})" if on_request else entry)
         asked = self.do_call(function, values)[0].rstrip(";")
-        asked = f"(c.into({js(into)}, room, made), {asked})" if into else asked
+        if into:
+            sets = [f"'{key}', room.{key}" for key, _ in rooms] + [f"'{name}', written(made.{js(name)})" for name, _, _ in arrays]
+            asked = f"({js(into)}{''.join(f'.set({one})' for one in sets)}, {asked})"
         who = "this" if owner == "self" else js(owner)
         return [*lines, f"const found = c.grow({who}, '{function}', (room, made) => {asked}, () => ({{ {tells} }}), {{ {room} }}, {{ {', '.join(made)} }});"]
 
@@ -249,7 +258,7 @@ class Writer(Types):
             body.append(f"const c = new Call({own}{', { ' + objects + ' }' if objects else ''});")
         told = [a for a in plan.arguments if a.role == "info"]
         for a in told:
-            body.append(f"const {js(a.name)} = " + (f"c.told(this, '{a.item['type']}');" if m.own else f"c.struct('{a.item['type']}', {{}});"))
+            body.append(f"const {js(a.name)} = " + (f"Call.told(this, '{a.item['type']}');" if m.own else f"c.struct('{a.item['type']}', {{}});"))
         for op, values in plan.steps:
             if op == "desc":  # options that are left are the desc's: it refuses others
                 ahead_names = [js(a.name) for a in ahead if a.struct is desc and a.role != "out"]
@@ -305,7 +314,7 @@ class Writer(Types):
         taken |= {f["type"] for name in taken for f in self.structs[name].inner}
         taken |= {f["type"] for name in taken for f in self.structs[name].inner}
         out = ["// Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.", "",
-               "export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, none, written }) {"]
+               "export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, read, scalar, written }) {"]
         for name, struct in self.structs.items():
             out += self.filler(struct) if name in taken and struct.asked() else []
         self.methods = {}
@@ -324,7 +333,7 @@ class Writer(Types):
                     plans.append(plan)
                     told += [a.item["type"] for a in plan.arguments if a.role == "info" and m.own and a.item["type"] not in told]
             for struct in told:
-                out += ["", f"    get {js(struct[3:])}() {{", f"      return Call.told(this, '{struct}');", "    }"]
+                out += ["", f"    get {js(struct[3:])}() {{", f"      return Call.told(this, '{struct}').toObject();", "    }"]
             out.append("  }")
             self.methods[name] = (handle, methods, plans, told, counts)
         out += ["", "  return { " + ", ".join(camel(h["name"]) for h, _ in self.groups) + " };", "}"]

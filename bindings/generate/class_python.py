@@ -66,7 +66,7 @@ class Steps:
         return {"self": "self._handle", "null": "None"}.get(kind) or {
             "handle": "handle_of({0}, {1}, '{2}')", "place": "ref(place({0}, '{raw}'))", "ref": "ref({0})", "ref_if": "None if {1} is None else ref({0})",
             "var": "{0}", "text": "c.text({0})", "figure": "ref({0})", "address": "address({0})", "count": "c.n.setdefault('{raw}', 1)",
-            "info": "c.info({0}, _raw.{type})", "room": "room['{raw}']", "grown": "address(made['{raw}'])", "literal": "{raw}",
+            "info": "ref({0}, _raw.{type})", "room": "room['{raw}']", "grown": "address(made['{raw}'])", "literal": "{raw}",
             "size_of": "{0}.size"}[kind].format(safe(rest[0]), camel(rest[1]) if kind == "handle" else rest[1] if len(rest) > 1 else "", rest[0],
                                                 raw=rest[0], type=rest[-1])
 
@@ -74,7 +74,8 @@ class Steps:
         return [f"c.n.pop('{key}', None)  # of the list given here"]
 
     def do_known(self, key, default):
-        return [f"c.known('{key}', {safe(key)}{' or ' + default if default else ''})"]
+        given = f"number({safe(key)}, '{key}')"
+        return [f"c.n['{key}'] = {given} or {default}"] if default else [f"if {given}:", f"    c.n['{key}'] = {safe(key)}"]
 
     def do_struct(self, var, type, fields):
         options = ", ".join(f"'{name}': {safe(name)}" for name in fields)
@@ -84,7 +85,7 @@ class Steps:
         return [f"{var} = _{struct.name[3:]}(c{''.join(f', {safe(n)}={safe(n)}' for n in names)})"]
 
     def do_record(self, var, type, fields, dims):
-        return [f"{var} = _raw.{type}()"] + [f"c.fixed({var}, '{f['name']}', {safe(name)})" for f, name in fields]
+        return [f"{var} = _raw.{type}()"] + [f"c.fixed({var}.{f['name']}, '{name}', {safe(name)})" for f, name in fields]
 
     def do_records(self, var, type, fields, dims):
         given = ", ".join(f"'{f['name']}': ('{name}', {safe(name)})" for f, name in fields)
@@ -102,25 +103,22 @@ class Steps:
         if field["view"]:
             return [f"{var}.{field['name']} = c.view('{name}', {safe(name)}, '{self.kinds(field, field['twin'])}', {shape})"]
         extra = ", sentinel=True" if field["sentinel"] else ""
-        extra += f", name='{name}'" if name != field["name"] else ""
-        return [f"c.rows({var}, '{field['name']}', {safe(name)}, '{self.kinds(field)}', {shape}{extra})"]
+        return [f"{var}.{field['name']} = c.array('{name}', {safe(name)}, '{self.kinds(field)}', {shape}{extra})"]
 
     def do_fields(self, struct, var):
         """Arrays, handles and descs of a struct, then the counts that follow."""
-        lines, prefixed = [], bool(struct.counts) and self.filler is not None
+        lines = []
         for op, values in field_steps(self.w.api, struct):
             lines += self.do_rows(**values, var=var) if op == "rows" else getattr(self, "field_" + op)(var, **values)
         for f in struct.inner:
             inner = self.w.structs[f["type"]]
             first = next((g["name"] for g, ahead in inner.asked() if ahead), "")
             lines.append(f"{var}.{f['name']} = c.inner({safe(f['name'])}, '{first}', _{f['type'][3:]}, '{f['name']}.')")
-        if struct.counts:
-            pre = "prefix + " if prefixed else ""
-            lines.append(f"c.counts({var}, {', '.join(f'''{f['name']}=({pre}'{f['name']}', {least(f)})''' for f in struct.counts)})")
-        return lines
+        pre = "prefix + " if self.filler else ""
+        return lines + [f"{var}.{f['name']} = c.n.setdefault({pre}'{f['name']}', {least(f)})" for f in struct.counts]
 
     def field_ragged(self, var, counts, field):
-        return [f"c.ragged({var}, '{counts['name']}', '{field['name']}', {safe(field['name'])}, {self.dims(counts['dims'])[1:-1].rstrip(',')})"]
+        return [f"{var}.{counts['name']}, {var}.{field['name']} = c.lists('{field['name']}', {safe(field['name'])}, {self.dims(counts['dims'])})"]
 
     def field_written(self, var, field):
         if field["type"] == PLACE:
@@ -128,13 +126,13 @@ class Steps:
         return [f"{var}.{field['name']} = c.written('{field['name']}', {safe(field['name'])}, _raw.{field['type']}, {self.dims(field['dims'])})"]
 
     def field_blob(self, var, field, count):
-        return [f"c.bytes({var}, '{field['name']}', '{count}', {safe(field['name'])})"]
+        return [f"{var}.{field['name']}, {var}.{count} = c.bytes('{field['name']}', {safe(field['name'])})"]
 
     def field_text(self, var, field):
         return [f"{var}.{field['name']} = c.text({safe(field['name'])})"]
 
     def field_fixed(self, var, field):
-        return [f"c.fixed({var}, '{field['name']}', {safe(field['name'])})"]
+        return [f"c.fixed({var}.{field['name']}, '{field['name']}', {safe(field['name'])})"]
 
     def field_handle(self, var, field):
         return [f"{var}.{field['name']} = handle_of({safe(field['name'])}, {camel(field['type'])}, '{field['name']}')"]

@@ -78,7 +78,7 @@ class Steps:
             return f"{safe(rest[0])}.as_mut_ptr()" + (".cast()" if rest[0] == "out" and self.twin or parameter["type"] in ("void", "char") else "")
         return {"self": "self.handle", "null": "std::ptr::null_mut()"}.get(kind) or {
             "ref": "{borrow}{name}", "ref_if": "{borrow}{name}", "text": "c.text({name})?", "figure": "&mut {name}", "count": 'c.count("{raw}", 1)?',
-            "info": "&mut {name}", "room": 'room.get("{raw}")', "grown": "room.at(&mut {name})", "literal": "{raw}",
+            "info": "&mut {name}", "room": 'c.count("{raw}", 0)?', "grown": "{raw}_at", "literal": "{raw}",
             "size_of": "{name}.len()"}[kind].format(borrow=borrow, name=safe(rest[0]), raw=rest[0])
 
     def called(self, function, values):
@@ -86,11 +86,12 @@ class Steps:
         return f"raw::{function}({', '.join(self.value(v, p) for v, p in zip(values, parameters))}"
 
     def do_forget(self, key):
-        return [f'c.forget("{key}"); // of the list given here']
+        return [f'c.sizes.remove("{key}"); // of the list given here']
 
     def do_known(self, key, default):
         name = self.given(key)
-        return [f'c.known("{key}", {f"if {name} == 0 {{ {default} }} else {{ {name} }}" if default else name});']
+        learn = f'c.learn("{key}", {name} as usize);'
+        return [f'c.learn("{key}", if {name} == 0 {{ {default} }} else {{ {name} as usize }});' if default else f"if {name} > 0 {{ {learn} }}"]
 
     def do_struct(self, var, type, fields):
         struct = named(self.w.api["structs"], type)
@@ -111,7 +112,7 @@ class Steps:
         self.records.add(var)
         lines = [f"let mut {safe(var)} = vec![raw::{type}::default(); c.product({self.dims(dims)})];"]
         for f, name in fields:
-            lines += [f"if let Some(given) = {safe(name)} {{", f'    of_length(given, "{name}", {f["count"]} * {safe(var)}.len())?;',
+            lines += [f"if let Some(given) = {safe(name)} {{", f'    c.fit(given.len(), "{name}", &["{f["count"]}", "{dims[0]}"])?;',
                       f"    for (row, numbers) in {safe(var)}.iter_mut().zip(given.chunks_exact({f['count']})) {{",
                       f"        row.{f['name']}.copy_from_slice(numbers);", "    }", "}"]
         return lines
@@ -123,8 +124,11 @@ class Steps:
 
     def view(self, name, item, dims):
         """An hf_array: of slices of either type, or of the only one."""
-        given = f"Some({safe(name)}.into())" if item["twin"] and name in self.required else self.maybe(name)
-        return f'c.{PAIRS[item["type"]].lower() if item["twin"] else "words"}({given}, "{name}", {dims})?'
+        given = self.maybe(name)
+        if item["twin"] and name in self.required:
+            return f'c.view(Some({safe(name)}.into().numbers()), "{name}", {dims})?'
+        numbers = f"{PAIRS[item['type']]}::numbers" if item["twin"] else "|v| Indices::U32(v).numbers()"
+        return f'c.view({given}.map({numbers}), "{name}", {dims})?'
 
     def do_rows(self, struct, field, name, var="desc"):
         given, dims, target = self.maybe(name), self.dims(field["dims"]), f"{safe(var)}.{raw_safe(field['name'])}"
@@ -155,7 +159,7 @@ class Steps:
 
     def field_blob(self, var, field, count):
         given = self.given(field["name"])
-        return [f"{var}.{field['name']} = start_of({given}).cast();", f"{var}.{count} = {given}.map_or(0, <[u8]>::len);"]
+        return [f"{var}.{field['name']} = {given}.map_or(std::ptr::null(), start).cast();", f"{var}.{count} = {given}.map_or(0, <[u8]>::len);"]
 
     def field_text(self, var, field):
         return [f"{var}.{field['name']} = c.text({self.given(field['name'])})?;"]
@@ -169,7 +173,7 @@ class Steps:
     def do_out(self, var, item, twin, given):
         dims = self.dims(item["dims"])
         if given and not self.fresh:
-            return [f'of_length(out, "out", c.product({dims}))?;']
+            return [f'c.fit(out.len(), "out", {dims})?;']
         kind = "f64" if given and twin else TYPES[item["type"]]
         return [f"let mut {safe(var)} = vec![{kind}::default(); c.product({dims})];"]
 
@@ -180,9 +184,8 @@ class Steps:
 
     def out_view(self, var, item):
         if var in self.fills:
-            return f'c.out({var}_at, false, "{item["dims"][0]}")'
-        double = "false" if not self.twin else "true" if self.fresh else "P::DOUBLE"
-        return f'c.out({safe(var)}.as_mut_ptr(), {double}, "{item["dims"][0]}")'
+            return f'c.out({var}_at, "{item["dims"][0]}")'
+        return f'c.out({safe(var)}.as_mut_ptr(), "{item["dims"][0]}")'
 
     def do_view(self, var, name, item):
         return [f"let {safe(var)} = {self.out_view(name, item)};"]
@@ -219,20 +222,17 @@ class Steps:
 
     def do_grow(self, function, owner, values, tell, rooms, arrays, into):
         lines = ["let mut count = 0;"] if any(var == "count" for _, var, _ in tell) else []
-        room = ", ".join(f'("{key}", {f"c.size({chr(34)}{known}{chr(34)})" if known else "None"})' for key, known in rooms)
-        lines.append(f"let mut room = Room::new(&[{room}]);")
+        lines += [f'c.learn("{key}", {f"c.size({chr(34)}{known}{chr(34)}).unwrap_or(Call::FIRST)" if known else "Call::FIRST"});' for key, known in rooms]
         mine = {name: f"all_{name}" if into else safe(name) for name, _, _ in arrays}
-        lines += [f"let mut {mine[name]}: Vec<{self.kind(item)}> = Vec::new();" for name, item, _ in arrays]
-        dims = ", ".join(self.dims(item["dims"]) for _, item, _ in arrays)
-        lines += ["loop {", f"    room.begin(&mut c, &[{dims}]);"]
+        lines += [*(f"let mut {mine[name]}: Vec<{self.kind(item)}> = Vec::new();" for name, item, _ in arrays), "loop {"]
+        lines += [f'    {safe(into)}.{key} = c.count("{key}", 0)?;' for key, _ in rooms if into]
         for name, item, on_request in arrays:
-            lines.append(f"    {f'if want_{name} ' + '{ ' if on_request else ''}room.make(&c, &mut {mine[name]}, {self.dims(item['dims'])});{' }' if on_request else ''}")
-        if into:
-            lines += [f'    {safe(into)}.{key} = room.get("{key}");' for key, _ in rooms]
-            lines += [f"    {safe(into)}.{name} = room.at(&mut {mine[name]});" for name, _, _ in arrays]
+            room = f"c.room(&mut {mine[name]}, {self.dims(item['dims'])})"
+            room = f"if want_{name} {{ {room} }} else {{ std::ptr::null_mut() }}" if on_request else room
+            lines.append(f"    {safe(into) + '.' + name if into else f'let {name}_at'} = {room};")
         lines += ["    // SAFETY: the arrays have the room that the call is told.", f"    let code = unsafe {{ {self.called(function, values)}) }};"]
         told = ", ".join(f'("{key}", {safe(var)}{"." + field if field else ""})' for key, var, field in tell)
-        lines += [f"    if room.enough(&mut c, code, &[{told}])? {{", "        break;", "    }", "}"]
+        lines += [f"    if c.enough(code, &[{told}])? {{", "        break;", "    }", "}"]
         return lines + [f"{mine[name]}.truncate(c.product({self.dims(item['dims'])}));" for name, item, _ in arrays]
 
 
@@ -319,12 +319,15 @@ class Writer:
         if numbers:
             out += ["    /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.",
                     "    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {", "        match name {"]
-            out += [f'            "{f["name"]}" => self.{safe(f["name"])} = Option::fit(name, value)?,' for f in numbers]
-            out += ["            _ => return Err(unknown(name)),", "        }", "        Ok(())", "    }", ""]
-            out = [line.replace("Option::fit", "Number::fit") for line in out]
+            out += [f'            "{f["name"]}" => self.{safe(f["name"])} = {self.fits(f)},' for f in numbers]
+            out += ['            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),', "        }", "        Ok(())", "    }", ""]
         out += fold(f"pub(crate) fn fill(&self, c: &mut Call, prefix: &str{given}) -> Result<raw::{struct.name}> {{", 4)
         out += indented(body + ["Ok(desc)"], 8) + ["    }", "}"]
         return out
+
+    def fits(self, item):
+        """A number as an option of this type."""
+        return "whole::<u8>(name, value, 1.0)? == 1" if item["role"] == "flag" else "value" if TYPES[item["type"]] == "f64" else "whole(name, value, f64::MAX)?"
 
     # ---- methods ----
 
@@ -436,7 +439,7 @@ class Writer:
         head = f"pub fn {safe(name)}{'<' + ', '.join(generics) + '>' if generics else ''}({signature}) -> {returns} {{"
         steps, body = Steps(self, plan, fresh=fresh), []
         if not plain:
-            body.append(f"let mut c = Call::new({'&self.counts' if m.own and m.kind != 'create' else '&[]'});")
+            body.append("let mut c = Call { sizes: self.counts.clone(), ..Default::default() };" if m.own and m.kind != "create" else "let mut c = Call::default();")
             body += [f'c.parent("{p["name"]}", &{safe(p["name"])}.counts);' for p in m.parents if not p["optional"]]
         body += [f"let mut {safe(a.name)} = raw::{a.item['type']}::default();" for a in told]
         for op, values in plan.steps:
@@ -457,7 +460,7 @@ class Writer:
         body = [line for m in methods if m.kind != "destroy" for line in self.method(m)]
         for count in self.counts:
             what = "Vertices of the surface, as given." if count == "vertex_count" else "As it was made with."
-            body += ["", f"    /// {what}", f"    pub fn {count}(&self) -> usize {{", f'        known(&self.counts, "{count}").unwrap_or(0)', "    }"]
+            body += ["", f"    /// {what}", f"    pub fn {count}(&self) -> usize {{", f'        self.counts.get("{count}").copied().unwrap_or(0)', "    }"]
         out += body[1:] + ["}"]
         if recorded(methods):
             out += [f"impl TryClone for {name} {{", "    fn try_clone(&self) -> Result<Self> {", f"        {name}::try_clone(self)", "    }", "}"]
@@ -478,8 +481,8 @@ class Writer:
         results = [line for item in self.results.values() for line in self.result_class(item)]
         head = ["// Generated from include/hf/*.h by bindings/generate; do not edit.", "//! The objects, their options and results.",
                 "#![allow(unused_mut, unused_variables, clippy::all)]",
-                "use crate::call::{known, object, unknown, Call, Indices, Number, Reals, Room};",
-                "use crate::core::{check, of_length, start_of, Real, TryClone};", "use crate::{raw, Result};"]
+                "use crate::call::{object, start, whole, Call, Indices, Reals};", "use crate::core::{check, Real, TryClone};",
+                "use crate::{raw, Error, Result};"]
         return "\n".join(head + options + results + bodies) + "\n"
 
 

@@ -13,6 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 import class_cpp
 import class_csharp
+import class_godot
 import class_js
 import class_python
 import class_rust
@@ -40,7 +41,7 @@ def files(include=ROOT / "include"):
     result = {"api.json": parse_headers.to_text(api)}
     # the functions by name, one a line: packages and tests read it
     result["functions.txt"] = "".join(f["name"] + "\n" for f in api["functions"])
-    for layer in (class_cpp, class_csharp, class_js, class_python, class_rust, layer_python, layer_js, layer_csharp, layer_rust, names):
+    for layer in (class_cpp, class_csharp, class_godot, class_js, class_python, class_rust, layer_python, layer_js, layer_csharp, layer_rust, names):
         result.update(layer.write(api if layer in RAW else model.elements(api)))
     return result
 

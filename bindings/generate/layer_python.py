@@ -69,9 +69,13 @@ def write(api):
         kind = "c_char_p" if returns["type"] == "char" else "None" if returns["type"] == "void" else ctype(api, returns)
         arguments = ", ".join(ctype(api, p) for p in function["parameters"])
         out.append(f"    \"{function['name']}\": ({kind}, [{arguments}]),")
+    major, minor, _ = map(int, api["version"].split("."))
+    least = major * 1000000 + minor * 1000
     out += ["}", "", "",
             "def load(path: str) -> CDLL:", '    """Loads the shared library and gives every function its prototype."""',
-            "    library = CDLL(path)", "    for name, (result, arguments) in PROTOTYPES.items():",
+            "    library = CDLL(path)", "    version = library.hf_version_get()", f"    if not {least} <= version < {(least // 1000000 + 1) * 1000000}:",
+            f'        raise OSError(f"it is of version {{version // 1000000}}.{{version // 1000 % 1000}}, this package of {api["version"]}; install matching ones")',
+            "    for name, (result, arguments) in PROTOTYPES.items():",
             "        function = getattr(library, name)", "        function.restype = result",
             "        function.argtypes = arguments", "    return library"]
     return {"python/hf/_raw.py": "\n".join(out) + "\n"}

@@ -234,8 +234,8 @@ class Planner:
         else:
             struct, name = self.grown_struct
             told = [(f["name"], name, f["counted_by"]) for f in struct.capacities]
-            told += [(f["name"], name, f["name"]) for f in struct.struct["fields"] if f["direction"] == "out" and f["name"] in self.sizes
-                     and f["role"] == "scalar"]
+            shaped = set().union(*(symbols(f["dims"]) for f in struct.filled))
+            told += [(f["name"], name, f["name"]) for f in struct.struct["fields"] if f["direction"] == "out" and f["name"] in shaped]
             rooms = [(f["name"], f["counted_by"] if f["counted_by"] in self.sizes else "") for f in struct.capacities]
             self.do("grow", function=m.name, owner=owner, values=self.ordered(), tell=told, rooms=rooms,
                     arrays=[(f["name"], f, f in struct.on_request) for f in struct.filled], into=name)

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -113,15 +113,16 @@ inline void need(size_t size, size_t wanted, const std::string& name) {
   throw std::invalid_argument(name + " must hold " + std::to_string(wanted) + " numbers, not " + std::to_string(size));
 }
 
-// A view of floats or of doubles that live elsewhere.
-class Reals {
+// A view of numbers of either of two types that live elsewhere.
+template <class First, class Second>
+class View {
  public:
-  Reals() noexcept = default;
-  Reals(const std::vector<float>& values) noexcept : Reals(values.data(), values.size()) {}
-  Reals(const std::vector<double>& values) noexcept : Reals(values.data(), values.size()) {}
-  Reals(const float* values, size_t size) noexcept : data_(values), size_(size), given_(true) {}
-  Reals(const double* values, size_t size) noexcept
-      : data_(values), size_(size), type_(HF_TYPE_DOUBLE), given_(true) {}
+  View() noexcept = default;
+  View(const std::vector<First>& values) noexcept : View(values.data(), values.size()) {}
+  View(const std::vector<Second>& values) noexcept : View(values.data(), values.size()) {}
+  View(const First* values, size_t size) noexcept : data_(values), size_(size), given_(true) {}
+  View(const Second* values, size_t size) noexcept
+      : data_(values), size_(size), type_(sizeof(Second) == 8 ? HF_TYPE_DOUBLE : HF_TYPE_UINT16), given_(true) {}
   const void* data() const noexcept { return data_; }
   int32_t type() const noexcept { return type_; }
   size_t size() const noexcept { return size_; }
@@ -133,77 +134,49 @@ class Reals {
   int32_t type_ = HF_TYPE_PLAIN;
   bool given_ = false;
 };
+using Reals = View<float, double>;
+using Indices = View<uint32_t, uint16_t>;
 
-// A view of indices in 32 or in 16 bits that live elsewhere.
-class Indices {
- public:
-  Indices() noexcept = default;
-  Indices(const std::vector<uint32_t>& values) noexcept : data_(values.data()), size_(values.size()), given_(true) {}
-  Indices(const std::vector<uint16_t>& values) noexcept
-      : data_(values.data()), size_(values.size()), type_(HF_TYPE_UINT16), given_(true) {}
-  const void* data() const noexcept { return data_; }
-  int32_t type() const noexcept { return type_; }
-  size_t size() const noexcept { return size_; }
-  bool given() const noexcept { return given_; }
-
- private:
-  const void* data_ = nullptr;
-  size_t size_ = 0;
-  int32_t type_ = HF_TYPE_PLAIN;
-  bool given_ = false;
-};
-
-using Counts = std::vector<std::pair<std::string, size_t>>;
+using Counts = std::map<std::string, size_t>;
 using Dims = std::vector<std::string>;
 
 inline uint32_t known(const Counts& counts, const std::string& key) noexcept {
-  for (const auto& [name, size] : counts)
-    if (name == key) return static_cast<uint32_t>(size);
-  return 0;
+  const auto found = counts.find(key);
+  return found == counts.end() ? 0 : static_cast<uint32_t>(found->second);
 }
 
 // One call of the library: the counts that follow from arrays and objects, and what must live until it is over.
 class Call {
  public:
-  explicit Call(Counts counts = {}) : sizes_(std::move(counts)) {}
+  // Rows to try for an array that grows. Double clears more memory, half asks twice more often.
+  static constexpr size_t kFirst = 1024;
+
+  explicit Call(Counts counts = {}) : sizes(std::move(counts)) {}
 
   void parent(const std::string& name, const Counts& counts) {
-    for (const auto& [key, size] : counts) {
-      learn(name + "." + key, size);
-      learn(key, size);
-    }
-  }
-  void learn(const std::string& key, size_t size) {
-    forget(key);
-    sizes_.emplace_back(key, size);
-  }
-  void forget(const std::string& key) {
-    for (size_t i = sizes_.size(); i-- > 0;)
-      if (sizes_[i].first == key) sizes_.erase(sizes_.begin() + static_cast<std::ptrdiff_t>(i));
+    for (const auto& [key, size] : counts) sizes[name + "." + key] = sizes[key] = size;
   }
   void known(const std::string& key, size_t size) {
-    if (size > 0) learn(key, size);
+    if (size > 0) sizes[key] = size;
   }
   // What the object that was made keeps.
   Counts counts(const Dims& keys) const {
     Counts kept;
-    for (const auto& entry : sizes_)
+    for (const auto& [name, size] : sizes)
       for (const std::string& key : keys)
-        if (entry.first.substr(entry.first.rfind('.') + 1) == key) kept.push_back(entry);
+        if (name.substr(name.rfind('.') + 1) == key) kept[name] = size;
     return kept;
   }
+  // A count; `least` where no array says.
   uint32_t count(const std::string& key, size_t least) {
-    const int64_t found = size(key);
-    if (found < 0) learn(key, least);
-    return static_cast<uint32_t>(found < 0 ? least : static_cast<size_t>(found));
+    return static_cast<uint32_t>(sizes.emplace(key, least).first->second);
   }
   // What a dimension such as "face_count + 1" is; -1: not known yet.
   int64_t size(const std::string& dim) const {
     if (dim[0] >= '0' && dim[0] <= '9') return std::stoll(dim);
     const auto [base, more] = split(dim);
-    for (const auto& [name, size] : sizes_)
-      if (name == base) return static_cast<int64_t>(size) + more;
-    return -1;
+    const auto found = sizes.find(base);
+    return found == sizes.end() ? -1 : static_cast<int64_t>(found->second) + more;
   }
   size_t product(const Dims& dims) const {
     size_t product = 1;
@@ -217,8 +190,8 @@ class Call {
     fit(values.size(), name, dims);
     return values.empty() ? nullptr : values.data();
   }
-  template <class View>
-  hf_array view(const View& values, bool required, const std::string& name, const Dims& dims) {
+  template <class Numbers>
+  hf_array view(const Numbers& values, bool required, const std::string& name, const Dims& dims) {
     hf_array array{};
     if (values.given() && (values.size() > 0 || required)) fit(values.size(), name, dims);
     if (values.size() == 0) return array;
@@ -239,6 +212,25 @@ class Call {
     array.count = static_cast<uint32_t>(size(rows));
     array.type = sizeof(T) == sizeof(double) ? HF_TYPE_DOUBLE : HF_TYPE_PLAIN;
     return array;
+  }
+  // Room for an array whose length the library tells.
+  template <class T>
+  T* room(std::vector<T>& array, const Dims& dims) const {
+    array.assign(product(dims), T());
+    return array.empty() ? nullptr : array.data();
+  }
+  // Whether the room sufficed and all counts were known. If not, they are now, and the call is made again.
+  bool enough(hf_result code, const std::vector<std::pair<std::string, uint32_t>>& told) {
+    bool fits = true;
+    bool were_known = true;
+    for (const auto& [key, count] : told)
+      if (key.find("capacity") != std::string::npos)
+        fits = fits && size(key) >= count;
+      else
+        were_known = were_known && size(key) == count;
+    if (code != HF_ERROR_TOO_SMALL || fits) check(code);
+    for (const auto& [key, count] : told) sizes[key] = count;
+    return fits && were_known;
   }
   // Lists of different lengths, one after the other.
   void lists(const std::vector<std::vector<uint32_t>>& lists, bool required, const uint32_t** counts,
@@ -269,6 +261,8 @@ class Call {
     return kept.get();
   }
 
+  Counts sizes;
+
  private:
   static std::pair<std::string, int64_t> split(const std::string& dim) {
     const size_t plus = dim.find(" + ");
@@ -293,84 +287,11 @@ class Call {
       throw std::invalid_argument(name + " must hold " + std::to_string(each) + " numbers for each, not " +
                                   std::to_string(length));
     const auto [base, more] = split(*loose);
-    const size_t rows = each == 0 ? 0 : length / each;
-    learn(base, rows > static_cast<size_t>(more) ? rows - static_cast<size_t>(more) : 0);
+    const int64_t rows = each == 0 ? 0 : static_cast<int64_t>(length / each) - more;
+    sizes[base] = rows > 0 ? static_cast<size_t>(rows) : 0;
   }
 
-  Counts sizes_;
   std::vector<std::shared_ptr<void>> kept_;
-};
-
-// Room for arrays of lengths that the library tells: called again with more when that was too little.
-class Room {
- public:
-  explicit Room(std::vector<std::pair<std::string, int64_t>> rooms) : rooms_(std::move(rooms)) {
-    for (auto& [key, size] : rooms_)
-      if (size < 0) size = kFirst;
-  }
-  // An array to fill. place: where the struct of C has it.
-  template <class T>
-  void array(std::vector<T>& rows, Dims dims, T** place = nullptr, bool wanted = true) {
-    arrays_.push_back({std::move(dims), wanted, [&rows, place](size_t size, bool keep) {
-                         if (!keep) rows.clear();
-                         rows.resize(size);
-                         if (place) *place = rows.empty() ? nullptr : rows.data();
-                       }});
-  }
-  void begin(Call& c) {
-    for (const auto& [key, size] : rooms_) c.learn(key, static_cast<size_t>(size));
-    blind_ = false;
-    for (const Array& array : arrays_)
-      for (const std::string& dim : array.dims) blind_ = blind_ || c.size(dim) < 0;
-    fit(c, false);
-  }
-  uint32_t get(const std::string& name) const {
-    for (const auto& [key, size] : rooms_)
-      if (key == name && !blind_) return static_cast<uint32_t>(size);
-    return 0;
-  }
-  template <class T>
-  T* at(std::vector<T>& array) const {
-    return array.empty() ? nullptr : array.data();
-  }
-  // Whether the arrays are full and right.
-  bool enough(Call& c, const std::vector<std::pair<std::string, uint32_t>>& told) {
-    bool fits = true;
-    for (const auto& [key, size] : rooms_) fits = fits && of(told, key) <= size;
-    if (code != HF_ERROR_TOO_SMALL || fits) check(code);
-    const bool done = code == HF_OK && fits && !blind_;
-    for (const auto& [key, size] : told)
-      if (done || !is_room(key)) c.learn(key, size);
-    for (auto& [key, size] : rooms_) size = blind_ || of(told, key) > size ? of(told, key) : size;
-    if (done) fit(c, true);
-    return done;
-  }
-  hf_result code = HF_OK;
-
- private:
-  struct Array {
-    Dims dims;
-    bool wanted;
-    std::function<void(size_t, bool)> resize;
-  };
-  static constexpr int64_t kFirst = 1024;  // rows to try first; double clears more memory, half asks twice more often
-  static int64_t of(const std::vector<std::pair<std::string, uint32_t>>& told, const std::string& name) {
-    for (const auto& [key, size] : told)
-      if (key == name) return size;
-    return 0;
-  }
-  bool is_room(const std::string& name) const {
-    for (const auto& [key, size] : rooms_)
-      if (key == name) return true;
-    return false;
-  }
-  void fit(const Call& c, bool keep) {
-    for (const Array& array : arrays_)
-      if (array.wanted) array.resize(blind_ ? 0 : c.product(array.dims), keep);
-  }
-  std::vector<std::pair<std::string, int64_t>> rooms_;
-  std::vector<Array> arrays_;
-  bool blind_ = false;  // asks for counts alone
 };
 
 }  // namespace hf

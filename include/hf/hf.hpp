@@ -910,13 +910,14 @@ class Surface {
   std::vector<uint32_t> components() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<uint32_t> components;
-    room.array(components, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_surface_get_components(get(), room.get("capacity"), room.at(components), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* components_at = c.room(components, {"capacity"});
+      const hf_result code = hf_surface_get_components(get(), c.count("capacity", 0), components_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    components.resize(c.product({"capacity"}));
     return components;
   }
 
@@ -934,13 +935,14 @@ class Surface {
   std::vector<hf_link> links() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<hf_link> links;
-    room.array(links, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_surface_get_links(get(), room.get("capacity"), room.at(links), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* links_at = c.room(links, {"capacity"});
+      const hf_result code = hf_surface_get_links(get(), c.count("capacity", 0), links_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    links.resize(c.product({"capacity"}));
     return links;
   }
 
@@ -949,15 +951,17 @@ class Surface {
   std::tuple<std::vector<uint32_t>, std::vector<int32_t>> pieces() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<uint32_t> pieces;
     std::vector<int32_t> light;
-    room.array(pieces, {"capacity"});
-    room.array(light, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_surface_get_pieces(get(), room.get("capacity"), room.at(pieces), room.at(light), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* pieces_at = c.room(pieces, {"capacity"});
+      auto* light_at = c.room(light, {"capacity"});
+      const hf_result code = hf_surface_get_pieces(get(), c.count("capacity", 0), pieces_at, light_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    pieces.resize(c.product({"capacity"}));
+    light.resize(c.product({"capacity"}));
     return {std::move(pieces), std::move(light)};
   }
 
@@ -973,13 +977,14 @@ class Surface {
     const hf_array positions_ = c.view(positions, true, "positions", {"vertex_count", "3"});
     auto info_ = make<hf_gaps_info>();
     if (!info) info = &info_;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<double> gaps;
-    room.array(gaps, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_surface_measure_gaps(get(), &positions_, room.get("capacity"), room.at(gaps), info);
-    } while (!room.enough(c, {{"capacity", info->link_count}}));
+    for (bool done = false; !done;) {
+      auto* gaps_at = c.room(gaps, {"capacity"});
+      const hf_result code = hf_surface_measure_gaps(get(), &positions_, c.count("capacity", 0), gaps_at, info);
+      done = c.enough(code, {{"capacity", info->link_count}});
+    }
+    gaps.resize(c.product({"capacity"}));
     return gaps;
   }
 
@@ -1095,20 +1100,27 @@ class Surface {
     const hf_array field_ = c.view(field, true, "field", {"vertex_count"});
     const double* levels_ = c.array(levels, true, "levels", {"level_count"});
     auto lines = make<hf_isolines>();
-    Room room({{"point_capacity", -1}, {"line_capacity", -1}});
+    c.sizes["point_capacity"] = Call::kFirst;
+    c.sizes["line_capacity"] = Call::kFirst;
     Isolines found;
-    room.array(found.point_edges, {"point_capacity", "2"}, &lines.point_edges);
-    room.array(found.parameters, {"point_capacity"}, &lines.parameters);
-    room.array(found.positions, {"point_capacity", "3"}, &lines.positions);
-    room.array(found.line_starts, {"line_capacity + 1"}, &lines.line_starts);
-    room.array(found.line_levels, {"line_capacity"}, &lines.line_levels);
-    room.array(found.line_closed, {"line_capacity"}, &lines.line_closed);
-    do {
-      room.begin(c);
-      lines.point_capacity = room.get("point_capacity");
-      lines.line_capacity = room.get("line_capacity");
-      room.code = hf_surface_trace_isolines(get(), &field_, c.count("level_count", 1), levels_, &lines);
-    } while (!room.enough(c, {{"point_capacity", lines.point_count}, {"line_capacity", lines.line_count}}));
+    for (bool done = false; !done;) {
+      lines.point_capacity = c.count("point_capacity", 0);
+      lines.line_capacity = c.count("line_capacity", 0);
+      lines.point_edges = c.room(found.point_edges, {"point_capacity", "2"});
+      lines.parameters = c.room(found.parameters, {"point_capacity"});
+      lines.positions = c.room(found.positions, {"point_capacity", "3"});
+      lines.line_starts = c.room(found.line_starts, {"line_capacity + 1"});
+      lines.line_levels = c.room(found.line_levels, {"line_capacity"});
+      lines.line_closed = c.room(found.line_closed, {"line_capacity"});
+      const hf_result code = hf_surface_trace_isolines(get(), &field_, c.count("level_count", 1), levels_, &lines);
+      done = c.enough(code, {{"point_capacity", lines.point_count}, {"line_capacity", lines.line_count}});
+    }
+    found.point_edges.resize(c.product({"point_capacity", "2"}));
+    found.parameters.resize(c.product({"point_capacity"}));
+    found.positions.resize(c.product({"point_capacity", "3"}));
+    found.line_starts.resize(c.product({"line_capacity + 1"}));
+    found.line_levels.resize(c.product({"line_capacity"}));
+    found.line_closed.resize(c.product({"line_capacity"}));
     return found;
   }
 
@@ -1128,13 +1140,14 @@ class Surface {
     const hf_array field_ = c.view(field, true, "field", {"vertex_count"});
     auto info_ = make<hf_critical_info>();
     if (!info) info = &info_;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<hf_critical_point> points;
-    room.array(points, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_surface_find_critical_points(get(), &field_, room.get("capacity"), room.at(points), info);
-    } while (!room.enough(c, {{"capacity", info->point_count}}));
+    for (bool done = false; !done;) {
+      auto* points_at = c.room(points, {"capacity"});
+      const hf_result code = hf_surface_find_critical_points(get(), &field_, c.count("capacity", 0), points_at, info);
+      done = c.enough(code, {{"capacity", info->point_count}});
+    }
+    points.resize(c.product({"capacity"}));
     return points;
   }
 
@@ -1153,13 +1166,14 @@ class Surface {
     double* field_at = field ? field->data() : nullptr;
     desc.out_field = field_at;
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<hf_extremity> extremities;
-    room.array(extremities, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_surface_find_extremities(get(), &desc, room.get("capacity"), room.at(extremities), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* extremities_at = c.room(extremities, {"capacity"});
+      const hf_result code = hf_surface_find_extremities(get(), &desc, c.count("capacity", 0), extremities_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    extremities.resize(c.product({"capacity"}));
     return extremities;
   }
 
@@ -1172,13 +1186,14 @@ class Surface {
     Call c(counts_);
     const hf_handle_proposals_desc desc = options.fill(c, "");
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<hf_handle_proposal> proposals;
-    room.array(proposals, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_surface_propose_handles(get(), &desc, room.get("capacity"), room.at(proposals), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* proposals_at = c.room(proposals, {"capacity"});
+      const hf_result code = hf_surface_propose_handles(get(), &desc, c.count("capacity", 0), proposals_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    proposals.resize(c.product({"capacity"}));
     return proposals;
   }
 
@@ -1323,20 +1338,27 @@ class Solver {
   SitesInfo sites() const {
     Call c(counts_);
     auto info = make<hf_sites_info>();
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     SitesInfo found;
-    room.array(found.sites, {"capacity"}, &info.sites);
-    room.array(found.vertices, {"capacity"}, &info.vertices);
-    room.array(found.components, {"capacity"}, &info.components);
-    room.array(found.values, {"capacity", "channel_count"}, &info.values);
-    room.array(found.stiffness, {"capacity"}, &info.stiffness);
-    room.array(found.flux, {"capacity", "channel_count"}, &info.flux);
-    room.array(found.radii, {"capacity"}, &info.radii);
-    do {
-      room.begin(c);
-      info.capacity = room.get("capacity");
-      room.code = hf_solver_get_sites(get(), &info);
-    } while (!room.enough(c, {{"capacity", info.count}}));
+    for (bool done = false; !done;) {
+      info.capacity = c.count("capacity", 0);
+      info.sites = c.room(found.sites, {"capacity"});
+      info.vertices = c.room(found.vertices, {"capacity"});
+      info.components = c.room(found.components, {"capacity"});
+      info.values = c.room(found.values, {"capacity", "channel_count"});
+      info.stiffness = c.room(found.stiffness, {"capacity"});
+      info.flux = c.room(found.flux, {"capacity", "channel_count"});
+      info.radii = c.room(found.radii, {"capacity"});
+      const hf_result code = hf_solver_get_sites(get(), &info);
+      done = c.enough(code, {{"capacity", info.count}});
+    }
+    found.sites.resize(c.product({"capacity"}));
+    found.vertices.resize(c.product({"capacity"}));
+    found.components.resize(c.product({"capacity"}));
+    found.values.resize(c.product({"capacity", "channel_count"}));
+    found.stiffness.resize(c.product({"capacity"}));
+    found.flux.resize(c.product({"capacity", "channel_count"}));
+    found.radii.resize(c.product({"capacity"}));
     return found;
   }
 
@@ -1407,7 +1429,7 @@ class Solver {
   // Fails with HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
   std::vector<double> solve_at(const std::vector<uint32_t>& vertices) const {
     Call c(counts_);
-    c.forget("vertex_count");  // of the list given here
+    c.sizes.erase("vertex_count");  // of the list given here
     const uint32_t* vertices_ = c.array(vertices, true, "vertices", {"vertex_count"});
     std::vector<double> values(c.product({"vertex_count", "channel_count"}));
     check(hf_solver_solve_at(get(), c.count("vertex_count", 1), vertices_, values.data()));
@@ -1691,16 +1713,19 @@ class Geodesics {
   Path find_path(const hf_place& from, const hf_place& to) const {
     Call c(counts_);
     auto path = make<hf_path>();
-    Room room({{"point_capacity", -1}});
+    c.sizes["point_capacity"] = Call::kFirst;
     Path found;
-    room.array(found.point_edges, {"point_capacity", "2"}, &path.point_edges);
-    room.array(found.parameters, {"point_capacity"}, &path.parameters);
-    room.array(found.positions, {"point_capacity", "3"}, &path.positions);
-    do {
-      room.begin(c);
-      path.point_capacity = room.get("point_capacity");
-      room.code = hf_geodesics_find_path(get(), &from, &to, &path);
-    } while (!room.enough(c, {{"point_capacity", path.point_count}}));
+    for (bool done = false; !done;) {
+      path.point_capacity = c.count("point_capacity", 0);
+      path.point_edges = c.room(found.point_edges, {"point_capacity", "2"});
+      path.parameters = c.room(found.parameters, {"point_capacity"});
+      path.positions = c.room(found.positions, {"point_capacity", "3"});
+      const hf_result code = hf_geodesics_find_path(get(), &from, &to, &path);
+      done = c.enough(code, {{"point_capacity", path.point_count}});
+    }
+    found.point_edges.resize(c.product({"point_capacity", "2"}));
+    found.parameters.resize(c.product({"point_capacity"}));
+    found.positions.resize(c.product({"point_capacity", "3"}));
     found.length = path.length;
     return found;
   }
@@ -1848,18 +1873,21 @@ class Direction {
   std::tuple<std::vector<uint32_t>, std::vector<uint32_t>, std::vector<double>> sites() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<uint32_t> sites;
     std::vector<uint32_t> vertices;
     std::vector<double> vectors;
-    room.array(sites, {"capacity"});
-    room.array(vertices, {"capacity"});
-    room.array(vectors, {"capacity", "3"});
-    do {
-      room.begin(c);
-      room.code = hf_direction_get_sites(get(), room.get("capacity"), room.at(sites), room.at(vertices),
-          room.at(vectors), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* sites_at = c.room(sites, {"capacity"});
+      auto* vertices_at = c.room(vertices, {"capacity"});
+      auto* vectors_at = c.room(vectors, {"capacity", "3"});
+      const hf_result code = hf_direction_get_sites(get(), c.count("capacity", 0), sites_at, vertices_at, vectors_at,
+          &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    sites.resize(c.product({"capacity"}));
+    vertices.resize(c.product({"capacity"}));
+    vectors.resize(c.product({"capacity", "3"}));
     return {std::move(sites), std::move(vertices), std::move(vectors)};
   }
 
@@ -1909,13 +1937,14 @@ class Direction {
   std::vector<hf_singularity> singularities() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<hf_singularity> singularities;
-    room.array(singularities, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_direction_get_singularities(get(), room.get("capacity"), room.at(singularities), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* singularities_at = c.room(singularities, {"capacity"});
+      const hf_result code = hf_direction_get_singularities(get(), c.count("capacity", 0), singularities_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    singularities.resize(c.product({"capacity"}));
     return singularities;
   }
 
@@ -2141,7 +2170,7 @@ class Pose {
   // Fails with HF_ERROR_CONFLICT, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
   void set_rigid_pieces(const std::vector<uint32_t>& vertices) {
     Call c(counts_);
-    c.forget("vertex_count");  // of the list given here
+    c.sizes.erase("vertex_count");  // of the list given here
     const uint32_t* vertices_ = c.array(vertices, true, "vertices", {"vertex_count"});
     check(hf_pose_set_rigid_pieces(get(), c.count("vertex_count", 1), vertices_));
   }
@@ -2291,22 +2320,29 @@ class Pose {
     auto skin = make<hf_skin_info>();
     skin.influence_count = influence_count;
     c.known("influence_count", influence_count ? influence_count : 4);
-    Room room({{"joint_capacity", c.size("joint_count")}, {"vertex_capacity", c.size("vertex_count")}});
+    c.sizes["joint_capacity"] = c.count("joint_count", Call::kFirst);
+    c.sizes["vertex_capacity"] = c.count("vertex_count", Call::kFirst);
     SkinInfo found;
-    room.array(found.pivots, {"joint_capacity", "3"}, &skin.pivots);
-    room.array(found.rotations, {"joint_capacity", "4"}, &skin.rotations);
-    room.array(found.translations, {"joint_capacity", "3"}, &skin.translations);
-    room.array(found.axes, {"joint_capacity", "4"}, &skin.axes);
-    room.array(found.scales, {"joint_capacity", "3"}, &skin.scales, want_scales);
-    room.array(found.vertex_joints, {"vertex_capacity", "influence_count"}, &skin.vertex_joints);
-    room.array(found.vertex_weights, {"vertex_capacity", "influence_count"}, &skin.vertex_weights);
-    do {
-      room.begin(c);
-      skin.joint_capacity = room.get("joint_capacity");
-      skin.vertex_capacity = room.get("vertex_capacity");
-      room.code = hf_pose_get_skin(get(), &skin);
-    } while (!room.enough(c, {{"joint_capacity", skin.joint_count}, {"vertex_capacity", skin.vertex_count},
-        {"joint_count", skin.joint_count}, {"vertex_count", skin.vertex_count}}));
+    for (bool done = false; !done;) {
+      skin.joint_capacity = c.count("joint_capacity", 0);
+      skin.vertex_capacity = c.count("vertex_capacity", 0);
+      skin.pivots = c.room(found.pivots, {"joint_capacity", "3"});
+      skin.rotations = c.room(found.rotations, {"joint_capacity", "4"});
+      skin.translations = c.room(found.translations, {"joint_capacity", "3"});
+      skin.axes = c.room(found.axes, {"joint_capacity", "4"});
+      skin.scales = want_scales ? c.room(found.scales, {"joint_capacity", "3"}) : nullptr;
+      skin.vertex_joints = c.room(found.vertex_joints, {"vertex_capacity", "influence_count"});
+      skin.vertex_weights = c.room(found.vertex_weights, {"vertex_capacity", "influence_count"});
+      const hf_result code = hf_pose_get_skin(get(), &skin);
+      done = c.enough(code, {{"joint_capacity", skin.joint_count}, {"vertex_capacity", skin.vertex_count}});
+    }
+    found.pivots.resize(c.product({"joint_capacity", "3"}));
+    found.rotations.resize(c.product({"joint_capacity", "4"}));
+    found.translations.resize(c.product({"joint_capacity", "3"}));
+    found.axes.resize(c.product({"joint_capacity", "4"}));
+    if (want_scales) found.scales.resize(c.product({"joint_capacity", "3"}));
+    found.vertex_joints.resize(c.product({"vertex_capacity", "influence_count"}));
+    found.vertex_weights.resize(c.product({"vertex_capacity", "influence_count"}));
     found.influence_count = skin.influence_count;
     return found;
   }
@@ -2469,20 +2505,25 @@ class Quads {
   QuadsMesh mesh() const {
     Call c(counts_);
     auto mesh = make<hf_quads_mesh>();
-    Room room({{"vertex_capacity", c.size("vertex_count")}, {"face_capacity", -1}});
+    c.sizes["vertex_capacity"] = c.count("vertex_count", Call::kFirst);
+    c.sizes["face_capacity"] = Call::kFirst;
     QuadsMesh found;
-    room.array(found.positions, {"vertex_capacity", "3"}, &mesh.positions);
-    room.array(found.faces, {"face_capacity", "4"}, &mesh.faces);
-    room.array(found.triangles, {"vertex_capacity"}, &mesh.triangles);
-    room.array(found.barycentrics, {"vertex_capacity", "3"}, &mesh.barycentrics);
-    room.array(found.corners, {"vertex_capacity", "3"}, &mesh.corners);
-    do {
-      room.begin(c);
-      mesh.vertex_capacity = room.get("vertex_capacity");
-      mesh.face_capacity = room.get("face_capacity");
-      room.code = hf_quads_get_mesh(get(), &mesh);
-    } while (!room.enough(c, {{"vertex_capacity", mesh.vertex_count}, {"face_capacity", mesh.face_count},
-        {"vertex_count", mesh.vertex_count}}));
+    for (bool done = false; !done;) {
+      mesh.vertex_capacity = c.count("vertex_capacity", 0);
+      mesh.face_capacity = c.count("face_capacity", 0);
+      mesh.positions = c.room(found.positions, {"vertex_capacity", "3"});
+      mesh.faces = c.room(found.faces, {"face_capacity", "4"});
+      mesh.triangles = c.room(found.triangles, {"vertex_capacity"});
+      mesh.barycentrics = c.room(found.barycentrics, {"vertex_capacity", "3"});
+      mesh.corners = c.room(found.corners, {"vertex_capacity", "3"});
+      const hf_result code = hf_quads_get_mesh(get(), &mesh);
+      done = c.enough(code, {{"vertex_capacity", mesh.vertex_count}, {"face_capacity", mesh.face_count}});
+    }
+    found.positions.resize(c.product({"vertex_capacity", "3"}));
+    found.faces.resize(c.product({"face_capacity", "4"}));
+    found.triangles.resize(c.product({"vertex_capacity"}));
+    found.barycentrics.resize(c.product({"vertex_capacity", "3"}));
+    found.corners.resize(c.product({"vertex_capacity", "3"}));
     return found;
   }
 
@@ -2540,18 +2581,23 @@ class Flow {
     lines.wanted_count = wanted_count;
     lines.seeds = c.array(seeds, false, "seeds", {"seed_count"});
     lines.seed_count = c.count("seed_count", 0);
-    Room room({{"point_capacity", -1}, {"line_capacity", -1}});
+    c.sizes["point_capacity"] = Call::kFirst;
+    c.sizes["line_capacity"] = Call::kFirst;
     Streamlines found;
-    room.array(found.positions, {"point_capacity", "3"}, &lines.positions);
-    room.array(found.values, {"point_capacity"}, &lines.values);
-    room.array(found.line_starts, {"line_capacity + 1"}, &lines.line_starts);
-    room.array(found.line_ends, {"line_capacity", "2"}, &lines.line_ends);
-    do {
-      room.begin(c);
-      lines.point_capacity = room.get("point_capacity");
-      lines.line_capacity = room.get("line_capacity");
-      room.code = hf_flow_trace(get(), &field_, &lines);
-    } while (!room.enough(c, {{"point_capacity", lines.point_count}, {"line_capacity", lines.line_count}}));
+    for (bool done = false; !done;) {
+      lines.point_capacity = c.count("point_capacity", 0);
+      lines.line_capacity = c.count("line_capacity", 0);
+      lines.positions = c.room(found.positions, {"point_capacity", "3"});
+      lines.values = c.room(found.values, {"point_capacity"});
+      lines.line_starts = c.room(found.line_starts, {"line_capacity + 1"});
+      lines.line_ends = c.room(found.line_ends, {"line_capacity", "2"});
+      const hf_result code = hf_flow_trace(get(), &field_, &lines);
+      done = c.enough(code, {{"point_capacity", lines.point_count}, {"line_capacity", lines.line_count}});
+    }
+    found.positions.resize(c.product({"point_capacity", "3"}));
+    found.values.resize(c.product({"point_capacity"}));
+    found.line_starts.resize(c.product({"line_capacity + 1"}));
+    found.line_ends.resize(c.product({"line_capacity", "2"}));
     return found;
   }
 
@@ -2631,13 +2677,14 @@ class Region {
   std::vector<uint32_t> vertices(int32_t list = 0) const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<uint32_t> vertices;
-    room.array(vertices, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_region_get_vertices(get(), list, room.get("capacity"), room.at(vertices), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* vertices_at = c.room(vertices, {"capacity"});
+      const hf_result code = hf_region_get_vertices(get(), list, c.count("capacity", 0), vertices_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    vertices.resize(c.product({"capacity"}));
     return vertices;
   }
 
@@ -2646,13 +2693,14 @@ class Region {
   std::vector<double> curve() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<double> points;
-    room.array(points, {"capacity", "3"});
-    do {
-      room.begin(c);
-      room.code = hf_region_get_curve(get(), room.get("capacity"), room.at(points), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* points_at = c.room(points, {"capacity", "3"});
+      const hf_result code = hf_region_get_curve(get(), c.count("capacity", 0), points_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    points.resize(c.product({"capacity", "3"}));
     return points;
   }
 
@@ -2879,13 +2927,14 @@ class Skeleton {
   std::vector<hf_joint_info> joints() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<hf_joint_info> joints;
-    room.array(joints, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_skeleton_get_joints(get(), room.get("capacity"), room.at(joints), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* joints_at = c.room(joints, {"capacity"});
+      const hf_result code = hf_skeleton_get_joints(get(), c.count("capacity", 0), joints_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    joints.resize(c.product({"capacity"}));
     return joints;
   }
 
@@ -2893,13 +2942,14 @@ class Skeleton {
   std::vector<hf_chain> chains() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<hf_chain> chains;
-    room.array(chains, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_skeleton_get_chains(get(), room.get("capacity"), room.at(chains), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* chains_at = c.room(chains, {"capacity"});
+      const hf_result code = hf_skeleton_get_chains(get(), c.count("capacity", 0), chains_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    chains.resize(c.product({"capacity"}));
     return chains;
   }
 
@@ -2907,13 +2957,14 @@ class Skeleton {
   std::vector<uint32_t> chain_joints() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<uint32_t> joints;
-    room.array(joints, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_skeleton_get_chain_joints(get(), room.get("capacity"), room.at(joints), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* joints_at = c.room(joints, {"capacity"});
+      const hf_result code = hf_skeleton_get_chain_joints(get(), c.count("capacity", 0), joints_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    joints.resize(c.product({"capacity"}));
     return joints;
   }
 
@@ -3008,13 +3059,14 @@ class Retarget {
   std::vector<hf_chain_match> chains() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<hf_chain_match> chains;
-    room.array(chains, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_retarget_get_chains(get(), room.get("capacity"), room.at(chains), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* chains_at = c.room(chains, {"capacity"});
+      const hf_result code = hf_retarget_get_chains(get(), c.count("capacity", 0), chains_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    chains.resize(c.product({"capacity"}));
     return chains;
   }
 
@@ -3023,13 +3075,14 @@ class Retarget {
   std::vector<uint32_t> partners() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<uint32_t> partners;
-    room.array(partners, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_retarget_get_partners(get(), room.get("capacity"), room.at(partners), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* partners_at = c.room(partners, {"capacity"});
+      const hf_result code = hf_retarget_get_partners(get(), c.count("capacity", 0), partners_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    partners.resize(c.product({"capacity"}));
     return partners;
   }
 
@@ -3243,22 +3296,29 @@ class Transfer {
     auto skin = make<hf_skin_info>();
     skin.influence_count = influence_count;
     c.known("influence_count", influence_count ? influence_count : 4);
-    Room room({{"joint_capacity", c.size("joint_count")}, {"vertex_capacity", c.size("vertex_count")}});
+    c.sizes["joint_capacity"] = c.count("joint_count", Call::kFirst);
+    c.sizes["vertex_capacity"] = c.count("vertex_count", Call::kFirst);
     SkinInfo found;
-    room.array(found.pivots, {"joint_capacity", "3"}, &skin.pivots);
-    room.array(found.rotations, {"joint_capacity", "4"}, &skin.rotations);
-    room.array(found.translations, {"joint_capacity", "3"}, &skin.translations);
-    room.array(found.axes, {"joint_capacity", "4"}, &skin.axes);
-    room.array(found.scales, {"joint_capacity", "3"}, &skin.scales, want_scales);
-    room.array(found.vertex_joints, {"vertex_capacity", "influence_count"}, &skin.vertex_joints);
-    room.array(found.vertex_weights, {"vertex_capacity", "influence_count"}, &skin.vertex_weights);
-    do {
-      room.begin(c);
-      skin.joint_capacity = room.get("joint_capacity");
-      skin.vertex_capacity = room.get("vertex_capacity");
-      room.code = hf_transfer_get_skin(get(), &skin);
-    } while (!room.enough(c, {{"joint_capacity", skin.joint_count}, {"vertex_capacity", skin.vertex_count},
-        {"joint_count", skin.joint_count}, {"vertex_count", skin.vertex_count}}));
+    for (bool done = false; !done;) {
+      skin.joint_capacity = c.count("joint_capacity", 0);
+      skin.vertex_capacity = c.count("vertex_capacity", 0);
+      skin.pivots = c.room(found.pivots, {"joint_capacity", "3"});
+      skin.rotations = c.room(found.rotations, {"joint_capacity", "4"});
+      skin.translations = c.room(found.translations, {"joint_capacity", "3"});
+      skin.axes = c.room(found.axes, {"joint_capacity", "4"});
+      skin.scales = want_scales ? c.room(found.scales, {"joint_capacity", "3"}) : nullptr;
+      skin.vertex_joints = c.room(found.vertex_joints, {"vertex_capacity", "influence_count"});
+      skin.vertex_weights = c.room(found.vertex_weights, {"vertex_capacity", "influence_count"});
+      const hf_result code = hf_transfer_get_skin(get(), &skin);
+      done = c.enough(code, {{"joint_capacity", skin.joint_count}, {"vertex_capacity", skin.vertex_count}});
+    }
+    found.pivots.resize(c.product({"joint_capacity", "3"}));
+    found.rotations.resize(c.product({"joint_capacity", "4"}));
+    found.translations.resize(c.product({"joint_capacity", "3"}));
+    found.axes.resize(c.product({"joint_capacity", "4"}));
+    if (want_scales) found.scales.resize(c.product({"joint_capacity", "3"}));
+    found.vertex_joints.resize(c.product({"vertex_capacity", "influence_count"}));
+    found.vertex_weights.resize(c.product({"vertex_capacity", "influence_count"}));
     found.influence_count = skin.influence_count;
     return found;
   }
@@ -3363,17 +3423,19 @@ class Weights {
   WeightsOut weights() const {
     Call c(counts_);
     auto weights = make<hf_weights_out>();
-    Room room({{"vertex_capacity", c.size("vertex_count")}});
+    c.sizes["vertex_capacity"] = c.count("vertex_count", Call::kFirst);
     WeightsOut found;
-    room.array(found.joints, {"vertex_capacity", "influence_count"}, &weights.joints);
-    room.array(found.weights, {"vertex_capacity", "influence_count"}, &weights.weights);
-    room.array(found.origins, {"vertex_capacity"}, &weights.origins);
-    do {
-      room.begin(c);
-      weights.vertex_capacity = room.get("vertex_capacity");
-      room.code = hf_weights_get(get(), &weights);
-    } while (!room.enough(c, {{"vertex_capacity", weights.vertex_count}, {"vertex_count", weights.vertex_count},
-        {"influence_count", weights.influence_count}}));
+    for (bool done = false; !done;) {
+      weights.vertex_capacity = c.count("vertex_capacity", 0);
+      weights.joints = c.room(found.joints, {"vertex_capacity", "influence_count"});
+      weights.weights = c.room(found.weights, {"vertex_capacity", "influence_count"});
+      weights.origins = c.room(found.origins, {"vertex_capacity"});
+      const hf_result code = hf_weights_get(get(), &weights);
+      done = c.enough(code, {{"vertex_capacity", weights.vertex_count}, {"influence_count", weights.influence_count}});
+    }
+    found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
+    found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
+    found.origins.resize(c.product({"vertex_capacity"}));
     found.influence_count = weights.influence_count;
     return found;
   }
@@ -3383,15 +3445,17 @@ class Weights {
   std::tuple<std::vector<uint32_t>, std::vector<uint32_t>> joints() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<uint32_t> flags;
     std::vector<uint32_t> vertex_counts;
-    room.array(flags, {"capacity"});
-    room.array(vertex_counts, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_weights_get_joints(get(), room.get("capacity"), room.at(flags), room.at(vertex_counts), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* flags_at = c.room(flags, {"capacity"});
+      auto* vertex_counts_at = c.room(vertex_counts, {"capacity"});
+      const hf_result code = hf_weights_get_joints(get(), c.count("capacity", 0), flags_at, vertex_counts_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    flags.resize(c.product({"capacity"}));
+    vertex_counts.resize(c.product({"capacity"}));
     return {std::move(flags), std::move(vertex_counts)};
   }
 
@@ -3420,13 +3484,14 @@ class Weights {
   std::vector<uint32_t> helpers(const std::vector<std::string>& names = {}) const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<uint32_t> reasons;
-    room.array(reasons, {"capacity"});
-    do {
-      room.begin(c);
-      room.code = hf_weights_get_helpers(get(), c.text(names), room.get("capacity"), room.at(reasons), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* reasons_at = c.room(reasons, {"capacity"});
+      const hf_result code = hf_weights_get_helpers(get(), c.text(names), c.count("capacity", 0), reasons_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    reasons.resize(c.product({"capacity"}));
     return reasons;
   }
 
@@ -3445,17 +3510,20 @@ class Weights {
     c.parent("target", target.known_counts());
     const hf_weights_transfer_desc desc = options.fill(c, "");
     auto weights_ = make<hf_weights_out>();
-    Room room({{"vertex_capacity", c.size("vertex_count")}});
+    c.sizes["vertex_capacity"] = c.count("vertex_count", Call::kFirst);
     WeightsOut found;
-    room.array(found.joints, {"vertex_capacity", "influence_count"}, &weights_.joints);
-    room.array(found.weights, {"vertex_capacity", "influence_count"}, &weights_.weights);
-    room.array(found.origins, {"vertex_capacity"}, &weights_.origins);
-    do {
-      room.begin(c);
-      weights_.vertex_capacity = room.get("vertex_capacity");
-      room.code = hf_weights_transfer(source.get(), target.get(), &desc, &weights_, info);
-    } while (!room.enough(c, {{"vertex_capacity", weights_.vertex_count}, {"vertex_count", weights_.vertex_count},
-        {"influence_count", weights_.influence_count}}));
+    for (bool done = false; !done;) {
+      weights_.vertex_capacity = c.count("vertex_capacity", 0);
+      weights_.joints = c.room(found.joints, {"vertex_capacity", "influence_count"});
+      weights_.weights = c.room(found.weights, {"vertex_capacity", "influence_count"});
+      weights_.origins = c.room(found.origins, {"vertex_capacity"});
+      const hf_result code = hf_weights_transfer(source.get(), target.get(), &desc, &weights_, info);
+      done = c.enough(code, {{"vertex_capacity", weights_.vertex_count}, {"influence_count",
+          weights_.influence_count}});
+    }
+    found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
+    found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
+    found.origins.resize(c.product({"vertex_capacity"}));
     found.influence_count = weights_.influence_count;
     return found;
   }
@@ -3479,18 +3547,21 @@ class Weights {
     auto weights_ = make<hf_weights_out>();
     std::vector<uint32_t> partners_(c.product({"joint_count"}));
     std::vector<uint32_t> pairings(c.product({"joint_count"}));
-    Room room({{"vertex_capacity", c.size("vertex_count")}});
+    c.sizes["vertex_capacity"] = c.count("vertex_count", Call::kFirst);
     WeightsOut found;
-    room.array(found.joints, {"vertex_capacity", "influence_count"}, &weights_.joints);
-    room.array(found.weights, {"vertex_capacity", "influence_count"}, &weights_.weights);
-    room.array(found.origins, {"vertex_capacity"}, &weights_.origins);
-    do {
-      room.begin(c);
-      weights_.vertex_capacity = room.get("vertex_capacity");
-      room.code = hf_weights_mirror(surface.get(), &desc, &weights_, partners_.data(), pairings.data(), info,
+    for (bool done = false; !done;) {
+      weights_.vertex_capacity = c.count("vertex_capacity", 0);
+      weights_.joints = c.room(found.joints, {"vertex_capacity", "influence_count"});
+      weights_.weights = c.room(found.weights, {"vertex_capacity", "influence_count"});
+      weights_.origins = c.room(found.origins, {"vertex_capacity"});
+      const hf_result code = hf_weights_mirror(surface.get(), &desc, &weights_, partners_.data(), pairings.data(), info,
           statistics);
-    } while (!room.enough(c, {{"vertex_capacity", weights_.vertex_count}, {"vertex_count", weights_.vertex_count},
-        {"influence_count", weights_.influence_count}}));
+      done = c.enough(code, {{"vertex_capacity", weights_.vertex_count}, {"influence_count",
+          weights_.influence_count}});
+    }
+    found.joints.resize(c.product({"vertex_capacity", "influence_count"}));
+    found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
+    found.origins.resize(c.product({"vertex_capacity"}));
     found.influence_count = weights_.influence_count;
     return {std::move(found), std::move(partners_), std::move(pairings)};
   }

@@ -2,6 +2,7 @@
 header that leaves a question open is refused by name."""
 
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -28,6 +29,24 @@ HF_API hf_result hf_solver_shift_sites(hf_solver solver, uint32_t site_count, co
  * Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_get_words(hf_solver solver, size_t capacity, char* out_text, size_t* out_size);
 """
+
+
+# what ships as a language's layer; JavaScript's two hosts reach the library's memory in two ways
+LAYERS = {"C++": ["include/hf/*.hpp"], "C#": ["bindings/csharp/Hf/*.cs"], "Python": ["bindings/python/hf/*.py"],
+          "Rust": ["bindings/rust/src/*.rs", "bindings/rust/build.rs"],
+          "JavaScript": ["bindings/js/src/[!nw]*.js"], "JavaScript in node": ["bindings/js/src/n*.js"],
+          "JavaScript in a browser": ["bindings/js/src/w*.js"]}
+MOST_LINES = 300  # by hand in a language, without empty lines and comments; a line of more than 120 columns counts as two
+
+
+def lines_by_hand(patterns):
+    """(lines, files)"""
+    files = [path for pattern in patterns for path in sorted(ROOT.glob(pattern)) if "Generated from include/hf" not in path.read_text()[:200]]
+    lines = 0
+    for path in files:
+        comments = r'(?m)^\s*"""[\s\S]*?"""\s*$|^\s*#.*' if path.suffix == ".py" else r"(?m)/\*[\s\S]*?\*/|^\s*//.*"
+        lines += sum(-(-len(line) // 120) for line in re.sub(comments, "", path.read_text()).split("\n") if line.strip())
+    return lines, files
 
 
 def with_toy(folder, text=TOY):
@@ -128,6 +147,17 @@ class OneDescription(unittest.TestCase):
         subprocess.run(["c++", "-std=c++17", "-I", self.folder / "include", self.folder / "toy.cpp", "-o", self.folder / "toy_cpp",
                         "-L", self.folder, "-lhf", "-Wl,--unresolved-symbols=ignore-all"], check=True)
         subprocess.run([self.folder / "toy_cpp"], check=True, env={"LD_LIBRARY_PATH": str(self.folder)})
+
+    def test_a_language_has_at_most_300_lines_by_hand(self):
+        counted = {layer: lines_by_hand(patterns) for layer, patterns in LAYERS.items()}
+        for layer, (lines, _) in counted.items():
+            with self.subTest(layer=layer):
+                self.assertLessEqual(lines, MOST_LINES, f"{layer}: what follows from the headers goes to bindings/generate")
+                self.assertGreater(lines, 0)
+        folders = {path.parent for layer in LAYERS.values() for pattern in layer for path in ROOT.glob(pattern)} - {ROOT / "bindings/rust"}
+        sources = {path for folder in folders for path in folder.glob("*") if path.suffix in (".hpp", ".cs", ".py", ".rs", ".js")}
+        made = {path for path in sources if "Generated from include/hf" in path.read_text()[:200]}
+        self.assertEqual(sources - made, {path for _, files in counted.values() for path in files} & sources, "a file by hand is counted in no layer")
 
     def test_a_struct_of_more_than_16_fields_says_why(self):
         fields = "".join(f"  uint32_t field_{n};\n" for n in range(17))

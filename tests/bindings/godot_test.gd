@@ -436,6 +436,10 @@ func lifetime():
 		else:
 			b.share_from(a)
 		a.add_handles([[0, 1, 2], [280, 281]])
+		expect(a.set_following([1], 0.5) == true and a.set_following([1], 2) == null and a.set_following([7], 0.5) == null, "set_following")
+		expect(a.set_matrices([1], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.5, 0, 1]) == true and a.deform() != null, "set_matrices")
+		expect(abs(a.handle_info(1).translation_y - 0.5) < 1e-9 and a.pose_statistics()["cluster_count"] > 0, "a handle by its matrix")
+		expect(a.set_matrices([1], [1, 0]) == null and a.get_error()["message"].find("matrices must hold 16 numbers, not 2") >= 0, "a short matrix")
 		expect(a.transfer_sinking() == null and a.get_error()["name"] == "HF_ERROR_INVALID_OBJECT", "no transfer sinks")
 		expect(a.transfer_to(b, [[0, 1], [280]], [[0, 1], [280]], [1 + 32, 1]) == true, "transfer_to: " + str(a.get_error()))
 		var sinking = a.transfer_sinking()

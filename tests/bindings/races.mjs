@@ -18,7 +18,7 @@ const n = positions.length / 3;
 
 async function race(kind, calls, seed, shared) {
   const { api: hf, backend } = await loadBackend(kind);
-  const { Memory, Struct } = await import(pathToFileURL(join(here, '../../bindings/js/src/marshal.js')));
+  const { Struct, written } = await import(pathToFileURL(join(here, '../../bindings/js/src/marshal.js')));
   const handles = kind === 'native' ? new BigUint64Array(shared) : null;
   const draw = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
   const pick = (count) => Math.floor(draw() * count);
@@ -65,7 +65,7 @@ async function race(kind, calls, seed, shared) {
   const useForeign = () => {
     const handle = Atomics.load(handles, pick(handles.length));
     const out = new Float64Array(n);
-    const view = new Struct(backend.width, 'hf_array_out', { data: new Memory(out, true), count: n, type: hf.constants.HF_TYPE_DOUBLE });
+    const view = new Struct(backend.width, 'hf_array_out', { data: written(out), count: n, type: hf.constants.HF_TYPE_DOUBLE });
     const verb = pick(3);
     const code = verb
       ? backend.call('hf_solver_solve', [handle, view, null])

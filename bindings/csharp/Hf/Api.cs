@@ -440,11 +440,13 @@ namespace Hf
 
         public Link() { }
 
-        internal void Write(hf_link* raw)
+        internal void Write(Call c, hf_link* raw)
         {
             raw->vertex = Vertex;
-            Call.Fill(Corners, "Corners", 3, raw->corners);
-            Call.Fill(Barycentrics, "Barycentrics", 3, raw->barycentrics);
+            c.Fit(Corners, "Corners", "3");
+            for (int i = 0; Corners != null && i < Corners.Length; ++i) raw->corners[i] = Corners[i];
+            c.Fit(Barycentrics, "Barycentrics", "3");
+            for (int i = 0; Barycentrics != null && i < Barycentrics.Length; ++i) raw->barycentrics[i] = Barycentrics[i];
             raw->length = Length;
             raw->weight = Weight;
             raw->in_tree = InTree ? 1 : 0;
@@ -709,10 +711,12 @@ namespace Hf
 
         public Place() { }
 
-        internal void Write(hf_place* raw)
+        internal void Write(Call c, hf_place* raw)
         {
-            Call.Fill(Corners, "Corners", 3, raw->corners);
-            Call.Fill(Barycentrics, "Barycentrics", 3, raw->barycentrics);
+            c.Fit(Corners, "Corners", "3");
+            for (int i = 0; Corners != null && i < Corners.Length; ++i) raw->corners[i] = Corners[i];
+            c.Fit(Barycentrics, "Barycentrics", "3");
+            for (int i = 0; Barycentrics != null && i < Barycentrics.Length; ++i) raw->barycentrics[i] = Barycentrics[i];
         }
     }
 
@@ -921,7 +925,7 @@ namespace Hf
 
         public CriticalPoint() { }
 
-        internal void Write(hf_critical_point* raw)
+        internal void Write(Call c, hf_critical_point* raw)
         {
             raw->vertex = Vertex;
             raw->kind = (int)Kind;
@@ -976,12 +980,13 @@ namespace Hf
 
         public Extremity() { }
 
-        internal void Write(hf_extremity* raw)
+        internal void Write(Call c, hf_extremity* raw)
         {
             raw->vertex = Vertex;
             raw->component = Component;
             raw->length = Length;
-            Call.Fill(Position, "Position", 3, raw->position);
+            c.Fit(Position, "Position", "3");
+            for (int i = 0; Position != null && i < Position.Length; ++i) raw->position[i] = Position[i];
         }
     }
 
@@ -1005,7 +1010,7 @@ namespace Hf
 
         public Singularity() { }
 
-        internal void Write(hf_singularity* raw)
+        internal void Write(Call c, hf_singularity* raw)
         {
             raw->triangle = Triangle;
             raw->vertex = Vertex;
@@ -1208,14 +1213,15 @@ namespace Hf
 
         public HandleProposal() { }
 
-        internal void Write(hf_handle_proposal* raw)
+        internal void Write(Call c, hf_handle_proposal* raw)
         {
             raw->vertex = Vertex;
             raw->component = Component;
             raw->reason = (int)Reason;
             raw->pinned = Pinned ? 1 : 0;
             raw->joint = Joint;
-            Call.Fill(Position, "Position", 3, raw->position);
+            c.Fit(Position, "Position", "3");
+            for (int i = 0; Position != null && i < Position.Length; ++i) raw->position[i] = Position[i];
             raw->radius = Radius;
             raw->length = Length;
         }
@@ -1357,7 +1363,7 @@ namespace Hf
 
         public ChainMatch() { }
 
-        internal void Write(hf_chain_match* raw)
+        internal void Write(Call c, hf_chain_match* raw)
         {
             raw->role = (int)Role;
             raw->side = (int)Side;
@@ -1436,7 +1442,7 @@ namespace Hf
 
         public JointInfo() { }
 
-        internal void Write(hf_joint_info* raw)
+        internal void Write(Call c, hf_joint_info* raw)
         {
             raw->kind = (int)Kind;
             raw->role = (int)Role;
@@ -1475,7 +1481,7 @@ namespace Hf
 
         public Chain() { }
 
-        internal void Write(hf_chain* raw)
+        internal void Write(Call c, hf_chain* raw)
         {
             raw->role = (int)Role;
             raw->side = (int)Side;
@@ -1964,7 +1970,7 @@ namespace Hf
             desc->joint_parents = (IntPtr)c.Array(JointParents, "jointParents", prefix + "joint_count");
             desc->tags = (IntPtr)c.Array(Tags, "tags", "vertex_count");
             var linksRows = (hf_link*)c.Given(Links, "links", sizeof(hf_link), prefix + "link_count");
-            for (int i = 0; Links != null && i < Links.Length; ++i) Links[i].Write(linksRows + i);
+            for (int i = 0; Links != null && i < Links.Length; ++i) Links[i].Write(c, linksRows + i);
             desc->links = (IntPtr)linksRows;
             desc->light_vertices = (IntPtr)c.Array(LightVertices, "lightVertices", prefix + "light_count");
             desc->heavy_vertices = (IntPtr)c.Array(HeavyVertices, "heavyVertices", prefix + "heavy_count");
@@ -2046,7 +2052,7 @@ namespace Hf
             desc->struct_size = (uint)sizeof(hf_sites_desc);
             desc->vertices = (IntPtr)c.Array(Vertices, "vertices", prefix + "site_count");
             var placesRows = (hf_place*)c.Given(Places, "places", sizeof(hf_place), prefix + "site_count");
-            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(placesRows + i);
+            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(c, placesRows + i);
             desc->places = (IntPtr)placesRows;
             desc->points = (IntPtr)c.Array(Points, "points", prefix + "site_count", "3");
             desc->values = (IntPtr)c.Array(Values, "values", prefix + "site_count", "channel_count");
@@ -2090,7 +2096,7 @@ namespace Hf
             desc->kind = (int)Kind;
             desc->vertices = (IntPtr)c.Array(Vertices, "vertices", prefix + "point_count");
             var placesRows = (hf_place*)c.Given(Places, "places", sizeof(hf_place), prefix + "point_count");
-            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(placesRows + i);
+            for (int i = 0; Places != null && i < Places.Length; ++i) Places[i].Write(c, placesRows + i);
             desc->places = (IntPtr)placesRows;
             desc->points = (IntPtr)c.Array(Points, "points", prefix + "point_count", "3");
             desc->point_count = (uint)c.Count(prefix + "point_count", 0);
@@ -2142,7 +2148,7 @@ namespace Hf
             using (var c = new Call(null))
             {
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_progress_create(raw)));
+                HfException.Check(Library.Late(() => Functions.hf_progress_create(raw)));
                 Own(*raw, Functions.hf_progress_destroy, c);
             }
         }
@@ -2259,14 +2265,14 @@ namespace Hf
                     triangle_limit = triangleLimit, memory_limit_mb = memoryLimitMb,
                     work_limit_gflop = workLimitGflop };
                 hf_surface_desc* desc = &descStruct;
-                desc->positions = c.View(positions, "positions", "vertex_count", "3");
-                desc->triangles = c.View(triangles, "triangles", "triangle_count", "3");
+                desc->positions = c.View(positions?.Values, "positions", "vertex_count", "3");
+                desc->triangles = c.View(triangles?.Values, "triangles", "triangle_count", "3");
                 desc->progress = c.Handle(progress);
                 if (faces != null) desc->faces = faces.Fill(c, "faces.");
                 if (savedFactor != null) desc->saved_factor = savedFactor.Fill(c, "saved_factor.");
                 if (links != null) desc->links = links.Fill(c, "links.");
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_surface_create(desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_surface_create(desc, raw)));
                 Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
             }
         }
@@ -2314,14 +2320,14 @@ namespace Hf
                     ordering = (int)ordering, thread_count = threadCount, vertex_limit = vertexLimit,
                     edge_limit = edgeLimit, memory_limit_mb = memoryLimitMb, work_limit_gflop = workLimitGflop };
                 hf_graph_desc* desc = &descStruct;
-                c.Known("vertex_count", vertexCount);
-                desc->edges = c.View(edges, "edges", "edge_count", "2");
-                desc->weights = c.View(weights, "weights", "edge_count");
-                desc->masses = c.View(masses, "masses", "vertex_count");
+                if (vertexCount != 0) c.Sizes["vertex_count"] = (int)Math.Min(vertexCount, int.MaxValue);
+                desc->edges = c.View(edges?.Values, "edges", "edge_count", "2");
+                desc->weights = c.View(weights?.Values, "weights", "edge_count");
+                desc->masses = c.View(masses?.Values, "masses", "vertex_count");
                 desc->progress = c.Handle(progress);
                 if (savedFactor != null) desc->saved_factor = savedFactor.Fill(c, "saved_factor.");
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_surface_create_graph(desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_surface_create_graph(desc, raw)));
                 var made = new Surface();
                 made.Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
                 return made;
@@ -2380,18 +2386,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_surface_get_components");
-                found.Room("capacity", null);
-                found.Array<uint>("components", "capacity");
+                uint[] allComponents = null;
+                c.Room("capacity", "hf_surface_get_components.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_get_components(RawHandle, (uint)found["capacity"],
-                            found.Place("components"), &count);
-                        found.Told("capacity", count);
+                        void* componentsPlace = (void*)c.Make(out allComponents, "capacity");
+                        result = Functions.hf_surface_get_components(RawHandle, (uint)c.Size("capacity"),
+                            componentsPlace, &count);
                 }
-                while (found.Again());
-                return found.Take<uint>("components");
+                while (c.Again("hf_surface_get_components", result, ("capacity", count)));
+                return c.Cut(allComponents, "capacity");
             }
         }
 
@@ -2418,20 +2423,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_surface_get_links");
-                found.Room("capacity", null);
-                found.Rows("links", sizeof(hf_link), "capacity");
+                void* linksPlace = null;
+                c.Room("capacity", "hf_surface_get_links.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_get_links(RawHandle, (uint)found["capacity"],
-                            found.Place("links"), &count);
-                        found.Told("capacity", count);
+                        linksPlace = c.Rows(sizeof(hf_link), "capacity");
+                        result = Functions.hf_surface_get_links(RawHandle, (uint)c.Size("capacity"), linksPlace,
+                            &count);
                 }
-                while (found.Again());
-                var links = new Link[found.Length("links")];
+                while (c.Again("hf_surface_get_links", result, ("capacity", count)));
+                var links = new Link[c.Product("capacity")];
                 for (int i = 0; i < links.Length; ++i)
-                    links[i] = new Link((hf_link*)found.Place("links") + i);
+                    links[i] = new Link((hf_link*)linksPlace + i);
                 return links;
             }
         }
@@ -2443,19 +2447,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_surface_get_pieces");
-                found.Room("capacity", null);
-                found.Array<uint>("pieces", "capacity");
-                found.Array<int>("light", "capacity");
+                uint[] allPieces = null;
+                int[] allLight = null;
+                c.Room("capacity", "hf_surface_get_pieces.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_get_pieces(RawHandle, (uint)found["capacity"],
-                            found.Place("pieces"), found.Place("light"), &count);
-                        found.Told("capacity", count);
+                        void* piecesPlace = (void*)c.Make(out allPieces, "capacity");
+                        void* lightPlace = (void*)c.Make(out allLight, "capacity");
+                        result = Functions.hf_surface_get_pieces(RawHandle, (uint)c.Size("capacity"), piecesPlace,
+                            lightPlace, &count);
                 }
-                while (found.Again());
-                return (found.Take<uint>("pieces"), found.Take<int>("light"));
+                while (c.Again("hf_surface_get_pieces", result, ("capacity", count)));
+                return (c.Cut(allPieces, "capacity"), c.Cut(allLight, "capacity"));
             }
         }
 
@@ -2473,21 +2477,20 @@ namespace Hf
             using (var c = new Call(this))
             {
                 var info = new hf_gaps_info { struct_size = (uint)sizeof(hf_gaps_info) };
-                hf_array positions_Array = c.View(positions, "positions", "vertex_count", "3");
+                hf_array positions_Array = c.View(positions?.Values, "positions", "vertex_count", "3");
                 hf_array* positions_ = &positions_Array;
-                var found = new Growth(c, this, "hf_surface_measure_gaps");
-                found.Room("capacity", null);
-                found.Array<double>("gaps", "capacity");
+                double[] allGaps = null;
+                c.Room("capacity", "hf_surface_measure_gaps.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_measure_gaps(RawHandle,
-                            positions == null ? null : positions_, (uint)found["capacity"], found.Place("gaps"), &info);
-                        found.Told("capacity", info.link_count);
+                        void* gapsPlace = (void*)c.Make(out allGaps, "capacity");
+                        result = Functions.hf_surface_measure_gaps(RawHandle, positions == null ? null : positions_,
+                            (uint)c.Size("capacity"), gapsPlace, &info);
                 }
-                while (found.Again());
+                while (c.Again("hf_surface_measure_gaps", result, ("capacity", info.link_count)));
                 lastGapsInfo = info;
-                return found.Take<double>("gaps");
+                return c.Cut(allGaps, "capacity");
             }
         }
 
@@ -2528,7 +2531,7 @@ namespace Hf
                 desc->joint_parents = (IntPtr)c.Array(jointParents, "jointParents", "joint_count");
                 desc->tags = (IntPtr)c.Array(tags, "tags", "vertex_count");
                 var linksRows = (hf_link*)c.Given(links, "links", sizeof(hf_link), "link_count");
-                for (int i = 0; links != null && i < links.Length; ++i) links[i].Write(linksRows + i);
+                for (int i = 0; links != null && i < links.Length; ++i) links[i].Write(c, linksRows + i);
                 desc->links = (IntPtr)linksRows;
                 desc->light_vertices = (IntPtr)c.Array(lightVertices, "lightVertices", "light_count");
                 desc->heavy_vertices = (IntPtr)c.Array(heavyVertices, "heavyVertices", "heavy_count");
@@ -2601,7 +2604,7 @@ namespace Hf
                 var descStruct = new hf_pick_desc { struct_size = (uint)sizeof(hf_pick_desc),
                     front_only = frontOnly ? 1 : 0 };
                 hf_pick_desc* desc = &descStruct;
-                desc->positions = c.View(positions, "positions", "vertex_count", "3");
+                desc->positions = c.View(positions?.Values, "positions", "vertex_count", "3");
                 var hitStruct = new hf_hit { struct_size = (uint)sizeof(hf_hit) };
                 hf_hit* hit = &hitStruct;
                 HfException.Check(Functions.hf_surface_cast_ray(RawHandle, origin_, direction_, desc, hit));
@@ -2625,7 +2628,7 @@ namespace Hf
                 var descStruct = new hf_pick_desc { struct_size = (uint)sizeof(hf_pick_desc),
                     front_only = frontOnly ? 1 : 0 };
                 hf_pick_desc* desc = &descStruct;
-                desc->positions = c.View(positions, "positions", "vertex_count", "3");
+                desc->positions = c.View(positions?.Values, "positions", "vertex_count", "3");
                 uint vertex = 0;
                 double distance = 0;
                 HfException.Check(Functions.hf_surface_find_vertex(RawHandle, point_, desc, &vertex, &distance));
@@ -2651,9 +2654,9 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array field_Array = c.View(field?.Values, "field", "vertex_count");
                 hf_array* field_ = &field_Array;
-                c.Known("level_count", levelCount);
+                if (levelCount != 0) c.Sizes["level_count"] = (int)Math.Min(levelCount, int.MaxValue);
                 var levels = new double[c.Product("level_count")];
                 var levelsPlace = (double*)c.Pin(levels);
                 HfException.Check(Functions.hf_surface_space_levels(RawHandle, field == null ? null : field_,
@@ -2677,41 +2680,40 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array field_Array = c.View(field?.Values, "field", "vertex_count");
                 hf_array* field_ = &field_Array;
                 void* levels_ = c.Array(levels, "levels", "level_count");
                 var linesStruct = new hf_isolines { struct_size = (uint)sizeof(hf_isolines) };
                 hf_isolines* lines = &linesStruct;
-                var found = new Growth(c, this, "hf_surface_trace_isolines");
-                found.Room("point_capacity", null);
-                found.Room("line_capacity", null);
-                found.Array<uint>("point_edges", "point_capacity", "2");
-                found.Array<double>("parameters", "point_capacity");
-                found.Array<double>("positions", "point_capacity", "3");
-                found.Array<uint>("line_starts", "line_capacity + 1");
-                found.Array<uint>("line_levels", "line_capacity");
-                found.Array<int>("line_closed", "line_capacity");
+                uint[] allPointEdges = null;
+                double[] allParameters = null;
+                double[] allPositions = null;
+                uint[] allLineStarts = null;
+                uint[] allLineLevels = null;
+                int[] allLineClosed = null;
+                c.Room("point_capacity", "hf_surface_trace_isolines.point_capacity");
+                c.Room("line_capacity", "hf_surface_trace_isolines.line_capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        lines->point_capacity = (uint)found["point_capacity"];
-                        lines->line_capacity = (uint)found["line_capacity"];
-                        lines->point_edges = (IntPtr)found.Place("point_edges");
-                        lines->parameters = (IntPtr)found.Place("parameters");
-                        lines->positions = (IntPtr)found.Place("positions");
-                        lines->line_starts = (IntPtr)found.Place("line_starts");
-                        lines->line_levels = (IntPtr)found.Place("line_levels");
-                        lines->line_closed = (IntPtr)found.Place("line_closed");
-                        found.Result = Functions.hf_surface_trace_isolines(RawHandle, field == null ? null : field_,
+                        lines->point_capacity = (uint)c.Size("point_capacity");
+                        lines->line_capacity = (uint)c.Size("line_capacity");
+                        lines->point_edges = c.Make(out allPointEdges, "point_capacity", "2");
+                        lines->parameters = c.Make(out allParameters, "point_capacity");
+                        lines->positions = c.Make(out allPositions, "point_capacity", "3");
+                        lines->line_starts = c.Make(out allLineStarts, "line_capacity + 1");
+                        lines->line_levels = c.Make(out allLineLevels, "line_capacity");
+                        lines->line_closed = c.Make(out allLineClosed, "line_capacity");
+                        result = Functions.hf_surface_trace_isolines(RawHandle, field == null ? null : field_,
                             (uint)c.Count("level_count", 1), levels_, lines);
-                        found.Told("point_capacity", lines->point_count);
-                        found.Told("line_capacity", lines->line_count);
                 }
-                while (found.Again());
-                return new Isolines { PointEdges = found.Take<uint>("point_edges"),
-                    Parameters = found.Take<double>("parameters"), Positions = found.Take<double>("positions"),
-                    LineStarts = found.Take<uint>("line_starts"), LineLevels = found.Take<uint>("line_levels"),
-                    LineClosed = found.Take<int>("line_closed") };
+                while (c.Again("hf_surface_trace_isolines", result, ("point_capacity", lines->point_count),
+                    ("line_capacity", lines->line_count)));
+                return new Isolines { PointEdges = c.Cut(allPointEdges, "point_capacity", "2"),
+                    Parameters = c.Cut(allParameters, "point_capacity"), Positions = c.Cut(allPositions,
+                    "point_capacity", "3"), LineStarts = c.Cut(allLineStarts, "line_capacity + 1"),
+                    LineLevels = c.Cut(allLineLevels, "line_capacity"), LineClosed = c.Cut(allLineClosed,
+                    "line_capacity") };
             }
         }
 
@@ -2731,23 +2733,22 @@ namespace Hf
             using (var c = new Call(this))
             {
                 var info = new hf_critical_info { struct_size = (uint)sizeof(hf_critical_info) };
-                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array field_Array = c.View(field?.Values, "field", "vertex_count");
                 hf_array* field_ = &field_Array;
-                var found = new Growth(c, this, "hf_surface_find_critical_points");
-                found.Room("capacity", null);
-                found.Rows("points", sizeof(hf_critical_point), "capacity");
+                void* pointsPlace = null;
+                c.Room("capacity", "hf_surface_find_critical_points.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_find_critical_points(RawHandle,
-                            field == null ? null : field_, (uint)found["capacity"], found.Place("points"), &info);
-                        found.Told("capacity", info.point_count);
+                        pointsPlace = c.Rows(sizeof(hf_critical_point), "capacity");
+                        result = Functions.hf_surface_find_critical_points(RawHandle, field == null ? null : field_,
+                            (uint)c.Size("capacity"), pointsPlace, &info);
                 }
-                while (found.Again());
+                while (c.Again("hf_surface_find_critical_points", result, ("capacity", info.point_count)));
                 lastCriticalInfo = info;
-                var points = new CriticalPoint[found.Length("points")];
+                var points = new CriticalPoint[c.Product("capacity")];
                 for (int i = 0; i < points.Length; ++i)
-                    points[i] = new CriticalPoint((hf_critical_point*)found.Place("points") + i);
+                    points[i] = new CriticalPoint((hf_critical_point*)pointsPlace + i);
                 return points;
             }
         }
@@ -2775,7 +2776,7 @@ namespace Hf
                 var descStruct = new hf_extremities_desc { struct_size = (uint)sizeof(hf_extremities_desc),
                     kind = (int)kind, least_length_share = leastLengthShare, source_count = sourceCount };
                 hf_extremities_desc* desc = &descStruct;
-                c.Known("source_count", sourceCount == 0 ? 40 : sourceCount);
+                c.Sizes["source_count"] = (int)Math.Min(sourceCount == 0 ? 40 : sourceCount, int.MaxValue);
                 desc->geodesics = c.Handle(geodesics);
                 desc->progress = c.Handle(progress);
                 if (!field.IsEmpty)
@@ -2784,20 +2785,19 @@ namespace Hf
                 {
                     desc->out_field = (IntPtr)fieldPlace;
                     uint count = 0;
-                    var found = new Growth(c, this, "hf_surface_find_extremities");
-                    found.Room("capacity", null);
-                    found.Rows("extremities", sizeof(hf_extremity), "capacity");
+                    void* extremitiesPlace = null;
+                    c.Room("capacity", "hf_surface_find_extremities.capacity");
+                    int result;
                     do
                     {
-                            found.Begin();
-                            found.Result = Functions.hf_surface_find_extremities(RawHandle, desc,
-                                (uint)found["capacity"], found.Place("extremities"), &count);
-                            found.Told("capacity", count);
+                            extremitiesPlace = c.Rows(sizeof(hf_extremity), "capacity");
+                            result = Functions.hf_surface_find_extremities(RawHandle, desc, (uint)c.Size("capacity"),
+                                extremitiesPlace, &count);
                     }
-                    while (found.Again());
-                    var extremities = new Extremity[found.Length("extremities")];
+                    while (c.Again("hf_surface_find_extremities", result, ("capacity", count)));
+                    var extremities = new Extremity[c.Product("capacity")];
                     for (int i = 0; i < extremities.Length; ++i)
-                        extremities[i] = new Extremity((hf_extremity*)found.Place("extremities") + i);
+                        extremities[i] = new Extremity((hf_extremity*)extremitiesPlace + i);
                     return extremities;
                 }
             }
@@ -2825,24 +2825,24 @@ namespace Hf
                 hf_handle_proposals_desc* desc = &descStruct;
                 desc->joints = (IntPtr)c.Array(joints, "joints", "joint_count", "3");
                 desc->parents = (IntPtr)c.Array(parents, "parents", "joint_count");
-                c.Fixed(up, "up", 3, desc->up);
+                c.Fit(up, "up", "3");
+                for (int i = 0; up != null && i < up.Length; ++i) desc->up[i] = up[i];
                 desc->progress = c.Handle(progress);
                 desc->joint_count = (uint)c.Count("joint_count", 0);
                 uint count = 0;
-                var found = new Growth(c, this, "hf_surface_propose_handles");
-                found.Room("capacity", null);
-                found.Rows("proposals", sizeof(hf_handle_proposal), "capacity");
+                void* proposalsPlace = null;
+                c.Room("capacity", "hf_surface_propose_handles.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_propose_handles(RawHandle, desc, (uint)found["capacity"],
-                            found.Place("proposals"), &count);
-                        found.Told("capacity", count);
+                        proposalsPlace = c.Rows(sizeof(hf_handle_proposal), "capacity");
+                        result = Functions.hf_surface_propose_handles(RawHandle, desc, (uint)c.Size("capacity"),
+                            proposalsPlace, &count);
                 }
-                while (found.Again());
-                var proposals = new HandleProposal[found.Length("proposals")];
+                while (c.Again("hf_surface_propose_handles", result, ("capacity", count)));
+                var proposals = new HandleProposal[c.Product("capacity")];
                 for (int i = 0; i < proposals.Length; ++i)
-                    proposals[i] = new HandleProposal((hf_handle_proposal*)found.Place("proposals") + i);
+                    proposals[i] = new HandleProposal((hf_handle_proposal*)proposalsPlace + i);
                 return proposals;
             }
         }
@@ -2884,14 +2884,14 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_solver_desc { struct_size = (uint)sizeof(hf_solver_desc),
                     field_kind = (int)fieldKind, channel_count = channelCount, site_limit = siteLimit };
                 hf_solver_desc* desc = &descStruct;
-                c.Known("channel_count", channelCount == 0 ? 1 : channelCount);
+                c.Sizes["channel_count"] = (int)Math.Min(channelCount == 0 ? 1 : channelCount, int.MaxValue);
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_solver_destroy, c, "channel_count", "vertex_count");
             }
         }
@@ -2948,7 +2948,7 @@ namespace Hf
                 hf_sites_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "site_count");
                 var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "site_count");
-                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(c, placesRows + i);
                 desc->places = (IntPtr)placesRows;
                 desc->points = (IntPtr)c.Array(points, "points", "site_count", "3");
                 desc->values = (IntPtr)c.Array(values, "values", "site_count", "channel_count");
@@ -3018,7 +3018,7 @@ namespace Hf
                 hf_sites_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "site_count");
                 var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "site_count");
-                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(c, placesRows + i);
                 desc->places = (IntPtr)placesRows;
                 desc->points = (IntPtr)c.Array(points, "points", "site_count", "3");
                 desc->values = (IntPtr)c.Array(values, "values", "site_count", "channel_count");
@@ -3096,34 +3096,32 @@ namespace Hf
             {
                 var infoStruct = new hf_sites_info { struct_size = (uint)sizeof(hf_sites_info) };
                 hf_sites_info* info = &infoStruct;
-                var found = new Growth(c, this, "hf_solver_get_sites");
-                found.Room("capacity", null);
-                found.Array<uint>("sites", "capacity");
-                found.Array<uint>("vertices", "capacity");
-                found.Array<uint>("components", "capacity");
-                found.Array<double>("values", "capacity", "channel_count");
-                found.Array<double>("stiffness", "capacity");
-                found.Array<double>("flux", "capacity", "channel_count");
-                found.Array<double>("radii", "capacity");
+                uint[] allSites = null;
+                uint[] allVertices = null;
+                uint[] allComponents = null;
+                double[] allValues = null;
+                double[] allStiffness = null;
+                double[] allFlux = null;
+                double[] allRadii = null;
+                c.Room("capacity", "hf_solver_get_sites.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        info->capacity = (uint)found["capacity"];
-                        info->sites = (IntPtr)found.Place("sites");
-                        info->vertices = (IntPtr)found.Place("vertices");
-                        info->components = (IntPtr)found.Place("components");
-                        info->values = (IntPtr)found.Place("values");
-                        info->stiffness = (IntPtr)found.Place("stiffness");
-                        info->flux = (IntPtr)found.Place("flux");
-                        info->radii = (IntPtr)found.Place("radii");
-                        found.Result = Functions.hf_solver_get_sites(RawHandle, info);
-                        found.Told("capacity", info->count);
+                        info->capacity = (uint)c.Size("capacity");
+                        info->sites = c.Make(out allSites, "capacity");
+                        info->vertices = c.Make(out allVertices, "capacity");
+                        info->components = c.Make(out allComponents, "capacity");
+                        info->values = c.Make(out allValues, "capacity", "channel_count");
+                        info->stiffness = c.Make(out allStiffness, "capacity");
+                        info->flux = c.Make(out allFlux, "capacity", "channel_count");
+                        info->radii = c.Make(out allRadii, "capacity");
+                        result = Functions.hf_solver_get_sites(RawHandle, info);
                 }
-                while (found.Again());
-                return new SitesInfo { Sites = found.Take<uint>("sites"), Vertices = found.Take<uint>("vertices"),
-                    Components = found.Take<uint>("components"), Values = found.Take<double>("values"),
-                    Stiffness = found.Take<double>("stiffness"), Flux = found.Take<double>("flux"),
-                    Radii = found.Take<double>("radii") };
+                while (c.Again("hf_solver_get_sites", result, ("capacity", info->count)));
+                return new SitesInfo { Sites = c.Cut(allSites, "capacity"), Vertices = c.Cut(allVertices, "capacity"),
+                    Components = c.Cut(allComponents, "capacity"), Values = c.Cut(allValues, "capacity",
+                    "channel_count"), Stiffness = c.Cut(allStiffness, "capacity"), Flux = c.Cut(allFlux, "capacity",
+                    "channel_count"), Radii = c.Cut(allRadii, "capacity") };
             }
         }
 
@@ -3234,7 +3232,7 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                c.Forget("vertex_count");  // of the list given here
+                c.Sizes.Remove("vertex_count");  // of the list given here
                 void* vertices_ = c.Array(vertices, "vertices", "vertex_count");
                 var values = new double[c.Product("vertex_count", "channel_count")];
                 var valuesPlace = (double*)c.Pin(values);
@@ -3561,13 +3559,13 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_geodesics_desc { struct_size = (uint)sizeof(hf_geodesics_desc),
                     method = (int)method, smoothing = smoothing };
                 hf_geodesics_desc* desc = &descStruct;
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_geodesics_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_geodesics_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_geodesics_destroy, c, "vertex_count");
             }
         }
@@ -3660,25 +3658,24 @@ namespace Hf
             {
                 var pathStruct = new hf_path { struct_size = (uint)sizeof(hf_path) };
                 hf_path* path = &pathStruct;
-                var found = new Growth(c, this, "hf_geodesics_find_path");
-                found.Room("point_capacity", null);
-                found.Array<uint>("point_edges", "point_capacity", "2");
-                found.Array<double>("parameters", "point_capacity");
-                found.Array<double>("positions", "point_capacity", "3");
+                uint[] allPointEdges = null;
+                double[] allParameters = null;
+                double[] allPositions = null;
+                c.Room("point_capacity", "hf_geodesics_find_path.point_capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        path->point_capacity = (uint)found["point_capacity"];
-                        path->point_edges = (IntPtr)found.Place("point_edges");
-                        path->parameters = (IntPtr)found.Place("parameters");
-                        path->positions = (IntPtr)found.Place("positions");
-                        found.Result = Functions.hf_geodesics_find_path(RawHandle, c.Place(from, "from"), c.Place(to,
-                            "to"), path);
-                        found.Told("point_capacity", path->point_count);
+                        path->point_capacity = (uint)c.Size("point_capacity");
+                        path->point_edges = c.Make(out allPointEdges, "point_capacity", "2");
+                        path->parameters = c.Make(out allParameters, "point_capacity");
+                        path->positions = c.Make(out allPositions, "point_capacity", "3");
+                        result = Functions.hf_geodesics_find_path(RawHandle, c.Place(from, "from"), c.Place(to, "to"),
+                            path);
                 }
-                while (found.Again());
-                return new SurfacePath { Length = path->length, PointEdges = found.Take<uint>("point_edges"),
-                    Parameters = found.Take<double>("parameters"), Positions = found.Take<double>("positions") };
+                while (c.Again("hf_geodesics_find_path", result, ("point_capacity", path->point_count)));
+                return new SurfacePath { Length = path->length, PointEdges = c.Cut(allPointEdges, "point_capacity",
+                    "2"), Parameters = c.Cut(allParameters, "point_capacity"), Positions = c.Cut(allPositions,
+                    "point_capacity", "3") };
             }
         }
 
@@ -3732,13 +3729,13 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_direction_desc { struct_size = (uint)sizeof(hf_direction_desc), degree = degree,
                     site_limit = siteLimit };
                 hf_direction_desc* desc = &descStruct;
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_direction_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_direction_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_direction_destroy, c, "vertex_count");
             }
         }
@@ -3867,20 +3864,22 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_direction_get_sites");
-                found.Room("capacity", null);
-                found.Array<uint>("sites", "capacity");
-                found.Array<uint>("vertices", "capacity");
-                found.Array<double>("vectors", "capacity", "3");
+                uint[] allSites = null;
+                uint[] allVertices = null;
+                double[] allVectors = null;
+                c.Room("capacity", "hf_direction_get_sites.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_direction_get_sites(RawHandle, (uint)found["capacity"],
-                            found.Place("sites"), found.Place("vertices"), found.Place("vectors"), &count);
-                        found.Told("capacity", count);
+                        void* sitesPlace = (void*)c.Make(out allSites, "capacity");
+                        void* verticesPlace = (void*)c.Make(out allVertices, "capacity");
+                        void* vectorsPlace = (void*)c.Make(out allVectors, "capacity", "3");
+                        result = Functions.hf_direction_get_sites(RawHandle, (uint)c.Size("capacity"), sitesPlace,
+                            verticesPlace, vectorsPlace, &count);
                 }
-                while (found.Again());
-                return (found.Take<uint>("sites"), found.Take<uint>("vertices"), found.Take<double>("vectors"));
+                while (c.Again("hf_direction_get_sites", result, ("capacity", count)));
+                return (c.Cut(allSites, "capacity"), c.Cut(allVertices, "capacity"), c.Cut(allVectors, "capacity",
+                    "3"));
             }
         }
 
@@ -3967,20 +3966,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_direction_get_singularities");
-                found.Room("capacity", null);
-                found.Rows("singularities", sizeof(hf_singularity), "capacity");
+                void* singularitiesPlace = null;
+                c.Room("capacity", "hf_direction_get_singularities.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_direction_get_singularities(RawHandle, (uint)found["capacity"],
-                            found.Place("singularities"), &count);
-                        found.Told("capacity", count);
+                        singularitiesPlace = c.Rows(sizeof(hf_singularity), "capacity");
+                        result = Functions.hf_direction_get_singularities(RawHandle, (uint)c.Size("capacity"),
+                            singularitiesPlace, &count);
                 }
-                while (found.Again());
-                var singularities = new Singularity[found.Length("singularities")];
+                while (c.Again("hf_direction_get_singularities", result, ("capacity", count)));
+                var singularities = new Singularity[c.Product("capacity")];
                 for (int i = 0; i < singularities.Length; ++i)
-                    singularities[i] = new Singularity((hf_singularity*)found.Place("singularities") + i);
+                    singularities[i] = new Singularity((hf_singularity*)singularitiesPlace + i);
                 return singularities;
             }
         }
@@ -4032,12 +4030,12 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_pose_desc { struct_size = (uint)sizeof(hf_pose_desc), band_count = bandCount,
                     iteration_count = iterationCount, group_count = groupCount };
                 hf_pose_desc* desc = &descStruct;
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_pose_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_pose_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_pose_destroy, c, "vertex_count");
             }
         }
@@ -4105,7 +4103,7 @@ namespace Hf
                     out desc->region_vertices);
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "handle_count");
                 var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "handle_count");
-                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(c, placesRows + i);
                 desc->places = (IntPtr)placesRows;
                 desc->points = (IntPtr)c.Array(points, "points", "handle_count", "3");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "handle_count");
@@ -4169,9 +4167,10 @@ namespace Hf
             {
                 void* handles_ = c.Array(handles, "handles", "handle_count");
                 var transforms = (hf_transform*)c.Rows(sizeof(hf_transform), "handle_count");
-                c.Spread(rotations, "rotations", 4, transforms->rotation, sizeof(hf_transform), "handle_count");
-                c.Spread(translations, "translations", 3, transforms->translation, sizeof(hf_transform),
-                    "handle_count");
+                c.Fit(rotations, "rotations", "4", "handle_count");
+                for (int i = 0; rotations != null && i < rotations.Length; ++i) transforms[i / 4].rotation[i % 4] = rotations[i];
+                c.Fit(translations, "translations", "3", "handle_count");
+                for (int i = 0; translations != null && i < translations.Length; ++i) transforms[i / 3].translation[i % 3] = translations[i];
                 HfException.Check(Functions.hf_pose_set_transforms(RawHandle, (uint)c.Count("handle_count", 1),
                     handles_, transforms));
             }
@@ -4189,8 +4188,10 @@ namespace Hf
             {
                 var transformStruct = new hf_transform();
                 hf_transform* transform = &transformStruct;
-                c.Fixed(rotation, "rotation", 4, transform->rotation);
-                c.Fixed(translation, "translation", 3, transform->translation);
+                c.Fit(rotation, "rotation", "4");
+                for (int i = 0; rotation != null && i < rotation.Length; ++i) transform->rotation[i] = rotation[i];
+                c.Fit(translation, "translation", "3");
+                for (int i = 0; translation != null && i < translation.Length; ++i) transform->translation[i] = translation[i];
                 HfException.Check(Functions.hf_pose_set_transform(RawHandle, handle, transform));
             }
         }
@@ -4282,7 +4283,7 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                c.Forget("vertex_count");  // of the list given here
+                c.Sizes.Remove("vertex_count");  // of the list given here
                 void* vertices_ = c.Array(vertices, "vertices", "vertex_count");
                 HfException.Check(Functions.hf_pose_set_rigid_pieces(RawHandle, (uint)c.Count("vertex_count", 1),
                     vertices_));
@@ -4428,7 +4429,7 @@ namespace Hf
                     iteration_count = iterationCount, restart = restart ? 1 : 0, refine = refine,
                     refine_from_last = refineFromLast ? 1 : 0, first_vertex = firstVertex, vertex_count = vertexCount };
                 hf_deform_desc* desc = &descStruct;
-                c.Known("vertex_count", vertexCount);
+                if (vertexCount != 0) c.Sizes["vertex_count"] = (int)Math.Min(vertexCount, int.MaxValue);
                 var @out = new float[c.Product("vertex_count", "3")];
                 var @outPlace = (float*)c.Pin(@out);
                 desc->positions = Call.Out(@outPlace, false, c.Size("vertex_count"));
@@ -4456,7 +4457,7 @@ namespace Hf
                     iteration_count = iterationCount, restart = restart ? 1 : 0, refine = refine,
                     refine_from_last = refineFromLast ? 1 : 0, first_vertex = firstVertex, vertex_count = vertexCount };
                 hf_deform_desc* desc = &descStruct;
-                c.Known("vertex_count", vertexCount);
+                if (vertexCount != 0) c.Sizes["vertex_count"] = (int)Math.Min(vertexCount, int.MaxValue);
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (float* @outPlace = &MemoryMarshal.GetReference(into))
                 {
@@ -4485,7 +4486,7 @@ namespace Hf
                     iteration_count = iterationCount, restart = restart ? 1 : 0, refine = refine,
                     refine_from_last = refineFromLast ? 1 : 0, first_vertex = firstVertex, vertex_count = vertexCount };
                 hf_deform_desc* desc = &descStruct;
-                c.Known("vertex_count", vertexCount);
+                if (vertexCount != 0) c.Sizes["vertex_count"] = (int)Math.Min(vertexCount, int.MaxValue);
                 var @out = new double[c.Product("vertex_count", "3")];
                 var @outPlace = (double*)c.Pin(@out);
                 desc->positions = Call.Out(@outPlace, true, c.Size("vertex_count"));
@@ -4513,7 +4514,7 @@ namespace Hf
                     iteration_count = iterationCount, restart = restart ? 1 : 0, refine = refine,
                     refine_from_last = refineFromLast ? 1 : 0, first_vertex = firstVertex, vertex_count = vertexCount };
                 hf_deform_desc* desc = &descStruct;
-                c.Known("vertex_count", vertexCount);
+                if (vertexCount != 0) c.Sizes["vertex_count"] = (int)Math.Min(vertexCount, int.MaxValue);
                 c.Need(into.Length, "into", "vertex_count", "3");
                 fixed (double* @outPlace = &MemoryMarshal.GetReference(into))
                 {
@@ -4565,41 +4566,38 @@ namespace Hf
                 var skinStruct = new hf_skin_info { struct_size = (uint)sizeof(hf_skin_info),
                     influence_count = influenceCount };
                 hf_skin_info* skin = &skinStruct;
-                c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
-                var found = new Growth(c, this, "hf_pose_get_skin");
-                found.Room("joint_capacity", "joint_count");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Array<double>("pivots", "joint_capacity", "3");
-                found.Array<double>("rotations", "joint_capacity", "4");
-                found.Array<double>("translations", "joint_capacity", "3");
-                found.Array<double>("axes", "joint_capacity", "4");
-                if (scales) found.Array<double>("scales", "joint_capacity", "3");
-                found.Array<uint>("vertex_joints", "vertex_capacity", "influence_count");
-                found.Array<float>("vertex_weights", "vertex_capacity", "influence_count");
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
+                double[] allPivots = null;
+                double[] allRotations = null;
+                double[] allTranslations = null;
+                double[] allAxes = null;
+                double[] allScales = null;
+                uint[] allVertexJoints = null;
+                float[] allVertexWeights = null;
+                c.Room("joint_capacity", "joint_count");
+                c.Room("vertex_capacity", "vertex_count");
+                int result;
                 do
                 {
-                        found.Begin();
-                        skin->joint_capacity = (uint)found["joint_capacity"];
-                        skin->vertex_capacity = (uint)found["vertex_capacity"];
-                        skin->pivots = (IntPtr)found.Place("pivots");
-                        skin->rotations = (IntPtr)found.Place("rotations");
-                        skin->translations = (IntPtr)found.Place("translations");
-                        skin->axes = (IntPtr)found.Place("axes");
-                        skin->scales = (IntPtr)found.Place("scales");
-                        skin->vertex_joints = (IntPtr)found.Place("vertex_joints");
-                        skin->vertex_weights = (IntPtr)found.Place("vertex_weights");
-                        found.Result = Functions.hf_pose_get_skin(RawHandle, skin);
-                        found.Told("joint_capacity", skin->joint_count);
-                        found.Told("vertex_capacity", skin->vertex_count);
-                        found.Told("joint_count", skin->joint_count);
-                        found.Told("vertex_count", skin->vertex_count);
+                        skin->joint_capacity = (uint)c.Size("joint_capacity");
+                        skin->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        skin->pivots = c.Make(out allPivots, "joint_capacity", "3");
+                        skin->rotations = c.Make(out allRotations, "joint_capacity", "4");
+                        skin->translations = c.Make(out allTranslations, "joint_capacity", "3");
+                        skin->axes = c.Make(out allAxes, "joint_capacity", "4");
+                        skin->scales = scales ? c.Make(out allScales, "joint_capacity", "3") : IntPtr.Zero;
+                        skin->vertex_joints = c.Make(out allVertexJoints, "vertex_capacity", "influence_count");
+                        skin->vertex_weights = c.Make(out allVertexWeights, "vertex_capacity", "influence_count");
+                        result = Functions.hf_pose_get_skin(RawHandle, skin);
                 }
-                while (found.Again());
-                return new SkinInfo { InfluenceCount = skin->influence_count, Pivots = found.Take<double>("pivots"),
-                    Rotations = found.Take<double>("rotations"), Translations = found.Take<double>("translations"),
-                    Axes = found.Take<double>("axes"), Scales = found.Take<double>("scales"),
-                    VertexJoints = found.Take<uint>("vertex_joints"),
-                    VertexWeights = found.Take<float>("vertex_weights") };
+                while (c.Again("hf_pose_get_skin", result, ("joint_capacity", skin->joint_count), ("vertex_capacity",
+                    skin->vertex_count)));
+                return new SkinInfo { InfluenceCount = skin->influence_count, Pivots = c.Cut(allPivots,
+                    "joint_capacity", "3"), Rotations = c.Cut(allRotations, "joint_capacity", "4"),
+                    Translations = c.Cut(allTranslations, "joint_capacity", "3"), Axes = c.Cut(allAxes,
+                    "joint_capacity", "4"), Scales = c.Cut(allScales, "joint_capacity", "3"),
+                    VertexJoints = c.Cut(allVertexJoints, "vertex_capacity", "influence_count"),
+                    VertexWeights = c.Cut(allVertexWeights, "vertex_capacity", "influence_count") };
             }
         }
 
@@ -4827,7 +4825,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_quads_desc { struct_size = (uint)sizeof(hf_quads_desc), face_count = faceCount,
                     edge_length = edgeLength, crease_angle = creaseAngle, relax_count = relaxCount };
                 hf_quads_desc* desc = &descStruct;
@@ -4839,13 +4837,14 @@ namespace Hf
                 desc->irregular_valences = (IntPtr)c.Array(irregularValences, "irregularValences", "irregular_count");
                 desc->irregular_directions = (IntPtr)c.Array(irregularDirections, "irregularDirections",
                     "irregular_count", "3");
-                c.Fixed(symmetryPlane, "symmetryPlane", 4, desc->symmetry_plane);
+                c.Fit(symmetryPlane, "symmetryPlane", "4");
+                for (int i = 0; symmetryPlane != null && i < symmetryPlane.Length; ++i) desc->symmetry_plane[i] = symmetryPlane[i];
                 desc->progress = c.Handle(progress);
                 desc->crease_count = (uint)c.Count("crease_count", 0);
                 desc->guide_count = (uint)c.Count("guide_count", 0);
                 desc->irregular_count = (uint)c.Count("irregular_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_quads_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_quads_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_quads_destroy, c);
             }
         }
@@ -4900,7 +4899,8 @@ namespace Hf
                 desc->irregular_valences = (IntPtr)c.Array(irregularValences, "irregularValences", "irregular_count");
                 desc->irregular_directions = (IntPtr)c.Array(irregularDirections, "irregularDirections",
                     "irregular_count", "3");
-                c.Fixed(symmetryPlane, "symmetryPlane", 4, desc->symmetry_plane);
+                c.Fit(symmetryPlane, "symmetryPlane", "4");
+                for (int i = 0; symmetryPlane != null && i < symmetryPlane.Length; ++i) desc->symmetry_plane[i] = symmetryPlane[i];
                 desc->progress = c.Handle(progress);
                 desc->crease_count = (uint)c.Count("crease_count", 0);
                 desc->guide_count = (uint)c.Count("guide_count", 0);
@@ -4933,33 +4933,31 @@ namespace Hf
             {
                 var meshStruct = new hf_quads_mesh { struct_size = (uint)sizeof(hf_quads_mesh) };
                 hf_quads_mesh* mesh = &meshStruct;
-                var found = new Growth(c, this, "hf_quads_get_mesh");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Room("face_capacity", null);
-                found.Array<double>("positions", "vertex_capacity", "3");
-                found.Array<uint>("faces", "face_capacity", "4");
-                found.Array<uint>("triangles", "vertex_capacity");
-                found.Array<double>("barycentrics", "vertex_capacity", "3");
-                found.Array<uint>("corners", "vertex_capacity", "3");
+                double[] allPositions = null;
+                uint[] allFaces = null;
+                uint[] allTriangles = null;
+                double[] allBarycentrics = null;
+                uint[] allCorners = null;
+                c.Room("vertex_capacity", "vertex_count");
+                c.Room("face_capacity", "hf_quads_get_mesh.face_capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        mesh->vertex_capacity = (uint)found["vertex_capacity"];
-                        mesh->face_capacity = (uint)found["face_capacity"];
-                        mesh->positions = (IntPtr)found.Place("positions");
-                        mesh->faces = (IntPtr)found.Place("faces");
-                        mesh->triangles = (IntPtr)found.Place("triangles");
-                        mesh->barycentrics = (IntPtr)found.Place("barycentrics");
-                        mesh->corners = (IntPtr)found.Place("corners");
-                        found.Result = Functions.hf_quads_get_mesh(RawHandle, mesh);
-                        found.Told("vertex_capacity", mesh->vertex_count);
-                        found.Told("face_capacity", mesh->face_count);
-                        found.Told("vertex_count", mesh->vertex_count);
+                        mesh->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        mesh->face_capacity = (uint)c.Size("face_capacity");
+                        mesh->positions = c.Make(out allPositions, "vertex_capacity", "3");
+                        mesh->faces = c.Make(out allFaces, "face_capacity", "4");
+                        mesh->triangles = c.Make(out allTriangles, "vertex_capacity");
+                        mesh->barycentrics = c.Make(out allBarycentrics, "vertex_capacity", "3");
+                        mesh->corners = c.Make(out allCorners, "vertex_capacity", "3");
+                        result = Functions.hf_quads_get_mesh(RawHandle, mesh);
                 }
-                while (found.Again());
-                return new QuadsMesh { Positions = found.Take<double>("positions"), Faces = found.Take<uint>("faces"),
-                    Triangles = found.Take<uint>("triangles"), Barycentrics = found.Take<double>("barycentrics"),
-                    Corners = found.Take<uint>("corners") };
+                while (c.Again("hf_quads_get_mesh", result, ("vertex_capacity", mesh->vertex_count), ("face_capacity",
+                    mesh->face_count)));
+                return new QuadsMesh { Positions = c.Cut(allPositions, "vertex_capacity", "3"), Faces = c.Cut(allFaces,
+                    "face_capacity", "4"), Triangles = c.Cut(allTriangles, "vertex_capacity"),
+                    Barycentrics = c.Cut(allBarycentrics, "vertex_capacity", "3"), Corners = c.Cut(allCorners,
+                    "vertex_capacity", "3") };
             }
         }
     }
@@ -4976,9 +4974,9 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_flow_create(c.Handle(surface), raw)));
+                HfException.Check(Library.Late(() => Functions.hf_flow_create(c.Handle(surface), raw)));
                 Own(*raw, Functions.hf_flow_destroy, c, "vertex_count");
             }
         }
@@ -4996,37 +4994,35 @@ namespace Hf
         {
             using (var c = new Call(this))
             {
-                hf_array field_Array = c.View(field, "field", "vertex_count");
+                hf_array field_Array = c.View(field?.Values, "field", "vertex_count");
                 hf_array* field_ = &field_Array;
                 var linesStruct = new hf_streamlines { struct_size = (uint)sizeof(hf_streamlines),
                     wanted_count = wantedCount };
                 hf_streamlines* lines = &linesStruct;
                 lines->seeds = (IntPtr)c.Array(seeds, "seeds", "seed_count");
                 lines->seed_count = (uint)c.Count("seed_count", 0);
-                var found = new Growth(c, this, "hf_flow_trace");
-                found.Room("point_capacity", null);
-                found.Room("line_capacity", null);
-                found.Array<double>("positions", "point_capacity", "3");
-                found.Array<double>("values", "point_capacity");
-                found.Array<uint>("line_starts", "line_capacity + 1");
-                found.Array<uint>("line_ends", "line_capacity", "2");
+                double[] allPositions = null;
+                double[] allValues = null;
+                uint[] allLineStarts = null;
+                uint[] allLineEnds = null;
+                c.Room("point_capacity", "hf_flow_trace.point_capacity");
+                c.Room("line_capacity", "hf_flow_trace.line_capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        lines->point_capacity = (uint)found["point_capacity"];
-                        lines->line_capacity = (uint)found["line_capacity"];
-                        lines->positions = (IntPtr)found.Place("positions");
-                        lines->values = (IntPtr)found.Place("values");
-                        lines->line_starts = (IntPtr)found.Place("line_starts");
-                        lines->line_ends = (IntPtr)found.Place("line_ends");
-                        found.Result = Functions.hf_flow_trace(RawHandle, field == null ? null : field_, lines);
-                        found.Told("point_capacity", lines->point_count);
-                        found.Told("line_capacity", lines->line_count);
+                        lines->point_capacity = (uint)c.Size("point_capacity");
+                        lines->line_capacity = (uint)c.Size("line_capacity");
+                        lines->positions = c.Make(out allPositions, "point_capacity", "3");
+                        lines->values = c.Make(out allValues, "point_capacity");
+                        lines->line_starts = c.Make(out allLineStarts, "line_capacity + 1");
+                        lines->line_ends = c.Make(out allLineEnds, "line_capacity", "2");
+                        result = Functions.hf_flow_trace(RawHandle, field == null ? null : field_, lines);
                 }
-                while (found.Again());
-                return new Streamlines { Positions = found.Take<double>("positions"),
-                    Values = found.Take<double>("values"), LineStarts = found.Take<uint>("line_starts"),
-                    LineEnds = found.Take<uint>("line_ends") };
+                while (c.Again("hf_flow_trace", result, ("point_capacity", lines->point_count), ("line_capacity",
+                    lines->line_count)));
+                return new Streamlines { Positions = c.Cut(allPositions, "point_capacity", "3"),
+                    Values = c.Cut(allValues, "point_capacity"), LineStarts = c.Cut(allLineStarts, "line_capacity + 1"),
+                    LineEnds = c.Cut(allLineEnds, "line_capacity", "2") };
             }
         }
 
@@ -5059,13 +5055,13 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_region_desc { struct_size = (uint)sizeof(hf_region_desc), @base = (int)@base };
                 hf_region_desc* desc = &descStruct;
-                desc->positions = c.View(positions, "positions", "vertex_count", "3");
+                desc->positions = c.View(positions?.Values, "positions", "vertex_count", "3");
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_region_create(c.Handle(surface), desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_region_create(c.Handle(surface), desc, raw)));
                 Own(*raw, Functions.hf_region_destroy, c, "vertex_count");
             }
         }
@@ -5157,18 +5153,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_region_get_vertices");
-                found.Room("capacity", null);
-                found.Array<uint>("vertices", "capacity");
+                uint[] allVertices = null;
+                c.Room("capacity", "hf_region_get_vertices.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_region_get_vertices(RawHandle, (int)list, (uint)found["capacity"],
-                            found.Place("vertices"), &count);
-                        found.Told("capacity", count);
+                        void* verticesPlace = (void*)c.Make(out allVertices, "capacity");
+                        result = Functions.hf_region_get_vertices(RawHandle, (int)list, (uint)c.Size("capacity"),
+                            verticesPlace, &count);
                 }
-                while (found.Again());
-                return found.Take<uint>("vertices");
+                while (c.Again("hf_region_get_vertices", result, ("capacity", count)));
+                return c.Cut(allVertices, "capacity");
             }
         }
 
@@ -5180,18 +5175,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_region_get_curve");
-                found.Room("capacity", null);
-                found.Array<double>("points", "capacity", "3");
+                double[] allPoints = null;
+                c.Room("capacity", "hf_region_get_curve.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_region_get_curve(RawHandle, (uint)found["capacity"],
-                            found.Place("points"), &count);
-                        found.Told("capacity", count);
+                        void* pointsPlace = (void*)c.Make(out allPoints, "capacity", "3");
+                        result = Functions.hf_region_get_curve(RawHandle, (uint)c.Size("capacity"), pointsPlace,
+                            &count);
                 }
-                while (found.Again());
-                return found.Take<double>("points");
+                while (c.Again("hf_region_get_curve", result, ("capacity", count)));
+                return c.Cut(allPoints, "capacity", "3");
             }
         }
 
@@ -5336,8 +5330,8 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("source", source);
-                c.Parent("target", target);
+                c.Parent("source.", source);
+                c.Parent("target.", target);
                 var descStruct = new hf_detail_desc { struct_size = (uint)sizeof(hf_detail_desc), scale = scale };
                 hf_detail_desc* desc = &descStruct;
                 desc->source_vertices = (IntPtr)c.Array(sourceVertices, "sourceVertices", "pair_count");
@@ -5345,8 +5339,8 @@ namespace Hf
                 desc->progress = c.Handle(progress);
                 desc->pair_count = (uint)c.Count("pair_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_detail_create(c.Handle(source), c.Handle(target), desc,
-                    raw)));
+                HfException.Check(Library.Late(() => Functions.hf_detail_create(c.Handle(source), c.Handle(target),
+                    desc, raw)));
                 Own(*raw, Functions.hf_detail_destroy, c, "vertex_count");
             }
         }
@@ -5486,18 +5480,19 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("source", source);
-                c.Parent("target", target);
+                c.Parent("source.", source);
+                c.Parent("target.", target);
                 var descStruct = new hf_retarget_desc { struct_size = (uint)sizeof(hf_retarget_desc),
                     root_motion = (int)rootMotion, leave_out = leaveOut, scale = scale };
                 hf_retarget_desc* desc = &descStruct;
                 desc->source_rest = (IntPtr)c.Array(sourceRest, "sourceRest", "source.joint_count", "10");
                 desc->target_rest = (IntPtr)c.Array(targetRest, "targetRest", "target.joint_count", "10");
-                c.Fixed(groundVelocity, "groundVelocity", 3, desc->ground_velocity);
+                c.Fit(groundVelocity, "groundVelocity", "3");
+                for (int i = 0; groundVelocity != null && i < groundVelocity.Length; ++i) desc->ground_velocity[i] = groundVelocity[i];
                 desc->progress = c.Handle(progress);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_retarget_create(c.Handle(source), c.Handle(target), desc,
-                    raw)));
+                HfException.Check(Library.Late(() => Functions.hf_retarget_create(c.Handle(source), c.Handle(target),
+                    desc, raw)));
                 Own(*raw, Functions.hf_retarget_destroy, c, "joint_count");
             }
         }
@@ -5566,20 +5561,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_retarget_get_chains");
-                found.Room("capacity", null);
-                found.Rows("chains", sizeof(hf_chain_match), "capacity");
+                void* chainsPlace = null;
+                c.Room("capacity", "hf_retarget_get_chains.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_retarget_get_chains(RawHandle, (uint)found["capacity"],
-                            found.Place("chains"), &count);
-                        found.Told("capacity", count);
+                        chainsPlace = c.Rows(sizeof(hf_chain_match), "capacity");
+                        result = Functions.hf_retarget_get_chains(RawHandle, (uint)c.Size("capacity"), chainsPlace,
+                            &count);
                 }
-                while (found.Again());
-                var chains = new ChainMatch[found.Length("chains")];
+                while (c.Again("hf_retarget_get_chains", result, ("capacity", count)));
+                var chains = new ChainMatch[c.Product("capacity")];
                 for (int i = 0; i < chains.Length; ++i)
-                    chains[i] = new ChainMatch((hf_chain_match*)found.Place("chains") + i);
+                    chains[i] = new ChainMatch((hf_chain_match*)chainsPlace + i);
                 return chains;
             }
         }
@@ -5591,18 +5585,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_retarget_get_partners");
-                found.Room("capacity", null);
-                found.Array<uint>("partners", "capacity");
+                uint[] allPartners = null;
+                c.Room("capacity", "hf_retarget_get_partners.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_retarget_get_partners(RawHandle, (uint)found["capacity"],
-                            found.Place("partners"), &count);
-                        found.Told("capacity", count);
+                        void* partnersPlace = (void*)c.Make(out allPartners, "capacity");
+                        result = Functions.hf_retarget_get_partners(RawHandle, (uint)c.Size("capacity"), partnersPlace,
+                            &count);
                 }
-                while (found.Again());
-                return found.Take<uint>("partners");
+                while (c.Again("hf_retarget_get_partners", result, ("capacity", count)));
+                return c.Cut(allPartners, "capacity");
             }
         }
 
@@ -5694,7 +5687,7 @@ namespace Hf
                 desc->joint_count = (uint)c.Count("joint_count", 0);
                 desc->travel_count = (uint)c.Count("travel_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_skeleton_create(desc, raw)));
+                HfException.Check(Library.Late(() => Functions.hf_skeleton_create(desc, raw)));
                 Own(*raw, Functions.hf_skeleton_destroy, c, "joint_count");
             }
         }
@@ -5720,20 +5713,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_skeleton_get_joints");
-                found.Room("capacity", null);
-                found.Rows("joints", sizeof(hf_joint_info), "capacity");
+                void* jointsPlace = null;
+                c.Room("capacity", "hf_skeleton_get_joints.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_skeleton_get_joints(RawHandle, (uint)found["capacity"],
-                            found.Place("joints"), &count);
-                        found.Told("capacity", count);
+                        jointsPlace = c.Rows(sizeof(hf_joint_info), "capacity");
+                        result = Functions.hf_skeleton_get_joints(RawHandle, (uint)c.Size("capacity"), jointsPlace,
+                            &count);
                 }
-                while (found.Again());
-                var joints = new JointInfo[found.Length("joints")];
+                while (c.Again("hf_skeleton_get_joints", result, ("capacity", count)));
+                var joints = new JointInfo[c.Product("capacity")];
                 for (int i = 0; i < joints.Length; ++i)
-                    joints[i] = new JointInfo((hf_joint_info*)found.Place("joints") + i);
+                    joints[i] = new JointInfo((hf_joint_info*)jointsPlace + i);
                 return joints;
             }
         }
@@ -5744,20 +5736,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_skeleton_get_chains");
-                found.Room("capacity", null);
-                found.Rows("chains", sizeof(hf_chain), "capacity");
+                void* chainsPlace = null;
+                c.Room("capacity", "hf_skeleton_get_chains.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_skeleton_get_chains(RawHandle, (uint)found["capacity"],
-                            found.Place("chains"), &count);
-                        found.Told("capacity", count);
+                        chainsPlace = c.Rows(sizeof(hf_chain), "capacity");
+                        result = Functions.hf_skeleton_get_chains(RawHandle, (uint)c.Size("capacity"), chainsPlace,
+                            &count);
                 }
-                while (found.Again());
-                var chains = new Chain[found.Length("chains")];
+                while (c.Again("hf_skeleton_get_chains", result, ("capacity", count)));
+                var chains = new Chain[c.Product("capacity")];
                 for (int i = 0; i < chains.Length; ++i)
-                    chains[i] = new Chain((hf_chain*)found.Place("chains") + i);
+                    chains[i] = new Chain((hf_chain*)chainsPlace + i);
                 return chains;
             }
         }
@@ -5768,18 +5759,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_skeleton_get_chain_joints");
-                found.Room("capacity", null);
-                found.Array<uint>("joints", "capacity");
+                uint[] allJoints = null;
+                c.Room("capacity", "hf_skeleton_get_chain_joints.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_skeleton_get_chain_joints(RawHandle, (uint)found["capacity"],
-                            found.Place("joints"), &count);
-                        found.Told("capacity", count);
+                        void* jointsPlace = (void*)c.Make(out allJoints, "capacity");
+                        result = Functions.hf_skeleton_get_chain_joints(RawHandle, (uint)c.Size("capacity"),
+                            jointsPlace, &count);
                 }
-                while (found.Again());
-                return found.Take<uint>("joints");
+                while (c.Again("hf_skeleton_get_chain_joints", result, ("capacity", count)));
+                return c.Cut(allJoints, "capacity");
             }
         }
 
@@ -5860,19 +5850,21 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("source", source);
-                c.Parent("target", target);
+                c.Parent("source.", source);
+                c.Parent("target.", target);
                 var descStruct = new hf_transfer_desc { struct_size = (uint)sizeof(hf_transfer_desc), mode = (int)mode,
                     cluster_count = clusterCount, ground = (int)ground, kernel_width = kernelWidth, scale = scale,
                     alignment_angle = alignmentAngle };
                 hf_transfer_desc* desc = &descStruct;
-                desc->source_rest = c.View(sourceRest, "sourceRest", "source.vertex_count", "3");
-                desc->target_rest = c.View(targetRest, "targetRest", "target.vertex_count", "3");
-                c.Fixed(sourceAxes, "sourceAxes", 9, desc->source_axes);
-                c.Fixed(targetAxes, "targetAxes", 9, desc->target_axes);
+                desc->source_rest = c.View(sourceRest?.Values, "sourceRest", "source.vertex_count", "3");
+                desc->target_rest = c.View(targetRest?.Values, "targetRest", "target.vertex_count", "3");
+                c.Fit(sourceAxes, "sourceAxes", "9");
+                for (int i = 0; sourceAxes != null && i < sourceAxes.Length; ++i) desc->source_axes[i] = sourceAxes[i];
+                c.Fit(targetAxes, "targetAxes", "9");
+                for (int i = 0; targetAxes != null && i < targetAxes.Length; ++i) desc->target_axes[i] = targetAxes[i];
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_transfer_create(c.Handle(source), c.Handle(target), desc,
-                    raw)));
+                HfException.Check(Library.Late(() => Functions.hf_transfer_create(c.Handle(source), c.Handle(target),
+                    desc, raw)));
                 Own(*raw, Functions.hf_transfer_destroy, c, "vertex_count");
             }
         }
@@ -6051,7 +6043,7 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions?.Values, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
@@ -6077,7 +6069,7 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions?.Values, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
@@ -6104,7 +6096,7 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions?.Values, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
@@ -6130,7 +6122,7 @@ namespace Hf
             {
                 var descStruct = new hf_transfer_frame { struct_size = (uint)sizeof(hf_transfer_frame) };
                 hf_transfer_frame* desc = &descStruct;
-                desc->source_positions = c.View(sourcePositions, "sourcePositions", "source.vertex_count", "3");
+                desc->source_positions = c.View(sourcePositions?.Values, "sourcePositions", "source.vertex_count", "3");
                 desc->hold_pairs = (IntPtr)c.Array(holdPairs, "holdPairs", "hold_count");
                 desc->hold_positions = (IntPtr)c.Array(holdPositions, "holdPositions", "hold_count", "3");
                 desc->hold_count = (uint)c.Count("hold_count", 0);
@@ -6177,41 +6169,38 @@ namespace Hf
                 var skinStruct = new hf_skin_info { struct_size = (uint)sizeof(hf_skin_info),
                     influence_count = influenceCount };
                 hf_skin_info* skin = &skinStruct;
-                c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
-                var found = new Growth(c, this, "hf_transfer_get_skin");
-                found.Room("joint_capacity", "joint_count");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Array<double>("pivots", "joint_capacity", "3");
-                found.Array<double>("rotations", "joint_capacity", "4");
-                found.Array<double>("translations", "joint_capacity", "3");
-                found.Array<double>("axes", "joint_capacity", "4");
-                if (scales) found.Array<double>("scales", "joint_capacity", "3");
-                found.Array<uint>("vertex_joints", "vertex_capacity", "influence_count");
-                found.Array<float>("vertex_weights", "vertex_capacity", "influence_count");
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
+                double[] allPivots = null;
+                double[] allRotations = null;
+                double[] allTranslations = null;
+                double[] allAxes = null;
+                double[] allScales = null;
+                uint[] allVertexJoints = null;
+                float[] allVertexWeights = null;
+                c.Room("joint_capacity", "joint_count");
+                c.Room("vertex_capacity", "vertex_count");
+                int result;
                 do
                 {
-                        found.Begin();
-                        skin->joint_capacity = (uint)found["joint_capacity"];
-                        skin->vertex_capacity = (uint)found["vertex_capacity"];
-                        skin->pivots = (IntPtr)found.Place("pivots");
-                        skin->rotations = (IntPtr)found.Place("rotations");
-                        skin->translations = (IntPtr)found.Place("translations");
-                        skin->axes = (IntPtr)found.Place("axes");
-                        skin->scales = (IntPtr)found.Place("scales");
-                        skin->vertex_joints = (IntPtr)found.Place("vertex_joints");
-                        skin->vertex_weights = (IntPtr)found.Place("vertex_weights");
-                        found.Result = Functions.hf_transfer_get_skin(RawHandle, skin);
-                        found.Told("joint_capacity", skin->joint_count);
-                        found.Told("vertex_capacity", skin->vertex_count);
-                        found.Told("joint_count", skin->joint_count);
-                        found.Told("vertex_count", skin->vertex_count);
+                        skin->joint_capacity = (uint)c.Size("joint_capacity");
+                        skin->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        skin->pivots = c.Make(out allPivots, "joint_capacity", "3");
+                        skin->rotations = c.Make(out allRotations, "joint_capacity", "4");
+                        skin->translations = c.Make(out allTranslations, "joint_capacity", "3");
+                        skin->axes = c.Make(out allAxes, "joint_capacity", "4");
+                        skin->scales = scales ? c.Make(out allScales, "joint_capacity", "3") : IntPtr.Zero;
+                        skin->vertex_joints = c.Make(out allVertexJoints, "vertex_capacity", "influence_count");
+                        skin->vertex_weights = c.Make(out allVertexWeights, "vertex_capacity", "influence_count");
+                        result = Functions.hf_transfer_get_skin(RawHandle, skin);
                 }
-                while (found.Again());
-                return new SkinInfo { InfluenceCount = skin->influence_count, Pivots = found.Take<double>("pivots"),
-                    Rotations = found.Take<double>("rotations"), Translations = found.Take<double>("translations"),
-                    Axes = found.Take<double>("axes"), Scales = found.Take<double>("scales"),
-                    VertexJoints = found.Take<uint>("vertex_joints"),
-                    VertexWeights = found.Take<float>("vertex_weights") };
+                while (c.Again("hf_transfer_get_skin", result, ("joint_capacity", skin->joint_count),
+                    ("vertex_capacity", skin->vertex_count)));
+                return new SkinInfo { InfluenceCount = skin->influence_count, Pivots = c.Cut(allPivots,
+                    "joint_capacity", "3"), Rotations = c.Cut(allRotations, "joint_capacity", "4"),
+                    Translations = c.Cut(allTranslations, "joint_capacity", "3"), Axes = c.Cut(allAxes,
+                    "joint_capacity", "4"), Scales = c.Cut(allScales, "joint_capacity", "3"),
+                    VertexJoints = c.Cut(allVertexJoints, "vertex_capacity", "influence_count"),
+                    VertexWeights = c.Cut(allVertexWeights, "vertex_capacity", "influence_count") };
             }
         }
 
@@ -6262,7 +6251,7 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var descStruct = new hf_joints_desc { struct_size = (uint)sizeof(hf_joints_desc) };
                 hf_joints_desc* desc = &descStruct;
                 desc->heads = (IntPtr)c.Array(heads, "heads", "joint_count", "3");
@@ -6273,10 +6262,10 @@ namespace Hf
                 desc->sources = (IntPtr)c.Array(sources, "sources", "joint_count");
                 desc->progress = c.Handle(progress);
                 desc->joint_count = (uint)c.Count("joint_count", 0);
-                c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
-                HfException.Check(Call.Late(() => Functions.hf_weights_create(c.Handle(surface), desc, influenceCount,
-                    raw)));
+                HfException.Check(Library.Late(() => Functions.hf_weights_create(c.Handle(surface), desc,
+                    influenceCount, raw)));
                 Own(*raw, Functions.hf_weights_destroy, c, "vertex_count");
             }
         }
@@ -6353,7 +6342,7 @@ namespace Hf
                 hf_pins_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "pin_count");
                 var placesRows = (hf_place*)c.Given(places, "places", sizeof(hf_place), "pin_count");
-                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(placesRows + i);
+                for (int i = 0; places != null && i < places.Length; ++i) places[i].Write(c, placesRows + i);
                 desc->places = (IntPtr)placesRows;
                 desc->points = (IntPtr)c.Array(points, "points", "pin_count", "3");
                 desc->radii = (IntPtr)c.Array(radii, "radii", "pin_count");
@@ -6395,26 +6384,24 @@ namespace Hf
             {
                 var weightsStruct = new hf_weights_out { struct_size = (uint)sizeof(hf_weights_out) };
                 hf_weights_out* weights = &weightsStruct;
-                var found = new Growth(c, this, "hf_weights_get");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Array<uint>("joints", "vertex_capacity", "influence_count");
-                found.Array<float>("weights", "vertex_capacity", "influence_count");
-                found.Array<byte>("origins", "vertex_capacity");
+                uint[] allJoints = null;
+                float[] allWeights = null;
+                byte[] allOrigins = null;
+                c.Room("vertex_capacity", "vertex_count");
+                int result;
                 do
                 {
-                        found.Begin();
-                        weights->vertex_capacity = (uint)found["vertex_capacity"];
-                        weights->joints = (IntPtr)found.Place("joints");
-                        weights->weights = (IntPtr)found.Place("weights");
-                        weights->origins = (IntPtr)found.Place("origins");
-                        found.Result = Functions.hf_weights_get(RawHandle, weights);
-                        found.Told("vertex_capacity", weights->vertex_count);
-                        found.Told("vertex_count", weights->vertex_count);
-                        found.Told("influence_count", weights->influence_count);
+                        weights->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        weights->joints = c.Make(out allJoints, "vertex_capacity", "influence_count");
+                        weights->weights = c.Make(out allWeights, "vertex_capacity", "influence_count");
+                        weights->origins = c.Make(out allOrigins, "vertex_capacity");
+                        result = Functions.hf_weights_get(RawHandle, weights);
                 }
-                while (found.Again());
-                return new WeightsOut { InfluenceCount = weights->influence_count, Joints = found.Take<uint>("joints"),
-                    Weights = found.Take<float>("weights"), Origins = found.Take<byte>("origins") };
+                while (c.Again("hf_weights_get", result, ("vertex_capacity", weights->vertex_count), ("influence_count",
+                    weights->influence_count)));
+                return new WeightsOut { InfluenceCount = weights->influence_count, Joints = c.Cut(allJoints,
+                    "vertex_capacity", "influence_count"), Weights = c.Cut(allWeights, "vertex_capacity",
+                    "influence_count"), Origins = c.Cut(allOrigins, "vertex_capacity") };
             }
         }
 
@@ -6425,19 +6412,19 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_weights_get_joints");
-                found.Room("capacity", null);
-                found.Array<uint>("flags", "capacity");
-                found.Array<uint>("vertex_counts", "capacity");
+                uint[] allFlags = null;
+                uint[] allVertexCounts = null;
+                c.Room("capacity", "hf_weights_get_joints.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_weights_get_joints(RawHandle, (uint)found["capacity"],
-                            found.Place("flags"), found.Place("vertex_counts"), &count);
-                        found.Told("capacity", count);
+                        void* flagsPlace = (void*)c.Make(out allFlags, "capacity");
+                        void* vertexCountsPlace = (void*)c.Make(out allVertexCounts, "capacity");
+                        result = Functions.hf_weights_get_joints(RawHandle, (uint)c.Size("capacity"), flagsPlace,
+                            vertexCountsPlace, &count);
                 }
-                while (found.Again());
-                return (found.Take<uint>("flags"), found.Take<uint>("vertex_counts"));
+                while (c.Again("hf_weights_get_joints", result, ("capacity", count)));
+                return (c.Cut(allFlags, "capacity"), c.Cut(allVertexCounts, "capacity"));
             }
         }
 
@@ -6482,18 +6469,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_weights_get_helpers");
-                found.Room("capacity", null);
-                found.Array<uint>("reasons", "capacity");
+                uint[] allReasons = null;
+                c.Room("capacity", "hf_weights_get_helpers.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_weights_get_helpers(RawHandle, c.Text(names),
-                            (uint)found["capacity"], found.Place("reasons"), &count);
-                        found.Told("capacity", count);
+                        void* reasonsPlace = (void*)c.Make(out allReasons, "capacity");
+                        result = Functions.hf_weights_get_helpers(RawHandle, c.Text(names), (uint)c.Size("capacity"),
+                            reasonsPlace, &count);
                 }
-                while (found.Again());
-                return found.Take<uint>("reasons");
+                while (c.Again("hf_weights_get_helpers", result, ("capacity", count)));
+                return c.Cut(allReasons, "capacity");
             }
         }
 
@@ -6519,41 +6505,39 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("source", source);
-                c.Parent("target", target);
+                c.Parent("source.", source);
+                c.Parent("target.", target);
                 var info = new hf_weights_transfer_info { struct_size = (uint)sizeof(hf_weights_transfer_info) };
                 var descStruct = new hf_weights_transfer_desc { struct_size = (uint)sizeof(hf_weights_transfer_desc),
                     distance = distance, angle = angle, influence_count = influenceCount };
                 hf_weights_transfer_desc* desc = &descStruct;
-                c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
                 desc->joints = (IntPtr)c.Array(joints, "joints", "source.vertex_count", "source_influence_count");
                 desc->weights = (IntPtr)c.Array(weights, "weights", "source.vertex_count", "source_influence_count");
                 desc->progress = c.Handle(progress);
                 desc->source_influence_count = (uint)c.Count("source_influence_count", 0);
                 var weights_Struct = new hf_weights_out { struct_size = (uint)sizeof(hf_weights_out) };
                 hf_weights_out* weights_ = &weights_Struct;
-                var found = new Growth(c, source, "hf_weights_transfer");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Array<uint>("joints", "vertex_capacity", "influence_count");
-                found.Array<float>("weights", "vertex_capacity", "influence_count");
-                found.Array<byte>("origins", "vertex_capacity");
+                uint[] allJoints = null;
+                float[] allWeights = null;
+                byte[] allOrigins = null;
+                c.Room("vertex_capacity", "vertex_count");
+                int result;
                 do
                 {
-                        found.Begin();
-                        weights_->vertex_capacity = (uint)found["vertex_capacity"];
-                        weights_->joints = (IntPtr)found.Place("joints");
-                        weights_->weights = (IntPtr)found.Place("weights");
-                        weights_->origins = (IntPtr)found.Place("origins");
-                        found.Result = Functions.hf_weights_transfer(c.Handle(source), c.Handle(target), desc, weights_,
+                        weights_->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        weights_->joints = c.Make(out allJoints, "vertex_capacity", "influence_count");
+                        weights_->weights = c.Make(out allWeights, "vertex_capacity", "influence_count");
+                        weights_->origins = c.Make(out allOrigins, "vertex_capacity");
+                        result = Functions.hf_weights_transfer(c.Handle(source), c.Handle(target), desc, weights_,
                             &info);
-                        found.Told("vertex_capacity", weights_->vertex_count);
-                        found.Told("vertex_count", weights_->vertex_count);
-                        found.Told("influence_count", weights_->influence_count);
                 }
-                while (found.Again());
-                return (new WeightsOut { InfluenceCount = weights_->influence_count,
-                    Joints = found.Take<uint>("joints"), Weights = found.Take<float>("weights"),
-                    Origins = found.Take<byte>("origins") }, new WeightsTransferInfo(&info));
+                while (c.Again("hf_weights_transfer", result, ("vertex_capacity", weights_->vertex_count),
+                    ("influence_count", weights_->influence_count)));
+                return (new WeightsOut { InfluenceCount = weights_->influence_count, Joints = c.Cut(allJoints,
+                    "vertex_capacity", "influence_count"), Weights = c.Cut(allWeights, "vertex_capacity",
+                    "influence_count"), Origins = c.Cut(allOrigins, "vertex_capacity") },
+                    new WeightsTransferInfo(&info));
             }
         }
 
@@ -6586,13 +6570,13 @@ namespace Hf
         {
             using (var c = new Call(null))
             {
-                c.Parent("surface", surface);
+                c.Parent("surface.", surface);
                 var info = new hf_weights_mirror_info { struct_size = (uint)sizeof(hf_weights_mirror_info) };
                 var statistics = new hf_weights_mirror_statistics { struct_size = (uint)sizeof(hf_weights_mirror_statistics) };
                 var descStruct = new hf_weights_mirror_desc { struct_size = (uint)sizeof(hf_weights_mirror_desc),
                     to = (int)to, distance = distance, angle = angle, influence_count = influenceCount };
                 hf_weights_mirror_desc* desc = &descStruct;
-                c.Known("influence_count", influenceCount == 0 ? 4 : influenceCount);
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 4 : influenceCount, int.MaxValue);
                 desc->heads = (IntPtr)c.Array(heads, "heads", "joint_count", "3");
                 desc->partners = (IntPtr)c.Array(partners, "partners", "joint_count");
                 desc->plane = (IntPtr)c.Array(plane, "plane", "6");
@@ -6608,29 +6592,26 @@ namespace Hf
                 var partners_Place = (uint*)c.Pin(partners_);
                 var pairings = new uint[c.Product("joint_count")];
                 var pairingsPlace = (uint*)c.Pin(pairings);
-                var found = new Growth(c, surface, "hf_weights_mirror");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Array<uint>("joints", "vertex_capacity", "influence_count");
-                found.Array<float>("weights", "vertex_capacity", "influence_count");
-                found.Array<byte>("origins", "vertex_capacity");
+                uint[] allJoints = null;
+                float[] allWeights = null;
+                byte[] allOrigins = null;
+                c.Room("vertex_capacity", "vertex_count");
+                int result;
                 do
                 {
-                        found.Begin();
-                        weights_->vertex_capacity = (uint)found["vertex_capacity"];
-                        weights_->joints = (IntPtr)found.Place("joints");
-                        weights_->weights = (IntPtr)found.Place("weights");
-                        weights_->origins = (IntPtr)found.Place("origins");
-                        found.Result = Functions.hf_weights_mirror(c.Handle(surface), desc, weights_, partners_Place,
+                        weights_->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        weights_->joints = c.Make(out allJoints, "vertex_capacity", "influence_count");
+                        weights_->weights = c.Make(out allWeights, "vertex_capacity", "influence_count");
+                        weights_->origins = c.Make(out allOrigins, "vertex_capacity");
+                        result = Functions.hf_weights_mirror(c.Handle(surface), desc, weights_, partners_Place,
                             pairingsPlace, &info, &statistics);
-                        found.Told("vertex_capacity", weights_->vertex_count);
-                        found.Told("vertex_count", weights_->vertex_count);
-                        found.Told("influence_count", weights_->influence_count);
                 }
-                while (found.Again());
-                return (new WeightsOut { InfluenceCount = weights_->influence_count,
-                    Joints = found.Take<uint>("joints"), Weights = found.Take<float>("weights"),
-                    Origins = found.Take<byte>("origins") }, partners_, pairings, new WeightsMirrorInfo(&info),
-                    new WeightsMirrorStatistics(&statistics));
+                while (c.Again("hf_weights_mirror", result, ("vertex_capacity", weights_->vertex_count),
+                    ("influence_count", weights_->influence_count)));
+                return (new WeightsOut { InfluenceCount = weights_->influence_count, Joints = c.Cut(allJoints,
+                    "vertex_capacity", "influence_count"), Weights = c.Cut(allWeights, "vertex_capacity",
+                    "influence_count"), Origins = c.Cut(allOrigins, "vertex_capacity") }, partners_, pairings,
+                    new WeightsMirrorInfo(&info), new WeightsMirrorStatistics(&statistics));
             }
         }
 

@@ -108,34 +108,6 @@ Value report(Surface& s, const Arguments&) {
                 {"non_manifold_edge_count", found.non_manifold_edge_count}});
 }
 
-Value surface_info(Surface& s, const Arguments&) {
-  auto info = make<hf_surface_info>();
-  check(hf_surface_get_info(s.get(), &info));
-  return named({{"vertex_count", info.vertex_count},
-                {"triangle_count", info.triangle_count},
-                {"weld", info.weld},
-                {"weld_tolerance", info.weld_tolerance},
-                {"operator_kind", info.operator_kind},
-                {"field_kind", info.field_kind},
-                {"ordering", info.ordering},
-                {"thread_count", info.thread_count},
-                {"vertex_limit", info.vertex_limit},
-                {"triangle_limit", info.triangle_limit},
-                {"memory_limit_mb", info.memory_limit_mb},
-                {"face_count", info.face_count},
-                {"corner_count", info.corner_count}});
-}
-
-Value surface_statistics(Surface& s, const Arguments&) {
-  auto figures = make<hf_surface_statistics>();
-  check(hf_surface_get_statistics(s.get(), &figures));
-  return named({{"factor_loaded", figures.factor_loaded},
-                {"factor_bytes", figures.factor_bytes},
-                {"memory_bytes", figures.memory_bytes},
-                {"numeric_ms", figures.numeric_ms},
-                {"load_ms", figures.load_ms}});
-}
-
 // components(): of every vertex; -1 for isolated ones
 Value components(Surface& s, const Arguments&) {
   Numbers found(s.vertex_count);
@@ -193,19 +165,12 @@ Value find_vertex(Surface& s, const Arguments& a) {
 }
 
 std::vector<Entry> all_methods() {
-  std::vector<Entry> all = {{"create", 2, 4, create},
-                            {"create_faces", 3, 5, create_faces},
-                            {"share_from", 1, 1, share_from},
-                            {"clone_from", 1, 1, clone_from},
-                            {"dispose", 0, 0, dispose},
-                            {"report", 0, 0, report},
-                            {"surface_info", 0, 0, surface_info},
-                            {"surface_statistics", 0, 0, surface_statistics},
-                            {"components", 0, 0, components},
-                            {"save", 0, 1, save},
-                            {"cast_ray", 2, 4, cast_ray},
-                            {"find_vertex", 1, 2, find_vertex}};
-  for (const auto& more : {solver_methods(), pose_methods(), field_methods(), region_methods()})
+  std::vector<Entry> all = {{"create", 2, 4, create},         {"create_faces", 3, 5, create_faces},
+                            {"share_from", 1, 1, share_from}, {"clone_from", 1, 1, clone_from},
+                            {"dispose", 0, 0, dispose},       {"report", 0, 0, report},
+                            {"components", 0, 0, components}, {"save", 0, 1, save},
+                            {"cast_ray", 2, 4, cast_ray},     {"find_vertex", 1, 2, find_vertex}};
+  for (const auto& more : {solver_methods(), pose_methods(), field_methods(), region_methods(), made_methods()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

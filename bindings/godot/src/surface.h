@@ -95,8 +95,10 @@ const std::vector<Entry>& solver_methods();  // those of surface_solver.cpp
 const std::vector<Entry>& pose_methods();    // those of surface_pose.cpp
 const std::vector<Entry>& field_methods();   // those of surface_fields.cpp
 const std::vector<Entry>& region_methods();  // those of surface_regions.cpp
+const std::vector<Entry>& made_methods();    // those of surface_made.cpp
 
 hf_solver solver_of(Surface& surface);  // made when there is none
+hf_pose pose_of(Surface& surface);
 
 // Calls a method; a failure is kept in the surface and gives Value::nothing.
 Value call(Surface& surface, const Entry& entry, const Arguments& arguments) noexcept;

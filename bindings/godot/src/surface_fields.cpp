@@ -179,36 +179,6 @@ Value direction_add_sites(Surface& s, const Arguments& a) {
   return numbers(made);
 }
 
-Value direction_remove_sites(Surface& s, const Arguments& a) {
-  const List sites = integers(at(a, 0), "sites");
-  check(hf_direction_remove_sites(s.direction.get(), sites.count(), sites.data()));
-  return done();
-}
-
-// direction_move_sites(sites, vertices)
-Value direction_move_sites(Surface& s, const Arguments& a) {
-  const List sites = integers(at(a, 0), "sites"), vertices = integers(at(a, 1), "vertices");
-  if (sites.count() != vertices.count()) fail("sites and vertices must be of one length");
-  check(hf_direction_move_sites(s.direction.get(), sites.count(), sites.data(), vertices.data()));
-  return done();
-}
-
-// direction_set_vectors(sites, vectors)
-Value direction_set_vectors(Surface& s, const Arguments& a) {
-  const List sites = integers(at(a, 0), "sites");
-  const double* given = doubles(at(a, 1), 3 * size_t{sites.count()}, "vectors");
-  check(hf_direction_set_vectors(s.direction.get(), sites.count(), sites.data(), given));
-  return done();
-}
-
-// direction_rotate_sites(sites, angles)
-Value direction_rotate_sites(Surface& s, const Arguments& a) {
-  const List sites = integers(at(a, 0), "sites");
-  const double* angles = doubles(at(a, 1), sites.count(), "angles");
-  check(hf_direction_rotate_sites(s.direction.get(), sites.count(), sites.data(), angles));
-  return done();
-}
-
 Value direction_record(Surface& s, const Arguments&) {
   return s.direction_history.record(hf::clone_of(s.direction, hf_direction_clone)), done();
 }
@@ -297,13 +267,6 @@ hf_quads_info info_of(const Surface& s) {
   return info;
 }
 
-Value quads_info(Surface& s, const Arguments&) {
-  const hf_quads_info info = info_of(s);
-  return named({{"vertex_count", info.vertex_count},
-                {"face_count", info.face_count},
-                {"euler_characteristic", info.euler_characteristic}});
-}
-
 Value quads_positions(Surface& s, const Arguments&) {
   auto mesh = make<hf_quads_mesh>();
   mesh.vertex_capacity = info_of(s).vertex_count;
@@ -361,10 +324,6 @@ const std::vector<Entry>& field_methods() {
       {"propose_handles", 0, 0, propose_handles},
       {"direction_create", 0, 1, direction_create},
       {"direction_add_sites", 2, 2, direction_add_sites},
-      {"direction_remove_sites", 1, 1, direction_remove_sites},
-      {"direction_move_sites", 2, 2, direction_move_sites},
-      {"direction_set_vectors", 2, 2, direction_set_vectors},
-      {"direction_rotate_sites", 2, 2, direction_rotate_sites},
       {"direction_record", 0, 0, direction_record},
       {"direction_undo", 0, 0, direction_undo},
       {"direction_redo", 0, 0, direction_redo},
@@ -373,7 +332,6 @@ const std::vector<Entry>& field_methods() {
       {"direction_singularities", 0, 0, direction_singularities},
       {"quads_create", 0, 9, quads_create},
       {"quads_update", 0, 9, quads_update},
-      {"quads_info", 0, 0, quads_info},
       {"quads_positions", 0, 0, quads_positions},
       {"quads_faces", 0, 0, quads_faces},
       {"streamlines", 2, 3, streamlines},

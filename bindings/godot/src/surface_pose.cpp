@@ -2,11 +2,12 @@
 #include "arguments.h"
 
 namespace hf_godot {
-namespace {
 
 hf_pose pose_of(Surface& s) {
   return make_once(s.pose, [&](hf_pose* out) { return hf_pose_create(s.get(), nullptr, out); });
 }
+
+namespace {
 
 // pose_create(options = {}): replaces the pose; without it the first call makes one of defaults
 Value pose_create(Surface& s, const Arguments& a) {
@@ -16,16 +17,6 @@ Value pose_create(Surface& s, const Arguments& a) {
                           {"group_count", &desc.group_count}});
   make_again(s.pose, [&](hf_pose* out) { return hf_pose_create(s.get(), &desc, out); });
   return done();
-}
-
-Value pose_info(Surface& s, const Arguments&) {
-  auto info = make<hf_pose_info>();
-  check(hf_pose_get_info(pose_of(s), &info));
-  return named({{"band_count", info.band_count},
-                {"iteration_count", info.iteration_count},
-                {"group_count", info.group_count},
-                {"handle_count", info.handle_count},
-                {"vertex_count", info.vertex_count}});
 }
 
 // add_handles(regions, layer = 0, in_place = false, free_rotation = false). in_place: the handles start where the posed
@@ -68,19 +59,6 @@ Value add_handle_at(Surface& s, const Arguments& a) {
   uint32_t made = 0;
   check(hf_pose_add_handle_at(pose_of(s), doubles(at(a, 0), 3, "point"), at(a, 1).number, &made));
   return number(made);
-}
-
-// set_free_rotations(handles, free): true: the pose finds the rotations; false: they are given, from where they stand
-Value set_free_rotations(Surface& s, const Arguments& a) {
-  const List handles = integers(at(a, 0), "handles");
-  check(hf_pose_set_free_rotations(pose_of(s), handles.count(), handles.data(), signed_whole(at(a, 1).number, "free")));
-  return done();
-}
-
-Value remove_handles(Surface& s, const Arguments& a) {
-  const List handles = integers(at(a, 0), "handles");
-  check(hf_pose_remove_handles(pose_of(s), handles.count(), handles.data()));
-  return done();
 }
 
 // handles, quaternions x y z w flat or null, translations flat or null
@@ -256,17 +234,6 @@ Value transfer_set_dials(Surface& s, const Arguments& a) {
   return done();
 }
 
-Value transfer_dials(Surface& s, const Arguments&) {
-  auto dials = make<hf_transfer_dials>();
-  check(hf_transfer_get_dials(s.transfer.get(), &dials));
-  return named({{"stride", dials.stride},
-                {"hip_height_share", dials.hip_height_share},
-                {"neck_follow", dials.neck_follow},
-                {"tail_follow", dials.tail_follow},
-                {"arm_space", dials.arm_space},
-                {"long_follow", dials.long_follow}});
-}
-
 // A number for every vertex of the target: 1 where it may sink into the ground.
 Value transfer_sinking(Surface& s, const Arguments&) {
   std::vector<uint8_t> sinking(s.target_count + 1);
@@ -291,12 +258,9 @@ Value transfer_apply(Surface& s, const Arguments& a) {
 const std::vector<Entry>& pose_methods() {
   static const std::vector<Entry> all = {
       {"pose_create", 0, 1, pose_create},
-      {"pose_info", 0, 0, pose_info},
       {"add_handles", 1, 4, add_handles},
       {"add_handles_at", 2, 5, add_handles_at},
       {"add_handle_at", 2, 2, add_handle_at},
-      {"set_free_rotations", 2, 2, set_free_rotations},
-      {"remove_handles", 1, 1, remove_handles},
       {"set_transforms", 3, 3, set_transforms},
       {"set_transform", 2, 3, set_transform},
       {"handle_info", 1, 1, handle_info},
@@ -308,7 +272,6 @@ const std::vector<Entry>& pose_methods() {
       {"skin_weights", 0, 1, skin_weights},
       {"transfer_to", 3, 5, transfer_to},
       {"transfer_set_dials", 0, 6, transfer_set_dials},
-      {"transfer_dials", 0, 0, transfer_dials},
       {"transfer_sinking", 0, 0, transfer_sinking},
       {"transfer_apply", 1, 1, transfer_apply},
   };

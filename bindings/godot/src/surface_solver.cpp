@@ -59,24 +59,12 @@ Value add_site(Surface& s, const Arguments& a) {
   return number(made[0]);
 }
 
-Value remove_sites(Surface& s, const Arguments& a) {
-  const List sites = integers(at(a, 0), "sites");
-  check(hf_remove_sites(solver_of(s), sites.count(), sites.data()));
-  return done();
-}
-
 Value move_sites(Surface& s, const Arguments& a) {
   const List sites = integers(at(a, 0), "sites"), vertices = integers(at(a, 1), "vertices");
   auto to = make<hf_sites_desc>();
   to.site_count = vertices.count();
   to.vertices = vertices.data();
   check(hf_solver_move_sites(solver_of(s), sites.count(), sites.data(), &to));
-  return done();
-}
-
-Value set_values(Surface& s, const Arguments& a) {
-  const List sites = integers(at(a, 0), "sites");
-  check(hf_solver_set_values(solver_of(s), sites.count(), sites.data(), doubles(at(a, 1), sites.count(), "values")));
   return done();
 }
 
@@ -148,24 +136,6 @@ Value certify(Surface& s, const Arguments& a) {
                 {"worst_vertex", found.worst_vertex}});
 }
 
-Value statistics(Surface& s, const Arguments&) {
-  auto figures = make<hf_solver_statistics>();
-  check(hf_solver_get_statistics(solver_of(s), &figures));
-  return named({{"site_count", figures.site_count},
-                {"factorisation_count", figures.factorisation_count},
-                {"site_memory_bytes", figures.site_memory_bytes}});
-}
-
-Value solver_info(Surface& s, const Arguments&) {
-  auto info = make<hf_solver_info>();
-  check(hf_solver_get_info(solver_of(s), &info));
-  return named({{"field_kind", info.field_kind},
-                {"channel_count", info.channel_count},
-                {"site_limit", info.site_limit},
-                {"site_count", info.site_count},
-                {"vertex_count", info.vertex_count}});
-}
-
 }  // namespace
 
 const std::vector<Entry>& solver_methods() {
@@ -173,9 +143,7 @@ const std::vector<Entry>& solver_methods() {
       {"solver_create", 0, 1, solver_create},
       {"add_sites", 2, 5, add_sites},
       {"add_site", 1, 2, add_site},
-      {"remove_sites", 1, 1, remove_sites},
       {"move_sites", 2, 2, move_sites},
-      {"set_values", 2, 2, set_values},
       {"edit_sites", 7, 7, edit_sites},
       {"record", 0, 0, record},
       {"undo", 0, 0, undo},
@@ -183,8 +151,6 @@ const std::vector<Entry>& solver_methods() {
       {"solve", 0, 0, solve},
       {"solve_at", 1, 1, solve_at},
       {"certify", 0, 1, certify},
-      {"statistics", 0, 0, statistics},
-      {"solver_info", 0, 0, solver_info},
   };
   return all;
 }

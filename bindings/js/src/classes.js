@@ -1,12 +1,13 @@
 // Generated from include/hf/*.h by bindings/generate; do not edit. The classes, over a backend.
 
-export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, none, written }) {
+export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handleOf, newHandle, none, read, scalar, written }) {
 
   const factorDesc = (c, prefix, options) => {
     const { bytes = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_factor_desc', {});
-    c.bytes(desc, 'bytes', 'byte_count', bytes, 'bytes');
+    desc.set('bytes', c.array('bytes', bytes, 'u1', [prefix + 'byte_count'])).set('byte_count',
+            c.n[prefix + 'byte_count']);
     return desc;
   };
 
@@ -15,16 +16,18 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             heavyVertices = null, mode = 0, distance = 0, stiffness = 0, overlayDistance = 0, ...more } = options;
     none(more);
     const desc = c.struct('hf_links_desc', { mode, distance, stiffness, overlay_distance: overlayDistance });
-    c.rows(desc, 'joints', 'joints', joints, 'u2', ['vertex_count', prefix + 'influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', ['vertex_count', prefix + 'influence_count']);
-    c.rows(desc, 'joint_parents', 'jointParents', jointParents, 'u4', [prefix + 'joint_count']);
-    c.rows(desc, 'tags', 'tags', tags, 'u4', ['vertex_count']);
-    desc.set('links', c.written('links', links, 'hf_link', [prefix + 'link_count']));
-    c.rows(desc, 'light_vertices', 'lightVertices', lightVertices, 'u4', [prefix + 'light_count']);
-    c.rows(desc, 'heavy_vertices', 'heavyVertices', heavyVertices, 'u4', [prefix + 'heavy_count']);
-    c.counts(desc, { influence_count: [prefix + 'influence_count', 0], link_count: [prefix + 'link_count', 0],
-            light_count: [prefix + 'light_count', 0], heavy_count: [prefix + 'heavy_count', 0],
-            joint_count: [prefix + 'joint_count', 0] });
+    desc.set('joints', c.array('joints', joints, 'u2', ['vertex_count', prefix + 'influence_count']));
+    desc.set('weights', c.array('weights', weights, 'f4', ['vertex_count', prefix + 'influence_count']));
+    desc.set('joint_parents', c.array('jointParents', jointParents, 'u4', [prefix + 'joint_count']));
+    desc.set('tags', c.array('tags', tags, 'u4', ['vertex_count']));
+    desc.set('links', c.rows('links', links, [prefix + 'link_count'], (row) => c.struct('hf_link', row)));
+    desc.set('light_vertices', c.array('lightVertices', lightVertices, 'u4', [prefix + 'light_count']));
+    desc.set('heavy_vertices', c.array('heavyVertices', heavyVertices, 'u4', [prefix + 'heavy_count']));
+    desc.set('influence_count', (c.n[prefix + 'influence_count'] ??= 0));
+    desc.set('link_count', (c.n[prefix + 'link_count'] ??= 0));
+    desc.set('light_count', (c.n[prefix + 'light_count'] ??= 0));
+    desc.set('heavy_count', (c.n[prefix + 'heavy_count'] ??= 0));
+    desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
     return desc;
   };
 
@@ -32,9 +35,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { corners = null, sizes = null, starts = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_faces_desc', {});
-    desc.set('corners', c.view('corners', corners, 'u4', ['corner_count']));
-    desc.set('sizes', c.view('sizes', sizes, 'u4', ['faces']));
-    desc.set('starts', c.view('starts', starts, 'u4', sizes ? ['faces'] : ['faces + 1']));
+    desc.set('corners', c.viewOf('hf_array', read, corners && c.numbers('corners', corners, 'u4', ['corner_count']),
+            ['corner_count']));
+    desc.set('sizes', c.viewOf('hf_array', read, sizes && c.numbers('sizes', sizes, 'u4', ['faces']), ['faces']));
+    desc.set('starts', c.viewOf('hf_array', read, starts && c.numbers('starts', starts, 'u4',
+            sizes ? ['faces'] : ['faces + 1']), sizes ? ['faces'] : ['faces + 1']));
     return desc;
   };
 
@@ -46,8 +51,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const desc = c.struct('hf_surface_desc', { weld, weld_tolerance: weldTolerance, operator_kind: operatorKind,
             field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
             triangle_limit: triangleLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
-    desc.set('positions', c.view('positions', positions, 'f4 f8', ['vertex_count', 3]));
-    desc.set('triangles', c.view('triangles', triangles, 'u4 u2', ['triangle_count', 3]));
+    desc.set('positions', c.viewOf('hf_array', read, positions && c.numbers('positions', positions, 'f4 f8',
+            ['vertex_count', 3]), ['vertex_count', 3]));
+    desc.set('triangles', c.viewOf('hf_array', read, triangles && c.numbers('triangles', triangles, 'u4 u2',
+            ['triangle_count', 3]), ['triangle_count', 3]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('faces', c.inner(faces, 'corners', facesDesc, 'faces.'));
     desc.set('saved_factor', c.inner(savedFactor, 'bytes', factorDesc, 'saved_factor.'));
@@ -63,10 +70,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const desc = c.struct('hf_graph_desc', { vertex_count: vertexCount, allow_negative: allowNegative,
             field_kind: fieldKind, ordering, thread_count: threadCount, vertex_limit: vertexLimit,
             edge_limit: edgeLimit, memory_limit_mb: memoryLimitMb, work_limit_gflop: workLimitGflop });
-    c.known('vertex_count', vertexCount);
-    desc.set('edges', c.view('edges', edges, 'u4 u2', ['edge_count', 2]));
-    desc.set('weights', c.view('weights', weights, 'f4 f8', ['edge_count']));
-    desc.set('masses', c.view('masses', masses, 'f4 f8', ['vertex_count']));
+    if (scalar('u32', vertexCount, 'vertexCount')) c.n.vertex_count = vertexCount;
+    desc.set('edges', c.viewOf('hf_array', read, edges && c.numbers('edges', edges, 'u4 u2', ['edge_count', 2]),
+            ['edge_count', 2]));
+    desc.set('weights', c.viewOf('hf_array', read, weights && c.numbers('weights', weights, 'f4 f8', ['edge_count']),
+            ['edge_count']));
+    desc.set('masses', c.viewOf('hf_array', read, masses && c.numbers('masses', masses, 'f4 f8', ['vertex_count']),
+            ['vertex_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('saved_factor', c.inner(savedFactor, 'bytes', factorDesc, 'saved_factor.'));
     return desc;
@@ -76,7 +86,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { positions = null, frontOnly = false, ...more } = options;
     none(more);
     const desc = c.struct('hf_pick_desc', { front_only: frontOnly });
-    desc.set('positions', c.view('positions', positions, 'f4 f8', ['vertex_count', 3]));
+    desc.set('positions', c.viewOf('hf_array', read, positions && c.numbers('positions', positions, 'f4 f8',
+            ['vertex_count', 3]), ['vertex_count', 3]));
     return desc;
   };
 
@@ -85,7 +96,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_solver_desc', { field_kind: fieldKind, channel_count: channelCount,
             site_limit: siteLimit });
-    c.known('channel_count', channelCount || 1);
+    c.n.channel_count = scalar('u32', channelCount, 'channelCount') || 1;
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
   };
@@ -95,13 +106,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_sites_desc', {});
-    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'site_count']);
-    desc.set('places', c.places('places', places, [prefix + 'site_count']));
-    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'site_count', 3]);
-    c.rows(desc, 'values', 'values', values, 'f8', [prefix + 'site_count', 'channel_count']);
-    c.rows(desc, 'stiffness', 'stiffness', stiffness, 'f8', [prefix + 'site_count']);
-    c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'site_count']);
-    c.counts(desc, { site_count: [prefix + 'site_count', 1] });
+    desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'site_count']));
+    desc.set('places', c.rows('places', places, [prefix + 'site_count'], c.place));
+    desc.set('points', c.array('points', points, 'f8', [prefix + 'site_count', 3]));
+    desc.set('values', c.array('values', values, 'f8', [prefix + 'site_count', 'channel_count']));
+    desc.set('stiffness', c.array('stiffness', stiffness, 'f8', [prefix + 'site_count']));
+    desc.set('radii', c.array('radii', radii, 'f8', [prefix + 'site_count']));
+    desc.set('site_count', (c.n[prefix + 'site_count'] ??= 1));
     return desc;
   };
 
@@ -110,14 +121,15 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_edit_desc', {});
-    c.rows(desc, 'remove_sites', 'removeSites', removeSites, 'u4', [prefix + 'remove_count']);
-    c.rows(desc, 'move_sites', 'moveSites', moveSites, 'u4', [prefix + 'move_count']);
-    c.rows(desc, 'set_sites', 'setSites', setSites, 'u4', [prefix + 'set_count']);
-    c.rows(desc, 'set_values', 'setValues', setValues, 'f8', [prefix + 'set_count', 'channel_count']);
+    desc.set('remove_sites', c.array('removeSites', removeSites, 'u4', [prefix + 'remove_count']));
+    desc.set('move_sites', c.array('moveSites', moveSites, 'u4', [prefix + 'move_count']));
+    desc.set('set_sites', c.array('setSites', setSites, 'u4', [prefix + 'set_count']));
+    desc.set('set_values', c.array('setValues', setValues, 'f8', [prefix + 'set_count', 'channel_count']));
     desc.set('move_to', c.inner(moveTo, 'vertices', sitesDesc, 'move_to.'));
     desc.set('add', c.inner(add, 'vertices', sitesDesc, 'add.'));
-    c.counts(desc, { remove_count: [prefix + 'remove_count', 0], move_count: [prefix + 'move_count', 0],
-            set_count: [prefix + 'set_count', 0] });
+    desc.set('remove_count', (c.n[prefix + 'remove_count'] ??= 0));
+    desc.set('move_count', (c.n[prefix + 'move_count'] ??= 0));
+    desc.set('set_count', (c.n[prefix + 'set_count'] ??= 0));
     return desc;
   };
 
@@ -134,7 +146,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_extremities_desc', { kind, least_length_share: leastLengthShare,
             source_count: sourceCount });
-    c.known('source_count', sourceCount || 40);
+    c.n.source_count = scalar('u32', sourceCount, 'sourceCount') || 40;
     desc.set('geodesics', handleOf(geodesics, Geodesics, 'geodesics') || null);
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
@@ -161,13 +173,14 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             inPlace = false, freeRotation = false, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_handles_desc', { layer, in_place: inPlace, free_rotation: freeRotation });
-    c.ragged(desc, 'region_counts', 'region_vertices', 'regionVertices', regionVertices, prefix + 'handle_count');
-    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'handle_count']);
-    desc.set('places', c.places('places', places, [prefix + 'handle_count']));
-    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'handle_count', 3]);
-    c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'handle_count']);
+    const regionVertices_ = c.lists('regionVertices', regionVertices, [prefix + 'handle_count']);
+    desc.set('region_counts', regionVertices_[0]).set('region_vertices', regionVertices_[1]);
+    desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'handle_count']));
+    desc.set('places', c.rows('places', places, [prefix + 'handle_count'], c.place));
+    desc.set('points', c.array('points', points, 'f8', [prefix + 'handle_count', 3]));
+    desc.set('radii', c.array('radii', radii, 'f8', [prefix + 'handle_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { handle_count: [prefix + 'handle_count', 1] });
+    desc.set('handle_count', (c.n[prefix + 'handle_count'] ??= 1));
     return desc;
   };
 
@@ -177,7 +190,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_deform_desc', { iteration_count: iterationCount, restart, refine,
             refine_from_last: refineFromLast, first_vertex: firstVertex, vertex_count: vertexCount });
-    c.known('vertex_count', vertexCount);
+    if (scalar('u32', vertexCount, 'vertexCount')) c.n.vertex_count = vertexCount;
     return desc;
   };
 
@@ -186,11 +199,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_handle_proposals_desc', { least_length_share: leastLengthShare, limit });
-    c.rows(desc, 'joints', 'joints', joints, 'f8', [prefix + 'joint_count', 3]);
-    c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
-    c.fixed(desc, 'up', 'up', up);
+    desc.set('joints', c.array('joints', joints, 'f8', [prefix + 'joint_count', 3]));
+    desc.set('parents', c.array('parents', parents, 'u4', [prefix + 'joint_count']));
+    desc.set('up', up && c.numbers('up', up, 'f8', [3]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { joint_count: [prefix + 'joint_count', 0] });
+    desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
     return desc;
   };
 
@@ -201,18 +214,19 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_quads_desc', { face_count: faceCount, edge_length: edgeLength, crease_angle: creaseAngle,
             relax_count: relaxCount });
-    c.rows(desc, 'crease_edges', 'creaseEdges', creaseEdges, 'u4', [prefix + 'crease_count', 2]);
-    c.rows(desc, 'guide_vertices', 'guideVertices', guideVertices, 'u4', [prefix + 'guide_count']);
-    c.rows(desc, 'guide_vectors', 'guideVectors', guideVectors, 'f8', [prefix + 'guide_count', 3]);
-    c.rows(desc, 'guide_weights', 'guideWeights', guideWeights, 'f4', [prefix + 'guide_count']);
-    c.rows(desc, 'irregular_points', 'irregularPoints', irregularPoints, 'f8', [prefix + 'irregular_count', 3]);
-    c.rows(desc, 'irregular_valences', 'irregularValences', irregularValences, 'u4', [prefix + 'irregular_count']);
-    c.rows(desc, 'irregular_directions', 'irregularDirections', irregularDirections, 'f8', [prefix + 'irregular_count',
-            3]);
-    c.fixed(desc, 'symmetry_plane', 'symmetryPlane', symmetryPlane);
+    desc.set('crease_edges', c.array('creaseEdges', creaseEdges, 'u4', [prefix + 'crease_count', 2]));
+    desc.set('guide_vertices', c.array('guideVertices', guideVertices, 'u4', [prefix + 'guide_count']));
+    desc.set('guide_vectors', c.array('guideVectors', guideVectors, 'f8', [prefix + 'guide_count', 3]));
+    desc.set('guide_weights', c.array('guideWeights', guideWeights, 'f4', [prefix + 'guide_count']));
+    desc.set('irregular_points', c.array('irregularPoints', irregularPoints, 'f8', [prefix + 'irregular_count', 3]));
+    desc.set('irregular_valences', c.array('irregularValences', irregularValences, 'u4', [prefix + 'irregular_count']));
+    desc.set('irregular_directions', c.array('irregularDirections', irregularDirections, 'f8',
+            [prefix + 'irregular_count', 3]));
+    desc.set('symmetry_plane', symmetryPlane && c.numbers('symmetryPlane', symmetryPlane, 'f8', [4]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { crease_count: [prefix + 'crease_count', 0], guide_count: [prefix + 'guide_count', 0],
-            irregular_count: [prefix + 'irregular_count', 0] });
+    desc.set('crease_count', (c.n[prefix + 'crease_count'] ??= 0));
+    desc.set('guide_count', (c.n[prefix + 'guide_count'] ??= 0));
+    desc.set('irregular_count', (c.n[prefix + 'irregular_count'] ??= 0));
     return desc;
   };
 
@@ -220,7 +234,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { positions = null, base = 0, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_region_desc', { base });
-    desc.set('positions', c.view('positions', positions, 'f4 f8', ['vertex_count', 3]));
+    desc.set('positions', c.viewOf('hf_array', read, positions && c.numbers('positions', positions, 'f4 f8',
+            ['vertex_count', 3]), ['vertex_count', 3]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
   };
@@ -229,10 +244,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { vertices = null, places = null, points = null, side = 0, seedVertex = 0, kind = 0, ...more } = options;
     none(more);
     const desc = c.struct('hf_curve_desc', { side, seed_vertex: seedVertex, kind });
-    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'point_count']);
-    desc.set('places', c.places('places', places, [prefix + 'point_count']));
-    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'point_count', 3]);
-    c.counts(desc, { point_count: [prefix + 'point_count', 0] });
+    desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'point_count']));
+    desc.set('places', c.rows('places', places, [prefix + 'point_count'], c.place));
+    desc.set('points', c.array('points', points, 'f8', [prefix + 'point_count', 3]));
+    desc.set('point_count', (c.n[prefix + 'point_count'] ??= 0));
     return desc;
   };
 
@@ -241,11 +256,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_region_edit_desc', { ring_count: ringCount });
-    c.rows(desc, 'remove_vertices', 'removeVertices', removeVertices, 'u4', [prefix + 'remove_count']);
-    c.rows(desc, 'add_vertices', 'addVertices', addVertices, 'u4', [prefix + 'add_count']);
+    desc.set('remove_vertices', c.array('removeVertices', removeVertices, 'u4', [prefix + 'remove_count']));
+    desc.set('add_vertices', c.array('addVertices', addVertices, 'u4', [prefix + 'add_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('curve', c.inner(curve, 'vertices', curveDesc, 'curve.'));
-    c.counts(desc, { remove_count: [prefix + 'remove_count', 0], add_count: [prefix + 'add_count', 0] });
+    desc.set('remove_count', (c.n[prefix + 'remove_count'] ??= 0));
+    desc.set('add_count', (c.n[prefix + 'add_count'] ??= 0));
     return desc;
   };
 
@@ -260,10 +276,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { sourceVertices = null, targetVertices = null, scale = 0, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_detail_desc', { scale });
-    c.rows(desc, 'source_vertices', 'sourceVertices', sourceVertices, 'u4', [prefix + 'pair_count']);
-    c.rows(desc, 'target_vertices', 'targetVertices', targetVertices, 'u4', [prefix + 'pair_count']);
+    desc.set('source_vertices', c.array('sourceVertices', sourceVertices, 'u4', [prefix + 'pair_count']));
+    desc.set('target_vertices', c.array('targetVertices', targetVertices, 'u4', [prefix + 'pair_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { pair_count: [prefix + 'pair_count', 0] });
+    desc.set('pair_count', (c.n[prefix + 'pair_count'] ??= 0));
     return desc;
   };
 
@@ -272,9 +288,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_retarget_desc', { root_motion: rootMotion, leave_out: leaveOut, scale });
-    c.rows(desc, 'source_rest', 'sourceRest', sourceRest, 'f4', ['source.joint_count', 10]);
-    c.rows(desc, 'target_rest', 'targetRest', targetRest, 'f4', ['target.joint_count', 10]);
-    c.fixed(desc, 'ground_velocity', 'groundVelocity', groundVelocity);
+    desc.set('source_rest', c.array('sourceRest', sourceRest, 'f4', ['source.joint_count', 10]));
+    desc.set('target_rest', c.array('targetRest', targetRest, 'f4', ['target.joint_count', 10]));
+    desc.set('ground_velocity', groundVelocity && c.numbers('groundVelocity', groundVelocity, 'f8', [3]));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     return desc;
   };
@@ -283,12 +299,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { positions = null, triangles = null, joints = null, weights = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_skin_desc', {});
-    c.rows(desc, 'positions', 'positions', positions, 'f4', [prefix + 'vertex_count', 3]);
-    c.rows(desc, 'triangles', 'triangles', triangles, 'u4', [prefix + 'triangle_count', 3]);
-    c.rows(desc, 'joints', 'joints', joints, 'u4', [prefix + 'vertex_count', prefix + 'influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', [prefix + 'vertex_count', prefix + 'influence_count']);
-    c.counts(desc, { vertex_count: [prefix + 'vertex_count', 0], triangle_count: [prefix + 'triangle_count', 0],
-            influence_count: [prefix + 'influence_count', 0] });
+    desc.set('positions', c.array('positions', positions, 'f4', [prefix + 'vertex_count', 3]));
+    desc.set('triangles', c.array('triangles', triangles, 'u4', [prefix + 'triangle_count', 3]));
+    desc.set('joints', c.array('joints', joints, 'u4', [prefix + 'vertex_count', prefix + 'influence_count']));
+    desc.set('weights', c.array('weights', weights, 'f4', [prefix + 'vertex_count', prefix + 'influence_count']));
+    desc.set('vertex_count', (c.n[prefix + 'vertex_count'] ??= 0));
+    desc.set('triangle_count', (c.n[prefix + 'triangle_count'] ??= 0));
+    desc.set('influence_count', (c.n[prefix + 'influence_count'] ??= 0));
     return desc;
   };
 
@@ -297,18 +314,19 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             sides = null, travels = null, skin = null, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_skeleton_desc', {});
-    c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
-    c.rows(desc, 'rest', 'rest', rest, 'f4', [prefix + 'joint_count', 10]);
-    c.rows(desc, 'inverse_binds', 'inverseBinds', inverseBinds, 'f4', [prefix + 'joint_count', 16]);
-    c.rows(desc, 'up', 'up', up, 'f4', [3]);
-    c.rows(desc, 'forward', 'forward', forward, 'f4', [3]);
-    c.rows(desc, 'roles', 'roles', roles, 'i4', [prefix + 'joint_count']);
-    c.rows(desc, 'sides', 'sides', sides, 'i4', [prefix + 'joint_count']);
-    c.rows(desc, 'travels', 'travels', travels, 'f4', [prefix + 'travel_count', 3]);
+    desc.set('parents', c.array('parents', parents, 'u4', [prefix + 'joint_count']));
+    desc.set('rest', c.array('rest', rest, 'f4', [prefix + 'joint_count', 10]));
+    desc.set('inverse_binds', c.array('inverseBinds', inverseBinds, 'f4', [prefix + 'joint_count', 16]));
+    desc.set('up', c.array('up', up, 'f4', [3]));
+    desc.set('forward', c.array('forward', forward, 'f4', [3]));
+    desc.set('roles', c.array('roles', roles, 'i4', [prefix + 'joint_count']));
+    desc.set('sides', c.array('sides', sides, 'i4', [prefix + 'joint_count']));
+    desc.set('travels', c.array('travels', travels, 'f4', [prefix + 'travel_count', 3]));
     desc.set('names', c.text(names, 'names'));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('skin', c.inner(skin, 'positions', skinDesc, 'skin.'));
-    c.counts(desc, { joint_count: [prefix + 'joint_count', 0], travel_count: [prefix + 'travel_count', 0] });
+    desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
+    desc.set('travel_count', (c.n[prefix + 'travel_count'] ??= 0));
     return desc;
   };
 
@@ -318,10 +336,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     none(more);
     const desc = c.struct('hf_transfer_desc', { mode, cluster_count: clusterCount, ground, kernel_width: kernelWidth,
             scale, alignment_angle: alignmentAngle });
-    desc.set('source_rest', c.view('sourceRest', sourceRest, 'f4 f8', ['source.vertex_count', 3]));
-    desc.set('target_rest', c.view('targetRest', targetRest, 'f4 f8', ['target.vertex_count', 3]));
-    c.fixed(desc, 'source_axes', 'sourceAxes', sourceAxes);
-    c.fixed(desc, 'target_axes', 'targetAxes', targetAxes);
+    desc.set('source_rest', c.viewOf('hf_array', read, sourceRest && c.numbers('sourceRest', sourceRest, 'f4 f8',
+            ['source.vertex_count', 3]), ['source.vertex_count', 3]));
+    desc.set('target_rest', c.viewOf('hf_array', read, targetRest && c.numbers('targetRest', targetRest, 'f4 f8',
+            ['target.vertex_count', 3]), ['target.vertex_count', 3]));
+    desc.set('source_axes', sourceAxes && c.numbers('sourceAxes', sourceAxes, 'f8', [9]));
+    desc.set('target_axes', targetAxes && c.numbers('targetAxes', targetAxes, 'f8', [9]));
     return desc;
   };
 
@@ -329,11 +349,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { sourceVertices = null, targetVertices = null, flags = null, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_pairs_desc', {});
-    c.ragged(desc, 'source_counts', 'source_vertices', 'sourceVertices', sourceVertices, prefix + 'pair_count');
-    c.ragged(desc, 'target_counts', 'target_vertices', 'targetVertices', targetVertices, prefix + 'pair_count');
-    c.rows(desc, 'flags', 'flags', flags, 'u4', [prefix + 'pair_count']);
+    const sourceVertices_ = c.lists('sourceVertices', sourceVertices, [prefix + 'pair_count']);
+    desc.set('source_counts', sourceVertices_[0]).set('source_vertices', sourceVertices_[1]);
+    const targetVertices_ = c.lists('targetVertices', targetVertices, [prefix + 'pair_count']);
+    desc.set('target_counts', targetVertices_[0]).set('target_vertices', targetVertices_[1]);
+    desc.set('flags', c.array('flags', flags, 'u4', [prefix + 'pair_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { pair_count: [prefix + 'pair_count', 1] });
+    desc.set('pair_count', (c.n[prefix + 'pair_count'] ??= 1));
     return desc;
   };
 
@@ -350,10 +372,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     const { sourcePositions = null, holdPairs = null, holdPositions = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_transfer_frame', {});
-    desc.set('source_positions', c.view('sourcePositions', sourcePositions, 'f4 f8', ['source.vertex_count', 3]));
-    c.rows(desc, 'hold_pairs', 'holdPairs', holdPairs, 'u4', [prefix + 'hold_count']);
-    c.rows(desc, 'hold_positions', 'holdPositions', holdPositions, 'f8', [prefix + 'hold_count', 3]);
-    c.counts(desc, { hold_count: [prefix + 'hold_count', 0] });
+    desc.set('source_positions', c.viewOf('hf_array', read, sourcePositions && c.numbers('sourcePositions',
+            sourcePositions, 'f4 f8', ['source.vertex_count', 3]), ['source.vertex_count', 3]));
+    desc.set('hold_pairs', c.array('holdPairs', holdPairs, 'u4', [prefix + 'hold_count']));
+    desc.set('hold_positions', c.array('holdPositions', holdPositions, 'f8', [prefix + 'hold_count', 3]));
+    desc.set('hold_count', (c.n[prefix + 'hold_count'] ??= 0));
     return desc;
   };
 
@@ -362,14 +385,14 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_joints_desc', {});
-    c.rows(desc, 'heads', 'heads', heads, 'f8', [prefix + 'joint_count', 3]);
-    c.rows(desc, 'tails', 'tails', tails, 'f8', [prefix + 'joint_count', 3]);
-    c.rows(desc, 'axes', 'axes', axes, 'f8', [prefix + 'joint_count', 3]);
-    c.rows(desc, 'parents', 'parents', parents, 'u4', [prefix + 'joint_count']);
-    c.rows(desc, 'deforms', 'deforms', deforms, 'i4', [prefix + 'joint_count']);
-    c.rows(desc, 'sources', 'sources', sources, 'u4', [prefix + 'joint_count']);
+    desc.set('heads', c.array('heads', heads, 'f8', [prefix + 'joint_count', 3]));
+    desc.set('tails', c.array('tails', tails, 'f8', [prefix + 'joint_count', 3]));
+    desc.set('axes', c.array('axes', axes, 'f8', [prefix + 'joint_count', 3]));
+    desc.set('parents', c.array('parents', parents, 'u4', [prefix + 'joint_count']));
+    desc.set('deforms', c.array('deforms', deforms, 'i4', [prefix + 'joint_count']));
+    desc.set('sources', c.array('sources', sources, 'u4', [prefix + 'joint_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { joint_count: [prefix + 'joint_count', 0] });
+    desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
     return desc;
   };
 
@@ -378,14 +401,15 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_pins_desc', {});
-    c.rows(desc, 'vertices', 'vertices', vertices, 'u4', [prefix + 'pin_count']);
-    desc.set('places', c.places('places', places, [prefix + 'pin_count']));
-    c.rows(desc, 'points', 'points', points, 'f8', [prefix + 'pin_count', 3]);
-    c.rows(desc, 'radii', 'radii', radii, 'f8', [prefix + 'pin_count']);
-    c.rows(desc, 'joints', 'joints', joints, 'u4', [prefix + 'pin_count', prefix + 'influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', [prefix + 'pin_count', prefix + 'influence_count']);
+    desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'pin_count']));
+    desc.set('places', c.rows('places', places, [prefix + 'pin_count'], c.place));
+    desc.set('points', c.array('points', points, 'f8', [prefix + 'pin_count', 3]));
+    desc.set('radii', c.array('radii', radii, 'f8', [prefix + 'pin_count']));
+    desc.set('joints', c.array('joints', joints, 'u4', [prefix + 'pin_count', prefix + 'influence_count']));
+    desc.set('weights', c.array('weights', weights, 'f4', [prefix + 'pin_count', prefix + 'influence_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { pin_count: [prefix + 'pin_count', 0], influence_count: [prefix + 'influence_count', 0] });
+    desc.set('pin_count', (c.n[prefix + 'pin_count'] ??= 0));
+    desc.set('influence_count', (c.n[prefix + 'influence_count'] ??= 0));
     return desc;
   };
 
@@ -394,11 +418,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             ...more } = options;
     none(more);
     const desc = c.struct('hf_weights_transfer_desc', { distance, angle, influence_count: influenceCount });
-    c.known('influence_count', influenceCount || 4);
-    c.rows(desc, 'joints', 'joints', joints, 'u4', ['source.vertex_count', prefix + 'source_influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', ['source.vertex_count', prefix + 'source_influence_count']);
+    c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
+    desc.set('joints', c.array('joints', joints, 'u4', ['source.vertex_count', prefix + 'source_influence_count']));
+    desc.set('weights', c.array('weights', weights, 'f4', ['source.vertex_count', prefix + 'source_influence_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { source_influence_count: [prefix + 'source_influence_count', 0] });
+    desc.set('source_influence_count', (c.n[prefix + 'source_influence_count'] ??= 0));
     return desc;
   };
 
@@ -407,16 +431,16 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
             distance = 0, angle = 0, influenceCount = 0, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_weights_mirror_desc', { to, distance, angle, influence_count: influenceCount });
-    c.known('influence_count', influenceCount || 4);
-    c.rows(desc, 'heads', 'heads', heads, 'f8', [prefix + 'joint_count', 3]);
-    c.rows(desc, 'partners', 'partners', partners, 'u4', [prefix + 'joint_count']);
-    c.rows(desc, 'plane', 'plane', plane, 'f8', [6]);
-    c.rows(desc, 'joints', 'joints', joints, 'u4', ['vertex_count', prefix + 'source_influence_count']);
-    c.rows(desc, 'weights', 'weights', weights, 'f4', ['vertex_count', prefix + 'source_influence_count']);
+    c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
+    desc.set('heads', c.array('heads', heads, 'f8', [prefix + 'joint_count', 3]));
+    desc.set('partners', c.array('partners', partners, 'u4', [prefix + 'joint_count']));
+    desc.set('plane', c.array('plane', plane, 'f8', [6]));
+    desc.set('joints', c.array('joints', joints, 'u4', ['vertex_count', prefix + 'source_influence_count']));
+    desc.set('weights', c.array('weights', weights, 'f4', ['vertex_count', prefix + 'source_influence_count']));
     desc.set('names', c.text(names, 'names'));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
-    c.counts(desc, { joint_count: [prefix + 'joint_count', 0],
-            source_influence_count: [prefix + 'source_influence_count', 0] });
+    desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
+    desc.set('source_influence_count', (c.n[prefix + 'source_influence_count'] ??= 0));
     return desc;
   };
 
@@ -524,8 +548,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     measureGaps(positions) {
       const c = new Call(this);
-      const info = c.told(this, 'hf_gaps_info');
-      const positions_ = c.view('positions', positions, 'f4 f8', ['vertex_count', 3]);
+      const info = Call.told(this, 'hf_gaps_info');
+      const positions_ = c.viewOf('hf_array', read, positions && c.numbers('positions', positions, 'f4 f8',
+              ['vertex_count', 3]), ['vertex_count', 3]);
       const found = c.grow(this, 'hf_surface_measure_gaps', (room, made) => call('hf_surface_measure_gaps',
               this._handle, positions === null || positions === undefined ? null : positions_, room.capacity,
               written(made.gaps), info), () => ({ capacity: info.get('link_count') }), { capacity: null },
@@ -554,7 +579,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { progress = null, ...more } = options;
       none(more);
       const c = new Call(this);
-      const size = c.sizes();
+      const size = newHandle();
       call('hf_surface_save', this._handle, fieldKind, handleOf(progress, Progress, 'progress'), 0, null,
               written(size));
       const block = new Uint8Array(Number(size[0]));
@@ -585,8 +610,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     spaceLevels(field, levelCount, spacing = 0) {
       const c = new Call(this);
-      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
-      c.known('level_count', levelCount);
+      const field_ = c.viewOf('hf_array', read, field && c.numbers('field', field, 'f4 f8', ['vertex_count']),
+              ['vertex_count']);
+      if (scalar('u32', levelCount, 'levelCount')) c.n.level_count = levelCount;
       const levels = c.out(null, 'f8', ['level_count']);
       call('hf_surface_space_levels', this._handle, field === null || field === undefined ? null : field_, spacing,
               levelCount, written(levels));
@@ -595,23 +621,28 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     traceIsolines(field, levels) {
       const c = new Call(this);
-      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
+      const field_ = c.viewOf('hf_array', read, field && c.numbers('field', field, 'f4 f8', ['vertex_count']),
+              ['vertex_count']);
       const levels_ = c.array('levels', levels, 'f8', ['level_count']);
       const lines = c.struct('hf_isolines', {});
-      const found = c.grow(this, 'hf_surface_trace_isolines', (room, made) => (c.into(lines, room, made),
-              call('hf_surface_trace_isolines', this._handle, field === null || field === undefined ? null : field_,
-              (c.n.level_count ??= 1), levels_, lines)), () => ({ point_capacity: lines.get('point_count'),
-              line_capacity: lines.get('line_count') }), { point_capacity: null, line_capacity: null },
-              { pointEdges: ['u4', ['point_capacity', 2]], parameters: ['f8', ['point_capacity']], positions: ['f8',
-              ['point_capacity', 3]], lineStarts: ['u4', ['line_capacity + 1']], lineLevels: ['u4', ['line_capacity']],
-              lineClosed: ['i4', ['line_capacity']] });
+      const found = c.grow(this, 'hf_surface_trace_isolines', (room, made) => (lines.set('point_capacity',
+              room.point_capacity).set('line_capacity', room.line_capacity).set('point_edges',
+              written(made.pointEdges)).set('parameters', written(made.parameters)).set('positions',
+              written(made.positions)).set('line_starts', written(made.lineStarts)).set('line_levels',
+              written(made.lineLevels)).set('line_closed', written(made.lineClosed)), call('hf_surface_trace_isolines',
+              this._handle, field === null || field === undefined ? null : field_, (c.n.level_count ??= 1), levels_,
+              lines)), () => ({ point_capacity: lines.get('point_count'), line_capacity: lines.get('line_count') }),
+              { point_capacity: null, line_capacity: null }, { pointEdges: ['u4', ['point_capacity', 2]],
+              parameters: ['f8', ['point_capacity']], positions: ['f8', ['point_capacity', 3]], lineStarts: ['u4',
+              ['line_capacity + 1']], lineLevels: ['u4', ['line_capacity']], lineClosed: ['i4', ['line_capacity']] });
       return { ...found, pointCount: lines.get('point_count'), lineCount: lines.get('line_count') };
     }
 
     findCriticalPoints(field) {
       const c = new Call(this);
-      const info = c.told(this, 'hf_critical_info');
-      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
+      const info = Call.told(this, 'hf_critical_info');
+      const field_ = c.viewOf('hf_array', read, field && c.numbers('field', field, 'f4 f8', ['vertex_count']),
+              ['vertex_count']);
       const found = c.grow(this, 'hf_surface_find_critical_points', (room,
               made) => call('hf_surface_find_critical_points', this._handle,
               field === null || field === undefined ? null : field_, room.capacity, written(made.points), info),
@@ -644,11 +675,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
 
     get gapsInfo() {
-      return Call.told(this, 'hf_gaps_info');
+      return Call.told(this, 'hf_gaps_info').toObject();
     }
 
     get criticalInfo() {
-      return Call.told(this, 'hf_critical_info');
+      return Call.told(this, 'hf_critical_info').toObject();
     }
   }
 
@@ -736,7 +767,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     sites() {
       const c = new Call(this);
       const info = c.struct('hf_sites_info', {});
-      const found = c.grow(this, 'hf_solver_get_sites', (room, made) => (c.into(info, room, made),
+      const found = c.grow(this, 'hf_solver_get_sites', (room, made) => (info.set('capacity',
+              room.capacity).set('sites', written(made.sites)).set('vertices', written(made.vertices)).set('components',
+              written(made.components)).set('values', written(made.values)).set('stiffness',
+              written(made.stiffness)).set('flux', written(made.flux)).set('radii', written(made.radii)),
               call('hf_solver_get_sites', this._handle, info)), () => ({ capacity: info.get('count') }),
               { capacity: null }, { sites: ['u4', ['capacity']], vertices: ['u4', ['capacity']], components: ['u4',
               ['capacity']], values: ['f8', ['capacity', 'channel_count']], stiffness: ['f8', ['capacity']],
@@ -755,9 +789,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { Type = Float32Array, ...more } = options;
       none(more);
       const c = new Call(this);
-      const info = c.told(this, 'hf_solve_info');
+      const info = Call.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 'channel_count'], Type);
-      const outView = c.viewOut(out, ['vertex_count', 'channel_count']);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count', 'channel_count']);
       call('hf_solver_solve', this._handle, outView, info);
       return out;
     }
@@ -775,9 +809,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { Type = Float32Array, normals = null, ...more } = options;
       none(more);
       const c = new Call(this);
-      const info = c.told(this, 'hf_solve_info');
+      const info = Call.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      const outView = c.viewOut(out, ['vertex_count', 3]);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count', 3]);
       const normals_ = normals && c.out(normals, 'f8', ['vertex_count', 3], null, 'normals');
       call('hf_solver_solve_vectors', this._handle, outView, written(normals), info);
       return out;
@@ -787,9 +821,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { correctionCount = 0, Type = Float32Array, ...more } = options;
       none(more);
       const c = new Call(this);
-      const info = c.told(this, 'hf_preview_info');
+      const info = Call.told(this, 'hf_preview_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 'channel_count'], Type);
-      const outView = c.viewOut(out, ['vertex_count', 'channel_count']);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count', 'channel_count']);
       call('hf_solver_solve_preview', this._handle, outView, correctionCount, info);
       return out;
     }
@@ -835,11 +869,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
 
     get solveInfo() {
-      return Call.told(this, 'hf_solve_info');
+      return Call.told(this, 'hf_solve_info').toObject();
     }
 
     get previewInfo() {
-      return Call.told(this, 'hf_preview_info');
+      return Call.told(this, 'hf_preview_info').toObject();
     }
   }
 
@@ -864,7 +898,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const sources_ = c.array('sources', sources, 'u4', ['source_count']);
       out = c.out(out, 'f4 f8', ['vertex_count'], Type);
-      const outView = c.viewOut(out, ['vertex_count']);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count']);
       call('hf_geodesics_solve', this._handle, (c.n.source_count ??= 1), sources_, outView);
       return out;
     }
@@ -872,8 +906,10 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     findPath(from, to) {
       const c = new Call(this);
       const path = c.struct('hf_path', {});
-      const found = c.grow(this, 'hf_geodesics_find_path', (room, made) => (c.into(path, room, made),
-              call('hf_geodesics_find_path', this._handle, c.place(from, 'from'), c.place(to, 'to'), path)),
+      const found = c.grow(this, 'hf_geodesics_find_path', (room, made) => (path.set('point_capacity',
+              room.point_capacity).set('point_edges', written(made.pointEdges)).set('parameters',
+              written(made.parameters)).set('positions', written(made.positions)), call('hf_geodesics_find_path',
+              this._handle, c.place(from, 'from'), c.place(to, 'to'), path)),
               () => ({ point_capacity: path.get('point_count') }), { point_capacity: null }, { pointEdges: ['u4',
               ['point_capacity', 2]], parameters: ['f8', ['point_capacity']], positions: ['f8', ['point_capacity',
               3]] });
@@ -966,9 +1002,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { Type = Float32Array, ...more } = options;
       none(more);
       const c = new Call(this);
-      const info = c.told(this, 'hf_solve_info');
+      const info = Call.told(this, 'hf_solve_info');
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      const outView = c.viewOut(out, ['vertex_count', 3]);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count', 3]);
       call('hf_direction_solve', this._handle, outView, info);
       return out;
     }
@@ -991,7 +1027,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
 
     get solveInfo() {
-      return Call.told(this, 'hf_solve_info');
+      return Call.told(this, 'hf_solve_info').toObject();
     }
   }
 
@@ -1052,8 +1088,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       const handles_ = c.array('handles', handles, 'u4', ['handle_count']);
-      const transforms = c.records('hf_transform', ['handle_count'], { rotation: ['rotations', rotations],
-              translation: ['translations', translations] });
+      const rotations_ = rotations && c.numbers('rotations', rotations, 'f8', ['handle_count', 4]);
+      const translations_ = translations && c.numbers('translations', translations, 'f8', ['handle_count', 3]);
+      const transforms = c.rows('transforms', [...Array(c.product(['handle_count'])).keys()], ['handle_count'],
+              (i) => c.struct('hf_transform', { rotation: rotations_?.subarray(4 * i, 4 * (i + 1)) ?? 0,
+              translation: translations_?.subarray(3 * i, 3 * (i + 1)) ?? 0 }));
       call('hf_pose_set_transforms', this._handle, (c.n.handle_count ??= 1), handles_, transforms);
     }
 
@@ -1062,8 +1101,8 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       const transform = c.struct('hf_transform', {});
-      c.fixed(transform, 'rotation', 'rotation', rotation);
-      c.fixed(transform, 'translation', 'translation', translation);
+      transform.set('rotation', rotation && c.numbers('rotation', rotation, 'f8', [4]));
+      transform.set('translation', translation && c.numbers('translation', translation, 'f8', [3]));
       call('hf_pose_set_transform', this._handle, handle, transform);
     }
 
@@ -1115,7 +1154,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       out = c.out(out, 'f4 f8', ['vertex_count'], Type);
-      const outView = c.viewOut(out, ['vertex_count']);
+      const outView = c.viewOf('hf_array_out', written, out, ['vertex_count']);
       call('hf_pose_get_field', this._handle, handle, outView);
       return out;
     }
@@ -1123,12 +1162,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     deform(out = null, options = {}) {
       const { Type = Float32Array, normals = null, ...more } = options;
       const c = new Call(this);
-      const info = c.told(this, 'hf_deform_info');
+      const info = Call.told(this, 'hf_deform_info');
       const desc = deformDesc(c, '', more);
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      desc.set('positions', out && c.viewOut(out, ['vertex_count', 3]));
+      desc.set('positions', out && c.viewOf('hf_array_out', written, out, ['vertex_count', 3]));
       const normals_ = normals && c.out(normals, 'f4 f8', ['vertex_count', 3], null, 'normals');
-      desc.set('normals', normals_ && c.viewOut(normals_, ['vertex_count', 3]));
+      desc.set('normals', normals_ && c.viewOf('hf_array_out', written, normals_, ['vertex_count', 3]));
       call('hf_pose_deform', this._handle, desc, info);
       return out;
     }
@@ -1145,15 +1184,19 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       const skin = c.struct('hf_skin_info', { influence_count: influenceCount });
-      c.known('influence_count', influenceCount || 4);
-      const found = c.grow(this, 'hf_pose_get_skin', (room, made) => (c.into(skin, room, made), call('hf_pose_get_skin',
-              this._handle, skin)), () => ({ joint_capacity: skin.get('joint_count'),
-              vertex_capacity: skin.get('vertex_count'), joint_count: skin.get('joint_count'),
-              vertex_count: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
-              vertex_capacity: c.n.vertex_count }, { pivots: ['f8', ['joint_capacity', 3]], rotations: ['f8',
-              ['joint_capacity', 4]], translations: ['f8', ['joint_capacity', 3]], axes: ['f8', ['joint_capacity', 4]],
-              ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}), vertexJoints: ['u4', ['vertex_capacity',
-              'influence_count']], vertexWeights: ['f4', ['vertex_capacity', 'influence_count']] });
+      c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
+      const found = c.grow(this, 'hf_pose_get_skin', (room, made) => (skin.set('joint_capacity',
+              room.joint_capacity).set('vertex_capacity', room.vertex_capacity).set('pivots',
+              written(made.pivots)).set('rotations', written(made.rotations)).set('translations',
+              written(made.translations)).set('axes', written(made.axes)).set('scales',
+              written(made.scales)).set('vertex_joints', written(made.vertexJoints)).set('vertex_weights',
+              written(made.vertexWeights)), call('hf_pose_get_skin', this._handle, skin)),
+              () => ({ joint_capacity: skin.get('joint_count'), vertex_capacity: skin.get('vertex_count') }),
+              { joint_capacity: c.n.joint_count, vertex_capacity: c.n.vertex_count }, { pivots: ['f8',
+              ['joint_capacity', 3]], rotations: ['f8', ['joint_capacity', 4]], translations: ['f8', ['joint_capacity',
+              3]], axes: ['f8', ['joint_capacity', 4]], ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}),
+              vertexJoints: ['u4', ['vertex_capacity', 'influence_count']], vertexWeights: ['f4', ['vertex_capacity',
+              'influence_count']] });
       return { ...found, jointCount: skin.get('joint_count'), vertexCount: skin.get('vertex_count') };
     }
 
@@ -1194,7 +1237,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
 
     get deformInfo() {
-      return Call.told(this, 'hf_deform_info');
+      return Call.told(this, 'hf_deform_info').toObject();
     }
   }
 
@@ -1226,9 +1269,12 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     mesh() {
       const c = new Call(this);
       const mesh = c.struct('hf_quads_mesh', {});
-      const found = c.grow(this, 'hf_quads_get_mesh', (room, made) => (c.into(mesh, room, made),
-              call('hf_quads_get_mesh', this._handle, mesh)), () => ({ vertex_capacity: mesh.get('vertex_count'),
-              face_capacity: mesh.get('face_count'), vertex_count: mesh.get('vertex_count') }),
+      const found = c.grow(this, 'hf_quads_get_mesh', (room, made) => (mesh.set('vertex_capacity',
+              room.vertex_capacity).set('face_capacity', room.face_capacity).set('positions',
+              written(made.positions)).set('faces', written(made.faces)).set('triangles',
+              written(made.triangles)).set('barycentrics', written(made.barycentrics)).set('corners',
+              written(made.corners)), call('hf_quads_get_mesh', this._handle, mesh)),
+              () => ({ vertex_capacity: mesh.get('vertex_count'), face_capacity: mesh.get('face_count') }),
               { vertex_capacity: c.n.vertex_count, face_capacity: null }, { positions: ['f8', ['vertex_capacity', 3]],
               faces: ['u4', ['face_capacity', 4]], triangles: ['u4', ['vertex_capacity']], barycentrics: ['f8',
               ['vertex_capacity', 3]], corners: ['u4', ['vertex_capacity', 3]] });
@@ -1254,12 +1300,16 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { seeds = null, wantedCount = 0, ...more } = options;
       none(more);
       const c = new Call(this);
-      const field_ = c.view('field', field, 'f4 f8', ['vertex_count']);
+      const field_ = c.viewOf('hf_array', read, field && c.numbers('field', field, 'f4 f8', ['vertex_count']),
+              ['vertex_count']);
       const lines = c.struct('hf_streamlines', { wanted_count: wantedCount });
-      c.rows(lines, 'seeds', 'seeds', seeds, 'u4', ['seed_count']);
-      c.counts(lines, { seed_count: ['seed_count', 0] });
-      const found = c.grow(this, 'hf_flow_trace', (room, made) => (c.into(lines, room, made), call('hf_flow_trace',
-              this._handle, field === null || field === undefined ? null : field_, lines)),
+      lines.set('seeds', c.array('seeds', seeds, 'u4', ['seed_count']));
+      lines.set('seed_count', (c.n['seed_count'] ??= 0));
+      const found = c.grow(this, 'hf_flow_trace', (room, made) => (lines.set('point_capacity',
+              room.point_capacity).set('line_capacity', room.line_capacity).set('positions',
+              written(made.positions)).set('values', written(made.values)).set('line_starts',
+              written(made.lineStarts)).set('line_ends', written(made.lineEnds)), call('hf_flow_trace', this._handle,
+              field === null || field === undefined ? null : field_, lines)),
               () => ({ point_capacity: lines.get('point_count'), line_capacity: lines.get('line_count') }),
               { point_capacity: null, line_capacity: null }, { positions: ['f8', ['point_capacity', 3]], values: ['f8',
               ['point_capacity']], lineStarts: ['u4', ['line_capacity + 1']], lineEnds: ['u4', ['line_capacity', 2]] });
@@ -1333,9 +1383,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const desc = morphDesc(c, '', { weight, ...more });
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      desc.set('positions', out && c.viewOut(out, ['vertex_count', 3]));
+      desc.set('positions', out && c.viewOf('hf_array_out', written, out, ['vertex_count', 3]));
       const normals_ = normals && c.out(normals, 'f4 f8', ['vertex_count', 3], null, 'normals');
-      desc.set('normals', normals_ && c.viewOut(normals_, ['vertex_count', 3]));
+      desc.set('normals', normals_ && c.viewOf('hf_array_out', written, normals_, ['vertex_count', 3]));
       call('hf_region_morph', this._handle, desc);
       return out;
     }
@@ -1361,9 +1411,9 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const desc = morphDesc(c, '', { weight, ...more });
       out = c.out(out, 'f4 f8', ['vertex_count', 3], Type);
-      desc.set('positions', out && c.viewOut(out, ['vertex_count', 3]));
+      desc.set('positions', out && c.viewOf('hf_array_out', written, out, ['vertex_count', 3]));
       const normals_ = normals && c.out(normals, 'f4 f8', ['vertex_count', 3], null, 'normals');
-      desc.set('normals', normals_ && c.viewOut(normals_, ['vertex_count', 3]));
+      desc.set('normals', normals_ && c.viewOf('hf_array_out', written, normals_, ['vertex_count', 3]));
       call('hf_detail_morph', this._handle, desc);
       return out;
     }
@@ -1492,7 +1542,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     reasons() {
       const c = new Call(this);
-      const size = c.sizes();
+      const size = newHandle();
       call('hf_skeleton_get_reasons', this._handle, 0, null, written(size));
       const block = new Uint8Array(Number(size[0]));
       call('hf_skeleton_get_reasons', this._handle, block.length, written(block), written(size));
@@ -1569,10 +1619,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const c = new Call(this);
       const desc = transferFrame(c, '', { sourcePositions, ...more });
       out = c.out(out, 'f4 f8', ['target.vertex_count', 3], Type);
-      desc.set('target_positions', out && c.viewOut(out, ['target.vertex_count', 3]));
+      desc.set('target_positions', out && c.viewOf('hf_array_out', written, out, ['target.vertex_count', 3]));
       const targetNormals_ = targetNormals && c.out(targetNormals, 'f4 f8', ['target.vertex_count', 3], null,
               'targetNormals');
-      desc.set('target_normals', targetNormals_ && c.viewOut(targetNormals_, ['target.vertex_count', 3]));
+      desc.set('target_normals', targetNormals_ && c.viewOf('hf_array_out', written, targetNormals_,
+              ['target.vertex_count', 3]));
       call('hf_transfer_apply', this._handle, desc);
       return out;
     }
@@ -1589,15 +1640,19 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       none(more);
       const c = new Call(this);
       const skin = c.struct('hf_skin_info', { influence_count: influenceCount });
-      c.known('influence_count', influenceCount || 4);
-      const found = c.grow(this, 'hf_transfer_get_skin', (room, made) => (c.into(skin, room, made),
-              call('hf_transfer_get_skin', this._handle, skin)), () => ({ joint_capacity: skin.get('joint_count'),
-              vertex_capacity: skin.get('vertex_count'), joint_count: skin.get('joint_count'),
-              vertex_count: skin.get('vertex_count') }), { joint_capacity: c.n.joint_count,
-              vertex_capacity: c.n.vertex_count }, { pivots: ['f8', ['joint_capacity', 3]], rotations: ['f8',
-              ['joint_capacity', 4]], translations: ['f8', ['joint_capacity', 3]], axes: ['f8', ['joint_capacity', 4]],
-              ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}), vertexJoints: ['u4', ['vertex_capacity',
-              'influence_count']], vertexWeights: ['f4', ['vertex_capacity', 'influence_count']] });
+      c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
+      const found = c.grow(this, 'hf_transfer_get_skin', (room, made) => (skin.set('joint_capacity',
+              room.joint_capacity).set('vertex_capacity', room.vertex_capacity).set('pivots',
+              written(made.pivots)).set('rotations', written(made.rotations)).set('translations',
+              written(made.translations)).set('axes', written(made.axes)).set('scales',
+              written(made.scales)).set('vertex_joints', written(made.vertexJoints)).set('vertex_weights',
+              written(made.vertexWeights)), call('hf_transfer_get_skin', this._handle, skin)),
+              () => ({ joint_capacity: skin.get('joint_count'), vertex_capacity: skin.get('vertex_count') }),
+              { joint_capacity: c.n.joint_count, vertex_capacity: c.n.vertex_count }, { pivots: ['f8',
+              ['joint_capacity', 3]], rotations: ['f8', ['joint_capacity', 4]], translations: ['f8', ['joint_capacity',
+              3]], axes: ['f8', ['joint_capacity', 4]], ...(scales ? { scales: ['f8', ['joint_capacity', 3]] } : {}),
+              vertexJoints: ['u4', ['vertex_capacity', 'influence_count']], vertexWeights: ['f4', ['vertex_capacity',
+              'influence_count']] });
       return { ...found, jointCount: skin.get('joint_count'), vertexCount: skin.get('vertex_count') };
     }
   }
@@ -1615,7 +1670,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const { influenceCount = 0, ...more } = options;
       const c = new Call(null, { surface });
       const desc = jointsDesc(c, '', more);
-      c.known('influence_count', influenceCount || 4);
+      c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 4;
       this._own('hf_weights_create', c, handleOf(surface, Surface, 'surface'), desc, influenceCount);
     }
 
@@ -1649,11 +1704,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     get() {
       const c = new Call(this);
       const weights = c.struct('hf_weights_out', {});
-      const found = c.grow(this, 'hf_weights_get', (room, made) => (c.into(weights, room, made), call('hf_weights_get',
-              this._handle, weights)), () => ({ vertex_capacity: weights.get('vertex_count'),
-              vertex_count: weights.get('vertex_count'), influence_count: weights.get('influence_count') }),
-              { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
-              weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
+      const found = c.grow(this, 'hf_weights_get', (room, made) => (weights.set('vertex_capacity',
+              room.vertex_capacity).set('joints', written(made.joints)).set('weights',
+              written(made.weights)).set('origins', written(made.origins)), call('hf_weights_get', this._handle,
+              weights)), () => ({ vertex_capacity: weights.get('vertex_count'),
+              influence_count: weights.get('influence_count') }), { vertex_capacity: c.n.vertex_count },
+              { joints: ['u4', ['vertex_capacity', 'influence_count']], weights: ['f4', ['vertex_capacity',
+              'influence_count']], origins: ['u1', ['vertex_capacity']] });
       return { ...found, vertexCount: weights.get('vertex_count'), influenceCount: weights.get('influence_count') };
     }
 
@@ -1695,12 +1752,14 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const info = c.struct('hf_weights_transfer_info', {});
       const desc = weightsTransferDesc(c, '', options);
       const weights_ = c.struct('hf_weights_out', {});
-      const found = c.grow(source, 'hf_weights_transfer', (room, made) => (c.into(weights_, room, made),
-              call('hf_weights_transfer', handleOf(source, Surface, 'source'), handleOf(target, Surface, 'target'),
-              desc, weights_, info)), () => ({ vertex_capacity: weights_.get('vertex_count'),
-              vertex_count: weights_.get('vertex_count'), influence_count: weights_.get('influence_count') }),
-              { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
-              weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
+      const found = c.grow(source, 'hf_weights_transfer', (room, made) => (weights_.set('vertex_capacity',
+              room.vertex_capacity).set('joints', written(made.joints)).set('weights',
+              written(made.weights)).set('origins', written(made.origins)), call('hf_weights_transfer', handleOf(source,
+              Surface, 'source'), handleOf(target, Surface, 'target'), desc, weights_, info)),
+              () => ({ vertex_capacity: weights_.get('vertex_count'),
+              influence_count: weights_.get('influence_count') }), { vertex_capacity: c.n.vertex_count },
+              { joints: ['u4', ['vertex_capacity', 'influence_count']], weights: ['f4', ['vertex_capacity',
+              'influence_count']], origins: ['u1', ['vertex_capacity']] });
       return { ...{ ...found, vertexCount: weights_.get('vertex_count'),
               influenceCount: weights_.get('influence_count') }, info: info.toObject() };
     }
@@ -1713,12 +1772,14 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const weights_ = c.struct('hf_weights_out', {});
       const partners_ = c.out(null, 'u4', ['joint_count']);
       const pairings = c.out(null, 'u4', ['joint_count']);
-      const found = c.grow(surface, 'hf_weights_mirror', (room, made) => (c.into(weights_, room, made),
-              call('hf_weights_mirror', handleOf(surface, Surface, 'surface'), desc, weights_, written(partners_),
-              written(pairings), info, statistics)), () => ({ vertex_capacity: weights_.get('vertex_count'),
-              vertex_count: weights_.get('vertex_count'), influence_count: weights_.get('influence_count') }),
-              { vertex_capacity: c.n.vertex_count }, { joints: ['u4', ['vertex_capacity', 'influence_count']],
-              weights: ['f4', ['vertex_capacity', 'influence_count']], origins: ['u1', ['vertex_capacity']] });
+      const found = c.grow(surface, 'hf_weights_mirror', (room, made) => (weights_.set('vertex_capacity',
+              room.vertex_capacity).set('joints', written(made.joints)).set('weights',
+              written(made.weights)).set('origins', written(made.origins)), call('hf_weights_mirror', handleOf(surface,
+              Surface, 'surface'), desc, weights_, written(partners_), written(pairings), info, statistics)),
+              () => ({ vertex_capacity: weights_.get('vertex_count'),
+              influence_count: weights_.get('influence_count') }), { vertex_capacity: c.n.vertex_count },
+              { joints: ['u4', ['vertex_capacity', 'influence_count']], weights: ['f4', ['vertex_capacity',
+              'influence_count']], origins: ['u1', ['vertex_capacity']] });
       return { ...{ ...found, vertexCount: weights_.get('vertex_count'),
               influenceCount: weights_.get('influence_count') }, partners: partners_, pairings, info: info.toObject(),
               statistics: statistics.toObject() };

@@ -1,203 +1,113 @@
 // Between JavaScript and the C ABI: arrays, structs in the memory layout of the backend, errors. A backend is
 // { width: 0 | 1 (pointers of 4 or 8 bytes), call(name, args), newHandle() }; arguments are numbers, handles, null,
 // structs, and arrays marked as read or written.
-import { constants, functions, layouts } from './raw.js';
-
-const names = new Map(
-  Object.entries(constants)
-    .filter(([name]) => name === 'HF_OK' || name.startsWith('HF_ERROR_'))
-    .map(([name, code]) => [code, name]),
-);
+import { constants, layouts } from './raw.js';
 
 /** A failed call: code, codeName (HF_ERROR_*), index (or null), functionName. */
 export class HfError extends Error {
   constructor(message, code, index = null, functionName = '') {
-    super(`${functionName ? functionName + ': ' : ''}${message} (${names.get(code) ?? code})`);
-    this.name = 'HfError';
-    this.code = code;
-    this.codeName = names.get(code) ?? 'unknown';
-    this.index = index;
-    this.functionName = functionName;
+    const codeName = Object.keys(constants).find((name) => constants[name] === code);
+    super(`${functionName ? functionName + ': ' : ''}${message} (${codeName ?? code})`);
+    Object.assign(this, { name: 'HfError', code, codeName: codeName ?? 'unknown', index, functionName });
   }
 }
 
-export function fail(message, code = 'HF_ERROR_INVALID_ARGUMENT', index = null) {
-  throw new HfError(message, constants[code], index);
+export function fail(message, code = 'HF_ERROR_INVALID_ARGUMENT', index = null, functionName = '') {
+  throw new HfError(message, constants[code], index, functionName);
 }
 
-const wholeRanges = {
-  i32: [-0x80000000, 0x7fffffff],
-  u32: [0, 0xffffffff],
-  size: [0, Number.MAX_SAFE_INTEGER],
-};
-const largestFloat = 3.4028234663852886e38;
+export const missing = (value) => value === null || value === undefined;
+export const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
+const snake = (name) => name.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
 
-/** A number as a field or parameter of that kind takes it; what a DataView or the call would wrap is refused by name.
- * Flags (int32) take booleans. */
-export function scalar(kind, value, name) {
-  if (kind === 'i32' && typeof value === 'boolean') return Number(value);
-  const range = wholeRanges[kind];
+const ranges = { i32: [-0x80000000, 0x7fffffff], u32: [0, 0xffffffff], size: [0, Number.MAX_SAFE_INTEGER] };
+
+/** A number; what a DataView, an array or the call would wrap is refused by name. range: of whole numbers. */
+function check(value, range, name, index = null) {
   if (range ? !Number.isInteger(value) : typeof value !== 'number')
     fail(`${name} must be a ${range ? 'whole ' : ''}number, not ${String(value)}`);
-  if (range && (value < range[0] || value > range[1]))
-    fail(`${name} is ${value}; it must lie in ${range[0]} to ${range[1]}`, 'HF_ERROR_OUT_OF_RANGE');
-  if (kind === 'f32' && Number.isFinite(value) && Math.abs(value) > largestFloat)
-    fail(`${name} is ${value}; it must lie within ${largestFloat}`, 'HF_ERROR_OUT_OF_RANGE');
+  if (value < range?.[0] || value > range?.[1])
+    fail(`${name} is ${value}; it must lie in ${range.join(' to ')}`, 'HF_ERROR_OUT_OF_RANGE', index);
   return value;
 }
 
-/** Checks the numbers among the arguments of a function of the C ABI. */
-export function checkNumbers(name, args) {
-  functions[name][1].forEach((kind, i) => {
-    if (kind in wholeRanges || kind === 'f64') scalar(kind, args[i], `number ${i + 1} of ${name}`);
-  });
+/** A number as a field or parameter of that kind takes it. Flags (int32) take booleans. */
+export function scalar(kind, value, name) {
+  if (kind === 'i32' && typeof value === 'boolean') return Number(value);
+  return check(value, ranges[kind], name);
 }
 
 /** An array the library reads, or writes (copied back from WebAssembly's memory). */
-export class Memory {
-  constructor(array, written) {
-    this.array = array;
-    this.written = written;
-  }
-}
-export const read = (array) => (array === null || array.length === 0 ? null : new Memory(array, false));
-export const written = (array) => (array === null || array.length === 0 ? null : new Memory(array, true));
+export const read = (array) => (array?.length ? { array, written: false } : null);
+export const written = (array) => (array?.length ? { array, written: true } : null);
 
-const isArray = (values) => Array.isArray(values) || (ArrayBuffer.isView(values) && !(values instanceof DataView));
+const wholes = { u4: Uint32Array, u2: Uint16Array, u1: Uint8Array, i4: Int32Array };
+export const types = { f4: Float32Array, f8: Float64Array, ...wholes };
+export const isArray = (list) => Array.isArray(list) || (ArrayBuffer.isView(list) && !(list instanceof DataView));
 
-/** uint32 numbers: a Uint32Array is used as it is, others are checked and converted; null stays null. */
-export function integers(values, name) {
-  if (values === null || values === undefined) return null;
-  if (values instanceof Uint32Array) return values;
-  if (!isArray(values)) fail(`${name} must be an array of whole numbers`);
-  const flat = Array.isArray(values) && Array.isArray(values[0]) ? values.flat() : values;
-  for (let i = 0; i < flat.length; ++i) {
-    if (!Number.isInteger(flat[i])) fail(`${name}[${i}] must be a whole number, not ${String(flat[i])}`);
-    if (flat[i] < 0 || flat[i] > 0xffffffff) fail(`${name}[${i}] is ${flat[i]}`, 'HF_ERROR_OUT_OF_RANGE', i);
-  }
-  return Uint32Array.from(flat);
-}
-
-/** float64 numbers, count of them when given; a Float64Array is used as it is. */
-export function doubles(values, name, count) {
-  if (values === null || values === undefined) return null;
+/** An array of a type that the library takes ('f4 f8'), as given when it is one; others are checked and converted. */
+export function numbers(values, name, kinds) {
+  const allowed = kinds.split(' ').map((kind) => types[kind]);
+  if (allowed.some((Type) => values instanceof Type)) return values;
   if (!isArray(values)) fail(`${name} must be an array of numbers`);
-  let array = values;
-  if (!(values instanceof Float64Array)) {
-    const flat = Array.isArray(values) && isArray(values[0]) ? values.map((row) => Array.from(row)).flat() : values;
-    for (let i = 0; i < flat.length; ++i)
-      if (typeof flat[i] !== 'number') fail(`${name}[${i}] must be a number, not ${String(flat[i])}`);
-    array = Float64Array.from(flat);
-  }
-  if (count !== undefined && array.length !== count) fail(`${name} must hold ${count} numbers, not ${array.length}`);
-  return array;
+  const flat = Array.isArray(values) && isArray(values[0]) ? values.flatMap((row) => Array.from(row)) : values;
+  const Type = kinds[0] === 'f' ? allowed.at(-1) : allowed[0];
+  const range = kinds[0] === 'f' ? null : [0, 2 ** (8 * Type.BYTES_PER_ELEMENT) - 1];
+  const right = range ? (v) => Number.isInteger(v) && v >= 0 && v <= range[1] : (v) => typeof v === 'number';
+  for (let i = 0; i < flat.length; ++i) if (!right(flat[i])) check(flat[i], range, `${name}[${i}]`, i);
+  return Type.from(flat);
 }
 
-const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
-const fieldNames = new Map(); // struct -> camelCase -> C name
-function fieldsOf(struct) {
-  let map = fieldNames.get(struct);
-  if (!map)
-    fieldNames.set(struct, (map = new Map(Object.keys(layouts[struct].fields).map((name) => [camel(name), name]))));
-  return map;
-}
-
-const setters = {
-  i32: (view, at, value) => view.setInt32(at, value, true),
-  u32: (view, at, value) => view.setUint32(at, value, true),
-  f32: (view, at, value) => view.setFloat32(at, value, true),
-  f64: (view, at, value) => view.setFloat64(at, value, true),
-};
-const getters = {
-  i32: (view, at) => view.getInt32(at, true),
-  u32: (view, at) => view.getUint32(at, true),
-  f32: (view, at) => view.getFloat32(at, true),
-  f64: (view, at) => view.getFloat64(at, true),
-};
-const strides = { i32: 4, u32: 4, f32: 4, f64: 8 };
+const accessors = { i32: 'Int32', u32: 'Uint32', f64: 'Float64' };
 
 /** A struct in the layout of a backend. Pointers are kept beside it and filled in for the call. */
 export class Struct {
-  constructor(width, type, fields = {}) {
-    this.width = width;
-    this.layout = layouts[type];
-    this.type = type;
-    this.bytes = new Uint8Array(this.layout.size[width]);
-    this.view = new DataView(this.bytes.buffer);
-    this.pointers = []; // [offset, Memory | Struct | handle]
-    if (this.layout.fields.struct_size) this.set('struct_size', this.bytes.length);
+  constructor(width, type, fields = {}, bytes = new Uint8Array(layouts[type].size[width])) {
+    const pointers = new Map(); // offset -> array | Struct | handle
+    const view = new DataView(bytes.buffer, bytes.byteOffset);
+    Object.assign(this, { width, layout: layouts[type], bytes, pointers, view });
+    if (this.layout.fields.struct_size) this.set('struct_size', bytes.length);
     for (const [name, value] of Object.entries(fields)) this.set(name, value);
   }
 
   set(name, value, shown = name) {
-    const [kind, offsets, count] = this.layout.fields[name];
+    const { fields } = this.layout;
+    const [kind, offsets, count] = fields[name] ?? fields[snake(name)] ?? fail(`no option '${name}'`);
     const at = offsets[this.width];
-    if (value === null || value === undefined) return this;
-    if (kind === 'ptr') this.pointers.push([at, value]);
+    if (missing(value)) return this;
+    if (kind === 'ptr') this.pointers.set(at, value);
     else if (kind in layouts) {
       this.bytes.set(value.bytes, at); // a struct inside this one
-      for (const [inside, target] of value.pointers) this.pointers.push([at + inside, target]);
-    }
-    else if (kind === 'size') {
-      scalar('size', value, shown);
-      this.width ? this.view.setBigUint64(at, BigInt(value), true) : this.view.setUint32(at, value, true);
-    } else if (count)
-      for (let i = 0; i < count; ++i)
-        setters[kind](this.view, at + i * strides[kind], scalar(kind, value[i], `${shown}[${i}]`));
-    else setters[kind](this.view, at, scalar(kind, value, shown));
+      for (const [inside, target] of value.pointers) this.pointers.set(at + inside, target);
+    } else if (kind === 'size' && this.width) this.view.setBigUint64(at, BigInt(scalar(kind, value, shown)), true);
+    else
+      for (let i = 0; i < (count || 1); ++i) {
+        const number = scalar(kind, count ? value[i] : value, count ? `${shown}[${i}]` : shown);
+        this.view[`set${accessors[kind] ?? 'Uint32'}`](at + i * (kind === 'f64' ? 8 : 4), number, true);
+      }
     return this;
   }
 
   get(name) {
     const [kind, offsets, count] = this.layout.fields[name];
     const at = offsets[this.width];
-    if (kind === 'char') {
-      const text = this.bytes.subarray(at, at + count);
-      const end = text.indexOf(0);
-      return new TextDecoder().decode(text.slice(0, end < 0 ? count : end));
-    }
-    if (count) return Array.from({ length: count }, (_, i) => getters[kind](this.view, at + i * strides[kind]));
-    if (layouts[kind]) return rows(this.width, kind, this.bytes.subarray(at), 1)[0];
-    return getters[kind](this.view, at);
-  }
-
-  /** Sets scalar options by their camelCase names; an unknown one is an error that names it. Arrays are packed and
-   * their lengths known, so strides and the fields of `own` are no options. */
-  options(options = {}, own = []) {
-    const map = fieldsOf(this.type);
-    const taken = (name) => ['struct_size', 'reserved', ...own].includes(name) || name.endsWith('_stride');
-    for (const [key, value] of Object.entries(options)) {
-      const name = map.get(key);
-      const kind = name && this.layout.fields[name][0];
-      if (!setters[kind] || taken(name)) {
-        const allowed = [...map].filter(([, field]) => setters[this.layout.fields[field][0]] && !taken(field));
-        fail(`no option '${key}'; there are: ${allowed.map(([shown]) => shown).join(', ')}`);
-      }
-      const count = this.layout.fields[name][2];
-      if (count && (!isArray(value) || value.length !== count)) fail(`option '${key}' must be ${count} numbers`);
-      if (value === null || value === undefined) fail(`option '${key}' must be a number, not ${value}`);
-      this.set(name, count ? Array.from(value) : value, `option '${key}'`);
-    }
-    return this;
+    if (kind === 'char') return new TextDecoder().decode(this.bytes.slice(at, at + count)).split('\0')[0];
+    if (kind in layouts) return new Struct(this.width, kind, {}, this.bytes.subarray(at)).toObject();
+    const number = (i) => this.view[`get${accessors[kind]}`](at + i * (kind === 'f64' ? 8 : 4), true);
+    return count ? Array.from({ length: count }, (_, i) => number(i)) : number(0);
   }
 
   /** The fields that are no pointers as a plain object with camelCase names. */
   toObject() {
-    const result = {};
-    for (const [shown, name] of fieldsOf(this.type)) {
-      const kind = this.layout.fields[name][0];
-      if ((getters[kind] || kind === 'char' || layouts[kind]) && name !== 'struct_size' && name !== 'reserved')
-        result[shown] = this.get(name);
-    }
-    return result;
+    const { struct_size, reserved, ...fields } = this.layout.fields;
+    this.layout.shown ??= Object.keys(fields).filter((n) => fields[n][0] !== 'ptr').map((n) => [camel(n), n]);
+    return Object.fromEntries(this.layout.shown.map(([key, name]) => [key, this.get(name)]));
   }
 }
 
-/** Rows of a packed array of structs as plain objects. */
+/** The first rows of an array; of a packed array of structs as plain objects. */
 export function rows(width, type, bytes, count) {
-  const row = new Struct(width, type);
-  return Array.from({ length: count }, (_, i) => {
-    row.bytes.set(bytes.subarray(i * row.bytes.length, (i + 1) * row.bytes.length));
-    return row.toObject();
-  });
+  if (types[type]) return bytes.subarray(0, count);
+  const row = (i) => new Struct(width, type, {}, bytes.subarray(i * layouts[type].size[width]));
+  return Array.from({ length: count }, (_, i) => row(i).toObject());
 }

@@ -623,7 +623,7 @@ class WeightsOut(NamedTuple):
 
 def _factor_desc(c: Call, prefix: str = '', *, bytes: Optional[bytes] = None) -> Any:
     desc = c.struct(_raw.hf_factor_desc, {})
-    c.bytes(desc, 'bytes', 'byte_count', bytes)
+    desc.bytes, desc.byte_count = c.bytes('bytes', bytes)
     return desc
 
 
@@ -633,16 +633,18 @@ def _links_desc(c: Call, prefix: str = '', *, joints: Optional[ArrayLike] = None
         mode: int = LinkMode.NONE, distance: float = 0.0, stiffness: float = 0.0, overlay_distance: float = 0.0) -> Any:
     desc = c.struct(_raw.hf_links_desc, {'mode': mode, 'distance': distance, 'stiffness': stiffness,
             'overlay_distance': overlay_distance})
-    c.rows(desc, 'joints', joints, 'u2', ('vertex_count', prefix + 'influence_count'))
-    c.rows(desc, 'weights', weights, 'f4', ('vertex_count', prefix + 'influence_count'))
-    c.rows(desc, 'joint_parents', joint_parents, 'u4', (prefix + 'joint_count',), sentinel=True)
-    c.rows(desc, 'tags', tags, 'u4', ('vertex_count',))
+    desc.joints = c.array('joints', joints, 'u2', ('vertex_count', prefix + 'influence_count'))
+    desc.weights = c.array('weights', weights, 'f4', ('vertex_count', prefix + 'influence_count'))
+    desc.joint_parents = c.array('joint_parents', joint_parents, 'u4', (prefix + 'joint_count',), sentinel=True)
+    desc.tags = c.array('tags', tags, 'u4', ('vertex_count',))
     desc.links = c.written('links', links, _raw.hf_link, (prefix + 'link_count',))
-    c.rows(desc, 'light_vertices', light_vertices, 'u4', (prefix + 'light_count',))
-    c.rows(desc, 'heavy_vertices', heavy_vertices, 'u4', (prefix + 'heavy_count',))
-    c.counts(desc, influence_count=(prefix + 'influence_count', 0), link_count=(prefix + 'link_count', 0),
-            light_count=(prefix + 'light_count', 0), heavy_count=(prefix + 'heavy_count', 0),
-            joint_count=(prefix + 'joint_count', 0))
+    desc.light_vertices = c.array('light_vertices', light_vertices, 'u4', (prefix + 'light_count',))
+    desc.heavy_vertices = c.array('heavy_vertices', heavy_vertices, 'u4', (prefix + 'heavy_count',))
+    desc.influence_count = c.n.setdefault(prefix + 'influence_count', 0)
+    desc.link_count = c.n.setdefault(prefix + 'link_count', 0)
+    desc.light_count = c.n.setdefault(prefix + 'light_count', 0)
+    desc.heavy_count = c.n.setdefault(prefix + 'heavy_count', 0)
+    desc.joint_count = c.n.setdefault(prefix + 'joint_count', 0)
     return desc
 
 
@@ -682,7 +684,8 @@ def _graph_desc(c: Call, prefix: str = '', *, edges: Optional[ArrayLike] = None,
     desc = c.struct(_raw.hf_graph_desc, {'vertex_count': vertex_count, 'allow_negative': allow_negative,
             'field_kind': field_kind, 'ordering': ordering, 'thread_count': thread_count, 'vertex_limit': vertex_limit,
             'edge_limit': edge_limit, 'memory_limit_mb': memory_limit_mb, 'work_limit_gflop': work_limit_gflop})
-    c.known('vertex_count', vertex_count)
+    if number(vertex_count, 'vertex_count'):
+        c.n['vertex_count'] = vertex_count
     desc.edges = c.view('edges', edges, 'u4 u2', ('edge_count', 2))
     desc.weights = c.view('weights', weights, 'f4 f8', ('edge_count',))
     desc.masses = c.view('masses', masses, 'f4 f8', ('vertex_count',))
@@ -701,7 +704,7 @@ def _solver_desc(c: Call, prefix: str = '', *, field_kind: int = FieldKind.HARMO
         site_limit: int = 0, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_solver_desc, {'field_kind': field_kind, 'channel_count': channel_count,
             'site_limit': site_limit})
-    c.known('channel_count', channel_count or 1)
+    c.n['channel_count'] = number(channel_count, 'channel_count') or 1
     desc.progress = handle_of(progress, Progress, 'progress')
     return desc
 
@@ -710,13 +713,13 @@ def _sites_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = No
         places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None,
         stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None) -> Any:
     desc = c.struct(_raw.hf_sites_desc, {})
-    c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'site_count',))
+    desc.vertices = c.array('vertices', vertices, 'u4', (prefix + 'site_count',))
     desc.places = c.places('places', places, (prefix + 'site_count',))
-    c.rows(desc, 'points', points, 'f8', (prefix + 'site_count', 3))
-    c.rows(desc, 'values', values, 'f8', (prefix + 'site_count', 'channel_count'))
-    c.rows(desc, 'stiffness', stiffness, 'f8', (prefix + 'site_count',))
-    c.rows(desc, 'radii', radii, 'f8', (prefix + 'site_count',))
-    c.counts(desc, site_count=(prefix + 'site_count', 1))
+    desc.points = c.array('points', points, 'f8', (prefix + 'site_count', 3))
+    desc.values = c.array('values', values, 'f8', (prefix + 'site_count', 'channel_count'))
+    desc.stiffness = c.array('stiffness', stiffness, 'f8', (prefix + 'site_count',))
+    desc.radii = c.array('radii', radii, 'f8', (prefix + 'site_count',))
+    desc.site_count = c.n.setdefault(prefix + 'site_count', 1)
     return desc
 
 
@@ -724,14 +727,15 @@ def _edit_desc(c: Call, prefix: str = '', *, remove_sites: Optional[ArrayLike] =
         move_sites: Optional[ArrayLike] = None, set_sites: Optional[ArrayLike] = None,
         set_values: Optional[ArrayLike] = None, move_to: Any = None, add: Any = None) -> Any:
     desc = c.struct(_raw.hf_edit_desc, {})
-    c.rows(desc, 'remove_sites', remove_sites, 'u4', (prefix + 'remove_count',))
-    c.rows(desc, 'move_sites', move_sites, 'u4', (prefix + 'move_count',))
-    c.rows(desc, 'set_sites', set_sites, 'u4', (prefix + 'set_count',))
-    c.rows(desc, 'set_values', set_values, 'f8', (prefix + 'set_count', 'channel_count'))
+    desc.remove_sites = c.array('remove_sites', remove_sites, 'u4', (prefix + 'remove_count',))
+    desc.move_sites = c.array('move_sites', move_sites, 'u4', (prefix + 'move_count',))
+    desc.set_sites = c.array('set_sites', set_sites, 'u4', (prefix + 'set_count',))
+    desc.set_values = c.array('set_values', set_values, 'f8', (prefix + 'set_count', 'channel_count'))
     desc.move_to = c.inner(move_to, 'vertices', _sites_desc, 'move_to.')
     desc.add = c.inner(add, 'vertices', _sites_desc, 'add.')
-    c.counts(desc, remove_count=(prefix + 'remove_count', 0), move_count=(prefix + 'move_count', 0),
-            set_count=(prefix + 'set_count', 0))
+    desc.remove_count = c.n.setdefault(prefix + 'remove_count', 0)
+    desc.move_count = c.n.setdefault(prefix + 'move_count', 0)
+    desc.set_count = c.n.setdefault(prefix + 'set_count', 0)
     return desc
 
 
@@ -746,7 +750,7 @@ def _extremities_desc(c: Call, prefix: str = '', *, kind: int = ExtremityKind.PO
         source_count: int = 0, geodesics: Optional[Geodesics] = None, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_extremities_desc, {'kind': kind, 'least_length_share': least_length_share,
             'source_count': source_count})
-    c.known('source_count', source_count or 40)
+    c.n['source_count'] = number(source_count, 'source_count') or 40
     desc.geodesics = handle_of(geodesics, Geodesics, 'geodesics')
     desc.progress = handle_of(progress, Progress, 'progress')
     return desc
@@ -771,13 +775,13 @@ def _handles_desc(c: Call, prefix: str = '', *, region_vertices: Optional[Sequen
         points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, layer: int = 0, in_place: bool = False,
         free_rotation: bool = False, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_handles_desc, {'layer': layer, 'in_place': in_place, 'free_rotation': free_rotation})
-    c.ragged(desc, 'region_counts', 'region_vertices', region_vertices, prefix + 'handle_count')
-    c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'handle_count',))
+    desc.region_counts, desc.region_vertices = c.lists('region_vertices', region_vertices, (prefix + 'handle_count',))
+    desc.vertices = c.array('vertices', vertices, 'u4', (prefix + 'handle_count',))
     desc.places = c.places('places', places, (prefix + 'handle_count',))
-    c.rows(desc, 'points', points, 'f8', (prefix + 'handle_count', 3))
-    c.rows(desc, 'radii', radii, 'f8', (prefix + 'handle_count',))
+    desc.points = c.array('points', points, 'f8', (prefix + 'handle_count', 3))
+    desc.radii = c.array('radii', radii, 'f8', (prefix + 'handle_count',))
     desc.progress = handle_of(progress, Progress, 'progress')
-    c.counts(desc, handle_count=(prefix + 'handle_count', 1))
+    desc.handle_count = c.n.setdefault(prefix + 'handle_count', 1)
     return desc
 
 
@@ -785,7 +789,8 @@ def _deform_desc(c: Call, prefix: str = '', *, iteration_count: int = 0, restart
         refine_from_last: bool = False, first_vertex: int = 0, vertex_count: int = 0) -> Any:
     desc = c.struct(_raw.hf_deform_desc, {'iteration_count': iteration_count, 'restart': restart, 'refine': refine,
             'refine_from_last': refine_from_last, 'first_vertex': first_vertex, 'vertex_count': vertex_count})
-    c.known('vertex_count', vertex_count)
+    if number(vertex_count, 'vertex_count'):
+        c.n['vertex_count'] = vertex_count
     return desc
 
 
@@ -793,11 +798,11 @@ def _handle_proposals_desc(c: Call, prefix: str = '', *, joints: Optional[ArrayL
         parents: Optional[ArrayLike] = None, up: Optional[ArrayLike] = None, least_length_share: float = 0.0,
         limit: int = 0, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_handle_proposals_desc, {'least_length_share': least_length_share, 'limit': limit})
-    c.rows(desc, 'joints', joints, 'f8', (prefix + 'joint_count', 3))
-    c.rows(desc, 'parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
-    c.fixed(desc, 'up', up)
+    desc.joints = c.array('joints', joints, 'f8', (prefix + 'joint_count', 3))
+    desc.parents = c.array('parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
+    c.fixed(desc.up, 'up', up)
     desc.progress = handle_of(progress, Progress, 'progress')
-    c.counts(desc, joint_count=(prefix + 'joint_count', 0))
+    desc.joint_count = c.n.setdefault(prefix + 'joint_count', 0)
     return desc
 
 
@@ -809,17 +814,19 @@ def _quads_desc(c: Call, prefix: str = '', *, crease_edges: Optional[ArrayLike] 
         symmetry_plane: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_quads_desc, {'face_count': face_count, 'edge_length': edge_length,
             'crease_angle': crease_angle, 'relax_count': relax_count})
-    c.rows(desc, 'crease_edges', crease_edges, 'u4', (prefix + 'crease_count', 2))
-    c.rows(desc, 'guide_vertices', guide_vertices, 'u4', (prefix + 'guide_count',))
-    c.rows(desc, 'guide_vectors', guide_vectors, 'f8', (prefix + 'guide_count', 3))
-    c.rows(desc, 'guide_weights', guide_weights, 'f4', (prefix + 'guide_count',))
-    c.rows(desc, 'irregular_points', irregular_points, 'f8', (prefix + 'irregular_count', 3))
-    c.rows(desc, 'irregular_valences', irregular_valences, 'u4', (prefix + 'irregular_count',))
-    c.rows(desc, 'irregular_directions', irregular_directions, 'f8', (prefix + 'irregular_count', 3))
-    c.fixed(desc, 'symmetry_plane', symmetry_plane)
+    desc.crease_edges = c.array('crease_edges', crease_edges, 'u4', (prefix + 'crease_count', 2))
+    desc.guide_vertices = c.array('guide_vertices', guide_vertices, 'u4', (prefix + 'guide_count',))
+    desc.guide_vectors = c.array('guide_vectors', guide_vectors, 'f8', (prefix + 'guide_count', 3))
+    desc.guide_weights = c.array('guide_weights', guide_weights, 'f4', (prefix + 'guide_count',))
+    desc.irregular_points = c.array('irregular_points', irregular_points, 'f8', (prefix + 'irregular_count', 3))
+    desc.irregular_valences = c.array('irregular_valences', irregular_valences, 'u4', (prefix + 'irregular_count',))
+    desc.irregular_directions = c.array('irregular_directions', irregular_directions, 'f8', (prefix + 'irregular_count',
+            3))
+    c.fixed(desc.symmetry_plane, 'symmetry_plane', symmetry_plane)
     desc.progress = handle_of(progress, Progress, 'progress')
-    c.counts(desc, crease_count=(prefix + 'crease_count', 0), guide_count=(prefix + 'guide_count', 0),
-            irregular_count=(prefix + 'irregular_count', 0))
+    desc.crease_count = c.n.setdefault(prefix + 'crease_count', 0)
+    desc.guide_count = c.n.setdefault(prefix + 'guide_count', 0)
+    desc.irregular_count = c.n.setdefault(prefix + 'irregular_count', 0)
     return desc
 
 
@@ -835,10 +842,10 @@ def _curve_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = No
         places: Optional[Sequence[PlaceLike]] = None, points: Optional[ArrayLike] = None, side: int = Side.SMALLER,
         seed_vertex: int = 0, kind: int = CurveKind.STRAIGHT) -> Any:
     desc = c.struct(_raw.hf_curve_desc, {'side': side, 'seed_vertex': seed_vertex, 'kind': kind})
-    c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'point_count',))
+    desc.vertices = c.array('vertices', vertices, 'u4', (prefix + 'point_count',))
     desc.places = c.places('places', places, (prefix + 'point_count',))
-    c.rows(desc, 'points', points, 'f8', (prefix + 'point_count', 3))
-    c.counts(desc, point_count=(prefix + 'point_count', 0))
+    desc.points = c.array('points', points, 'f8', (prefix + 'point_count', 3))
+    desc.point_count = c.n.setdefault(prefix + 'point_count', 0)
     return desc
 
 
@@ -846,11 +853,12 @@ def _region_edit_desc(c: Call, prefix: str = '', *, remove_vertices: Optional[Ar
         add_vertices: Optional[ArrayLike] = None, ring_count: int = 0, curve: Any = None,
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_region_edit_desc, {'ring_count': ring_count})
-    c.rows(desc, 'remove_vertices', remove_vertices, 'u4', (prefix + 'remove_count',))
-    c.rows(desc, 'add_vertices', add_vertices, 'u4', (prefix + 'add_count',))
+    desc.remove_vertices = c.array('remove_vertices', remove_vertices, 'u4', (prefix + 'remove_count',))
+    desc.add_vertices = c.array('add_vertices', add_vertices, 'u4', (prefix + 'add_count',))
     desc.progress = handle_of(progress, Progress, 'progress')
     desc.curve = c.inner(curve, 'vertices', _curve_desc, 'curve.')
-    c.counts(desc, remove_count=(prefix + 'remove_count', 0), add_count=(prefix + 'add_count', 0))
+    desc.remove_count = c.n.setdefault(prefix + 'remove_count', 0)
+    desc.add_count = c.n.setdefault(prefix + 'add_count', 0)
     return desc
 
 
@@ -862,10 +870,10 @@ def _morph_desc(c: Call, prefix: str = '', *, weight: float = 0.0) -> Any:
 def _detail_desc(c: Call, prefix: str = '', *, source_vertices: Optional[ArrayLike] = None,
         target_vertices: Optional[ArrayLike] = None, scale: float = 0.0, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_detail_desc, {'scale': scale})
-    c.rows(desc, 'source_vertices', source_vertices, 'u4', (prefix + 'pair_count',))
-    c.rows(desc, 'target_vertices', target_vertices, 'u4', (prefix + 'pair_count',))
+    desc.source_vertices = c.array('source_vertices', source_vertices, 'u4', (prefix + 'pair_count',))
+    desc.target_vertices = c.array('target_vertices', target_vertices, 'u4', (prefix + 'pair_count',))
     desc.progress = handle_of(progress, Progress, 'progress')
-    c.counts(desc, pair_count=(prefix + 'pair_count', 0))
+    desc.pair_count = c.n.setdefault(prefix + 'pair_count', 0)
     return desc
 
 
@@ -873,9 +881,9 @@ def _retarget_desc(c: Call, prefix: str = '', *, source_rest: Optional[ArrayLike
         target_rest: Optional[ArrayLike] = None, root_motion: int = RootMotion.HIPS, leave_out: int = 0,
         scale: float = 0.0, ground_velocity: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_retarget_desc, {'root_motion': root_motion, 'leave_out': leave_out, 'scale': scale})
-    c.rows(desc, 'source_rest', source_rest, 'f4', ('source.joint_count', 10))
-    c.rows(desc, 'target_rest', target_rest, 'f4', ('target.joint_count', 10))
-    c.fixed(desc, 'ground_velocity', ground_velocity)
+    desc.source_rest = c.array('source_rest', source_rest, 'f4', ('source.joint_count', 10))
+    desc.target_rest = c.array('target_rest', target_rest, 'f4', ('target.joint_count', 10))
+    c.fixed(desc.ground_velocity, 'ground_velocity', ground_velocity)
     desc.progress = handle_of(progress, Progress, 'progress')
     return desc
 
@@ -884,12 +892,13 @@ def _skin_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = No
         triangles: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None,
         weights: Optional[ArrayLike] = None) -> Any:
     desc = c.struct(_raw.hf_skin_desc, {})
-    c.rows(desc, 'positions', positions, 'f4', (prefix + 'vertex_count', 3))
-    c.rows(desc, 'triangles', triangles, 'u4', (prefix + 'triangle_count', 3))
-    c.rows(desc, 'joints', joints, 'u4', (prefix + 'vertex_count', prefix + 'influence_count'))
-    c.rows(desc, 'weights', weights, 'f4', (prefix + 'vertex_count', prefix + 'influence_count'))
-    c.counts(desc, vertex_count=(prefix + 'vertex_count', 0), triangle_count=(prefix + 'triangle_count', 0),
-            influence_count=(prefix + 'influence_count', 0))
+    desc.positions = c.array('positions', positions, 'f4', (prefix + 'vertex_count', 3))
+    desc.triangles = c.array('triangles', triangles, 'u4', (prefix + 'triangle_count', 3))
+    desc.joints = c.array('joints', joints, 'u4', (prefix + 'vertex_count', prefix + 'influence_count'))
+    desc.weights = c.array('weights', weights, 'f4', (prefix + 'vertex_count', prefix + 'influence_count'))
+    desc.vertex_count = c.n.setdefault(prefix + 'vertex_count', 0)
+    desc.triangle_count = c.n.setdefault(prefix + 'triangle_count', 0)
+    desc.influence_count = c.n.setdefault(prefix + 'influence_count', 0)
     return desc
 
 
@@ -899,18 +908,19 @@ def _skeleton_desc(c: Call, prefix: str = '', *, names: Union[None, str, Sequenc
         roles: Optional[ArrayLike] = None, sides: Optional[ArrayLike] = None, travels: Optional[ArrayLike] = None,
         skin: Any = None, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_skeleton_desc, {})
-    c.rows(desc, 'parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
-    c.rows(desc, 'rest', rest, 'f4', (prefix + 'joint_count', 10))
-    c.rows(desc, 'inverse_binds', inverse_binds, 'f4', (prefix + 'joint_count', 16))
-    c.rows(desc, 'up', up, 'f4', (3,))
-    c.rows(desc, 'forward', forward, 'f4', (3,))
-    c.rows(desc, 'roles', roles, 'i4', (prefix + 'joint_count',))
-    c.rows(desc, 'sides', sides, 'i4', (prefix + 'joint_count',))
-    c.rows(desc, 'travels', travels, 'f4', (prefix + 'travel_count', 3))
+    desc.parents = c.array('parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
+    desc.rest = c.array('rest', rest, 'f4', (prefix + 'joint_count', 10))
+    desc.inverse_binds = c.array('inverse_binds', inverse_binds, 'f4', (prefix + 'joint_count', 16))
+    desc.up = c.array('up', up, 'f4', (3,))
+    desc.forward = c.array('forward', forward, 'f4', (3,))
+    desc.roles = c.array('roles', roles, 'i4', (prefix + 'joint_count',))
+    desc.sides = c.array('sides', sides, 'i4', (prefix + 'joint_count',))
+    desc.travels = c.array('travels', travels, 'f4', (prefix + 'travel_count', 3))
     desc.names = c.text(names)
     desc.progress = handle_of(progress, Progress, 'progress')
     desc.skin = c.inner(skin, 'positions', _skin_desc, 'skin.')
-    c.counts(desc, joint_count=(prefix + 'joint_count', 0), travel_count=(prefix + 'travel_count', 0))
+    desc.joint_count = c.n.setdefault(prefix + 'joint_count', 0)
+    desc.travel_count = c.n.setdefault(prefix + 'travel_count', 0)
     return desc
 
 
@@ -922,8 +932,8 @@ def _transfer_desc(c: Call, prefix: str = '', *, source_rest: Optional[ArrayLike
             'kernel_width': kernel_width, 'scale': scale, 'alignment_angle': alignment_angle})
     desc.source_rest = c.view('source_rest', source_rest, 'f4 f8', ('source.vertex_count', 3))
     desc.target_rest = c.view('target_rest', target_rest, 'f4 f8', ('target.vertex_count', 3))
-    c.fixed(desc, 'source_axes', source_axes)
-    c.fixed(desc, 'target_axes', target_axes)
+    c.fixed(desc.source_axes, 'source_axes', source_axes)
+    c.fixed(desc.target_axes, 'target_axes', target_axes)
     return desc
 
 
@@ -931,11 +941,11 @@ def _pairs_desc(c: Call, prefix: str = '', *, source_vertices: Optional[Sequence
         target_vertices: Optional[Sequence[ArrayLike]] = None, flags: Optional[ArrayLike] = None,
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_pairs_desc, {})
-    c.ragged(desc, 'source_counts', 'source_vertices', source_vertices, prefix + 'pair_count')
-    c.ragged(desc, 'target_counts', 'target_vertices', target_vertices, prefix + 'pair_count')
-    c.rows(desc, 'flags', flags, 'u4', (prefix + 'pair_count',))
+    desc.source_counts, desc.source_vertices = c.lists('source_vertices', source_vertices, (prefix + 'pair_count',))
+    desc.target_counts, desc.target_vertices = c.lists('target_vertices', target_vertices, (prefix + 'pair_count',))
+    desc.flags = c.array('flags', flags, 'u4', (prefix + 'pair_count',))
     desc.progress = handle_of(progress, Progress, 'progress')
-    c.counts(desc, pair_count=(prefix + 'pair_count', 1))
+    desc.pair_count = c.n.setdefault(prefix + 'pair_count', 1)
     return desc
 
 
@@ -950,9 +960,9 @@ def _transfer_frame(c: Call, prefix: str = '', *, source_positions: Optional[Arr
         hold_pairs: Optional[ArrayLike] = None, hold_positions: Optional[ArrayLike] = None) -> Any:
     desc = c.struct(_raw.hf_transfer_frame, {})
     desc.source_positions = c.view('source_positions', source_positions, 'f4 f8', ('source.vertex_count', 3))
-    c.rows(desc, 'hold_pairs', hold_pairs, 'u4', (prefix + 'hold_count',))
-    c.rows(desc, 'hold_positions', hold_positions, 'f8', (prefix + 'hold_count', 3))
-    c.counts(desc, hold_count=(prefix + 'hold_count', 0))
+    desc.hold_pairs = c.array('hold_pairs', hold_pairs, 'u4', (prefix + 'hold_count',))
+    desc.hold_positions = c.array('hold_positions', hold_positions, 'f8', (prefix + 'hold_count', 3))
+    desc.hold_count = c.n.setdefault(prefix + 'hold_count', 0)
     return desc
 
 
@@ -960,14 +970,14 @@ def _joints_desc(c: Call, prefix: str = '', *, heads: Optional[ArrayLike] = None
         axes: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None, deforms: Optional[ArrayLike] = None,
         sources: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_joints_desc, {})
-    c.rows(desc, 'heads', heads, 'f8', (prefix + 'joint_count', 3))
-    c.rows(desc, 'tails', tails, 'f8', (prefix + 'joint_count', 3))
-    c.rows(desc, 'axes', axes, 'f8', (prefix + 'joint_count', 3))
-    c.rows(desc, 'parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
-    c.rows(desc, 'deforms', deforms, 'i4', (prefix + 'joint_count',))
-    c.rows(desc, 'sources', sources, 'u4', (prefix + 'joint_count',), sentinel=True)
+    desc.heads = c.array('heads', heads, 'f8', (prefix + 'joint_count', 3))
+    desc.tails = c.array('tails', tails, 'f8', (prefix + 'joint_count', 3))
+    desc.axes = c.array('axes', axes, 'f8', (prefix + 'joint_count', 3))
+    desc.parents = c.array('parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
+    desc.deforms = c.array('deforms', deforms, 'i4', (prefix + 'joint_count',))
+    desc.sources = c.array('sources', sources, 'u4', (prefix + 'joint_count',), sentinel=True)
     desc.progress = handle_of(progress, Progress, 'progress')
-    c.counts(desc, joint_count=(prefix + 'joint_count', 0))
+    desc.joint_count = c.n.setdefault(prefix + 'joint_count', 0)
     return desc
 
 
@@ -976,14 +986,15 @@ def _pins_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = Non
         radii: Optional[ArrayLike] = None, joints: Optional[ArrayLike] = None, weights: Optional[ArrayLike] = None,
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_pins_desc, {})
-    c.rows(desc, 'vertices', vertices, 'u4', (prefix + 'pin_count',))
+    desc.vertices = c.array('vertices', vertices, 'u4', (prefix + 'pin_count',))
     desc.places = c.places('places', places, (prefix + 'pin_count',))
-    c.rows(desc, 'points', points, 'f8', (prefix + 'pin_count', 3))
-    c.rows(desc, 'radii', radii, 'f8', (prefix + 'pin_count',))
-    c.rows(desc, 'joints', joints, 'u4', (prefix + 'pin_count', prefix + 'influence_count'))
-    c.rows(desc, 'weights', weights, 'f4', (prefix + 'pin_count', prefix + 'influence_count'))
+    desc.points = c.array('points', points, 'f8', (prefix + 'pin_count', 3))
+    desc.radii = c.array('radii', radii, 'f8', (prefix + 'pin_count',))
+    desc.joints = c.array('joints', joints, 'u4', (prefix + 'pin_count', prefix + 'influence_count'))
+    desc.weights = c.array('weights', weights, 'f4', (prefix + 'pin_count', prefix + 'influence_count'))
     desc.progress = handle_of(progress, Progress, 'progress')
-    c.counts(desc, pin_count=(prefix + 'pin_count', 0), influence_count=(prefix + 'influence_count', 0))
+    desc.pin_count = c.n.setdefault(prefix + 'pin_count', 0)
+    desc.influence_count = c.n.setdefault(prefix + 'influence_count', 0)
     return desc
 
 
@@ -992,11 +1003,11 @@ def _weights_transfer_desc(c: Call, prefix: str = '', *, joints: Optional[ArrayL
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_weights_transfer_desc, {'distance': distance, 'angle': angle,
             'influence_count': influence_count})
-    c.known('influence_count', influence_count or 4)
-    c.rows(desc, 'joints', joints, 'u4', ('source.vertex_count', prefix + 'source_influence_count'))
-    c.rows(desc, 'weights', weights, 'f4', ('source.vertex_count', prefix + 'source_influence_count'))
+    c.n['influence_count'] = number(influence_count, 'influence_count') or 4
+    desc.joints = c.array('joints', joints, 'u4', ('source.vertex_count', prefix + 'source_influence_count'))
+    desc.weights = c.array('weights', weights, 'f4', ('source.vertex_count', prefix + 'source_influence_count'))
     desc.progress = handle_of(progress, Progress, 'progress')
-    c.counts(desc, source_influence_count=(prefix + 'source_influence_count', 0))
+    desc.source_influence_count = c.n.setdefault(prefix + 'source_influence_count', 0)
     return desc
 
 
@@ -1007,16 +1018,16 @@ def _weights_mirror_desc(c: Call, prefix: str = '', *, heads: Optional[ArrayLike
         progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_weights_mirror_desc, {'to': to, 'distance': distance, 'angle': angle,
             'influence_count': influence_count})
-    c.known('influence_count', influence_count or 4)
-    c.rows(desc, 'heads', heads, 'f8', (prefix + 'joint_count', 3))
-    c.rows(desc, 'partners', partners, 'u4', (prefix + 'joint_count',), sentinel=True)
-    c.rows(desc, 'plane', plane, 'f8', (6,))
-    c.rows(desc, 'joints', joints, 'u4', ('vertex_count', prefix + 'source_influence_count'))
-    c.rows(desc, 'weights', weights, 'f4', ('vertex_count', prefix + 'source_influence_count'))
+    c.n['influence_count'] = number(influence_count, 'influence_count') or 4
+    desc.heads = c.array('heads', heads, 'f8', (prefix + 'joint_count', 3))
+    desc.partners = c.array('partners', partners, 'u4', (prefix + 'joint_count',), sentinel=True)
+    desc.plane = c.array('plane', plane, 'f8', (6,))
+    desc.joints = c.array('joints', joints, 'u4', ('vertex_count', prefix + 'source_influence_count'))
+    desc.weights = c.array('weights', weights, 'f4', ('vertex_count', prefix + 'source_influence_count'))
     desc.names = c.text(names)
     desc.progress = handle_of(progress, Progress, 'progress')
-    c.counts(desc, joint_count=(prefix + 'joint_count', 0), source_influence_count=(prefix + 'source_influence_count',
-            0))
+    desc.joint_count = c.n.setdefault(prefix + 'joint_count', 0)
+    desc.source_influence_count = c.n.setdefault(prefix + 'source_influence_count', 0)
     return desc
 
 
@@ -1248,7 +1259,7 @@ class Surface(Object):
 
         def run(room: Any, made: Any) -> None:
             call('hf_surface_measure_gaps', self._handle, None if positions is None else ref(positions_),
-                    room['capacity'], address(made['gaps']), c.info(info, _raw.hf_gaps_info))
+                    room['capacity'], address(made['gaps']), ref(info, _raw.hf_gaps_info))
 
         found = c.grow(self, 'hf_surface_measure_gaps', run, lambda: {'capacity': info.link_count}, {'capacity': None},
                 {'gaps': (np.float64, ('capacity',))})
@@ -1376,7 +1387,8 @@ class Surface(Object):
         """
         c = Call(self)
         field_ = c.view('field', field, 'f4 f8', ('vertex_count',))
-        c.known('level_count', level_count)
+        if number(level_count, 'level_count'):
+            c.n['level_count'] = level_count
         levels = c.out(None, 'f8', ('level_count',), packed=True)
         call('hf_surface_space_levels', self._handle, None if field is None else ref(field_), number(spacing, 'spacing',
                 ctypes.c_int32, flag=False), number(level_count, 'level_count', ctypes.c_uint32), address(levels))
@@ -1431,7 +1443,7 @@ class Surface(Object):
 
         def run(room: Any, made: Any) -> None:
             call('hf_surface_find_critical_points', self._handle, None if field is None else ref(field_),
-                    room['capacity'], address(made['points']), c.info(info, _raw.hf_critical_info))
+                    room['capacity'], address(made['points']), ref(info, _raw.hf_critical_info))
 
         found = c.grow(self, 'hf_surface_find_critical_points', run, lambda: {'capacity': info.point_count},
                 {'capacity': None}, {'points': (np.dtype(_raw.hf_critical_point), ('capacity',))})
@@ -1707,7 +1719,7 @@ class Solver(Recorded):
         c = Call(self)
         out = c.out(out, 'f4 f8', ('vertex_count', 'channel_count'), dtype)
         out_view = c.view_out(out, ('vertex_count', 'channel_count'))
-        call('hf_solver_solve', self._handle, ref(out_view), c.info(info, _raw.hf_solve_info))
+        call('hf_solver_solve', self._handle, ref(out_view), ref(info, _raw.hf_solve_info))
         return out
 
     def solve_at(self, vertices: ArrayLike) -> np.ndarray:
@@ -1745,7 +1757,7 @@ class Solver(Recorded):
         out_view = c.view_out(out, ('vertex_count', 3))
         if normals is not None:
             normals = c.out(normals, 'f8', ('vertex_count', 3), name='normals', packed=True)
-        call('hf_solver_solve_vectors', self._handle, ref(out_view), address(normals), c.info(info, _raw.hf_solve_info))
+        call('hf_solver_solve_vectors', self._handle, ref(out_view), address(normals), ref(info, _raw.hf_solve_info))
         return out
 
     def solve_preview(self, correction_count: int = 0, out: Optional[np.ndarray] = None, *, dtype: Any = np.float32,
@@ -1772,7 +1784,7 @@ class Solver(Recorded):
         out = c.out(out, 'f4 f8', ('vertex_count', 'channel_count'), dtype)
         out_view = c.view_out(out, ('vertex_count', 'channel_count'))
         call('hf_solver_solve_preview', self._handle, ref(out_view), number(correction_count, 'correction_count',
-                ctypes.c_uint32), c.info(info, _raw.hf_preview_info))
+                ctypes.c_uint32), ref(info, _raw.hf_preview_info))
         return out
 
     def release_preview(self) -> None:
@@ -2065,7 +2077,7 @@ class Direction(Recorded):
         c = Call(self)
         out = c.out(out, 'f4 f8', ('vertex_count', 3), dtype)
         out_view = c.view_out(out, ('vertex_count', 3))
-        call('hf_direction_solve', self._handle, ref(out_view), c.info(info, _raw.hf_solve_info))
+        call('hf_direction_solve', self._handle, ref(out_view), ref(info, _raw.hf_solve_info))
         return out
 
     def singularities(self) -> np.ndarray:
@@ -2224,8 +2236,8 @@ class Pose(Recorded):
         """
         c = Call(self)
         transform = _raw.hf_transform()
-        c.fixed(transform, 'rotation', rotation)
-        c.fixed(transform, 'translation', translation)
+        c.fixed(transform.rotation, 'rotation', rotation)
+        c.fixed(transform.translation, 'translation', translation)
         call('hf_pose_set_transform', self._handle, number(handle, 'handle', ctypes.c_uint32), ref(transform))
 
     def set_free_rotations(self, handles: ArrayLike, free_rotation: bool = False) -> None:
@@ -2386,7 +2398,7 @@ class Pose(Recorded):
         if normals is not None:
             normals = c.out(normals, 'f4 f8', ('vertex_count', 3), name='normals')
             desc.normals = c.view_out(normals, ('vertex_count', 3))
-        call('hf_pose_deform', self._handle, ref(desc), c.info(info, _raw.hf_deform_info))
+        call('hf_pose_deform', self._handle, ref(desc), ref(info, _raw.hf_deform_info))
         return out
 
     @property
@@ -2414,15 +2426,14 @@ class Pose(Recorded):
         """
         c = Call(self)
         skin = c.struct(_raw.hf_skin_info, {'influence_count': influence_count})
-        c.known('influence_count', influence_count or 4)
+        c.n['influence_count'] = number(influence_count, 'influence_count') or 4
 
         def run(room: Any, made: Any) -> None:
             c.into(skin, room, made)
             call('hf_pose_get_skin', self._handle, ref(skin))
 
         found = c.grow(self, 'hf_pose_get_skin', run, lambda: {'joint_capacity': skin.joint_count,
-                'vertex_capacity': skin.vertex_count, 'joint_count': skin.joint_count,
-                'vertex_count': skin.vertex_count}, {'joint_capacity': c.n.get('joint_count'),
+                'vertex_capacity': skin.vertex_count}, {'joint_capacity': c.n.get('joint_count'),
                 'vertex_capacity': c.n.get('vertex_count')}, {'pivots': (np.float64, ('joint_capacity', 3)),
                 'rotations': (np.float64, ('joint_capacity', 4)), 'translations': (np.float64, ('joint_capacity', 3)),
                 'axes': (np.float64, ('joint_capacity', 4)), **({'scales': (np.float64, ('joint_capacity',
@@ -2626,11 +2637,10 @@ class Quads(Object):
             call('hf_quads_get_mesh', self._handle, ref(mesh))
 
         found = c.grow(self, 'hf_quads_get_mesh', run, lambda: {'vertex_capacity': mesh.vertex_count,
-                'face_capacity': mesh.face_count, 'vertex_count': mesh.vertex_count},
-                {'vertex_capacity': c.n.get('vertex_count'), 'face_capacity': None}, {'positions': (np.float64,
-                ('vertex_capacity', 3)), 'faces': (np.uint32, ('face_capacity', 4)), 'triangles': (np.uint32,
-                ('vertex_capacity',)), 'barycentrics': (np.float64, ('vertex_capacity', 3)), 'corners': (np.uint32,
-                ('vertex_capacity', 3))})
+                'face_capacity': mesh.face_count}, {'vertex_capacity': c.n.get('vertex_count'), 'face_capacity': None},
+                {'positions': (np.float64, ('vertex_capacity', 3)), 'faces': (np.uint32, ('face_capacity', 4)),
+                'triangles': (np.uint32, ('vertex_capacity',)), 'barycentrics': (np.float64, ('vertex_capacity', 3)),
+                'corners': (np.uint32, ('vertex_capacity', 3))})
         return QuadsMesh(**found)
 
 
@@ -2666,8 +2676,8 @@ class Flow(Object):
         c = Call(self)
         field_ = c.view('field', field, 'f4 f8', ('vertex_count',))
         lines = c.struct(_raw.hf_streamlines, {'wanted_count': wanted_count})
-        c.rows(lines, 'seeds', seeds, 'u4', ('seed_count',))
-        c.counts(lines, seed_count=('seed_count', 0))
+        lines.seeds = c.array('seeds', seeds, 'u4', ('seed_count',))
+        lines.seed_count = c.n.setdefault('seed_count', 0)
 
         def run(room: Any, made: Any) -> None:
             c.into(lines, room, made)
@@ -3280,15 +3290,14 @@ class Transfer(Object):
         """
         c = Call(self)
         skin = c.struct(_raw.hf_skin_info, {'influence_count': influence_count})
-        c.known('influence_count', influence_count or 4)
+        c.n['influence_count'] = number(influence_count, 'influence_count') or 4
 
         def run(room: Any, made: Any) -> None:
             c.into(skin, room, made)
             call('hf_transfer_get_skin', self._handle, ref(skin))
 
         found = c.grow(self, 'hf_transfer_get_skin', run, lambda: {'joint_capacity': skin.joint_count,
-                'vertex_capacity': skin.vertex_count, 'joint_count': skin.joint_count,
-                'vertex_count': skin.vertex_count}, {'joint_capacity': c.n.get('joint_count'),
+                'vertex_capacity': skin.vertex_count}, {'joint_capacity': c.n.get('joint_count'),
                 'vertex_capacity': c.n.get('vertex_count')}, {'pivots': (np.float64, ('joint_capacity', 3)),
                 'rotations': (np.float64, ('joint_capacity', 4)), 'translations': (np.float64, ('joint_capacity', 3)),
                 'axes': (np.float64, ('joint_capacity', 4)), **({'scales': (np.float64, ('joint_capacity',
@@ -3331,7 +3340,7 @@ class Weights(Recorded):
         c = Call(surface=surface)
         desc = _joints_desc(c, heads=heads, tails=tails, axes=axes, parents=parents, deforms=deforms, sources=sources,
                 progress=progress)
-        c.known('influence_count', influence_count or 4)
+        c.n['influence_count'] = number(influence_count, 'influence_count') or 4
         self._own('hf_weights_create', c, handle_of(surface, Surface, 'surface'), ref(desc), number(influence_count,
                 'influence_count', ctypes.c_uint32))
 
@@ -3421,10 +3430,9 @@ class Weights(Recorded):
             call('hf_weights_get', self._handle, ref(weights))
 
         found = c.grow(self, 'hf_weights_get', run, lambda: {'vertex_capacity': weights.vertex_count,
-                'vertex_count': weights.vertex_count, 'influence_count': weights.influence_count},
-                {'vertex_capacity': c.n.get('vertex_count')}, {'joints': (np.uint32, ('vertex_capacity',
-                'influence_count')), 'weights': (np.float32, ('vertex_capacity', 'influence_count')),
-                'origins': (np.uint8, ('vertex_capacity',))})
+                'influence_count': weights.influence_count}, {'vertex_capacity': c.n.get('vertex_count')},
+                {'joints': (np.uint32, ('vertex_capacity', 'influence_count')), 'weights': (np.float32,
+                ('vertex_capacity', 'influence_count')), 'origins': (np.uint8, ('vertex_capacity',))})
         return WeightsOut(**found)
 
     def joints(self) -> Tuple[np.ndarray, np.ndarray]:
@@ -3505,13 +3513,12 @@ class Weights(Recorded):
         def run(room: Any, made: Any) -> None:
             c.into(weights_, room, made)
             call('hf_weights_transfer', handle_of(source, Surface, 'source'), handle_of(target, Surface, 'target'),
-                    ref(desc), ref(weights_), c.info(info, _raw.hf_weights_transfer_info))
+                    ref(desc), ref(weights_), ref(info, _raw.hf_weights_transfer_info))
 
         found = c.grow(source, 'hf_weights_transfer', run, lambda: {'vertex_capacity': weights_.vertex_count,
-                'vertex_count': weights_.vertex_count, 'influence_count': weights_.influence_count},
-                {'vertex_capacity': c.n.get('vertex_count')}, {'joints': (np.uint32, ('vertex_capacity',
-                'influence_count')), 'weights': (np.float32, ('vertex_capacity', 'influence_count')),
-                'origins': (np.uint8, ('vertex_capacity',))})
+                'influence_count': weights_.influence_count}, {'vertex_capacity': c.n.get('vertex_count')},
+                {'joints': (np.uint32, ('vertex_capacity', 'influence_count')), 'weights': (np.float32,
+                ('vertex_capacity', 'influence_count')), 'origins': (np.uint8, ('vertex_capacity',))})
         return WeightsOut(**found)
 
     @staticmethod
@@ -3554,14 +3561,13 @@ class Weights(Recorded):
         def run(room: Any, made: Any) -> None:
             c.into(weights_, room, made)
             call('hf_weights_mirror', handle_of(surface, Surface, 'surface'), ref(desc), ref(weights_),
-                    address(partners_), address(pairings), c.info(info, _raw.hf_weights_mirror_info), c.info(statistics,
+                    address(partners_), address(pairings), ref(info, _raw.hf_weights_mirror_info), ref(statistics,
                     _raw.hf_weights_mirror_statistics))
 
         found = c.grow(surface, 'hf_weights_mirror', run, lambda: {'vertex_capacity': weights_.vertex_count,
-                'vertex_count': weights_.vertex_count, 'influence_count': weights_.influence_count},
-                {'vertex_capacity': c.n.get('vertex_count')}, {'joints': (np.uint32, ('vertex_capacity',
-                'influence_count')), 'weights': (np.float32, ('vertex_capacity', 'influence_count')),
-                'origins': (np.uint8, ('vertex_capacity',))})
+                'influence_count': weights_.influence_count}, {'vertex_capacity': c.n.get('vertex_count')},
+                {'joints': (np.uint32, ('vertex_capacity', 'influence_count')), 'weights': (np.float32,
+                ('vertex_capacity', 'influence_count')), 'origins': (np.uint8, ('vertex_capacity',))})
         return WeightsOut(**found), partners_, pairings
 
 

@@ -4,10 +4,9 @@ headers (_api.py) stands on this."""
 from __future__ import annotations
 
 import ctypes
+import functools
 import math
-import operator
 import os
-import pathlib
 import sys
 from typing import Any, Callable, Dict, Optional, Sequence, Tuple, Union
 
@@ -17,142 +16,95 @@ from . import _errors, _raw
 from ._errors import EmptyError, InvalidArgumentError, NullPointerError, OutOfRangeError, TooSmallError
 
 ArrayLike = Any
-NO_INDEX = _raw.HF_NO_INDEX
-_TYPES = {"f4": np.float32, "f8": np.float64, "u4": np.uint32, "u2": np.uint16, "u1": np.uint8, "i4": np.int32}
-_KINDS: Dict[str, list] = {}
-_FIELDS: Dict[type, dict] = {}
-_VIEW_TYPES: Dict[Any, int] = {np.dtype(np.float64): _raw.HF_TYPE_DOUBLE, np.dtype(np.uint16): _raw.HF_TYPE_UINT16}
+PlaceLike = Union[int, Tuple[Sequence[int], Sequence[float]], _raw.hf_place, _raw.hf_hit]
 
 
-def _candidates() -> list:
-    given = os.environ.get("HF_LIBRARY")
-    if given:
-        return [given]
-    name = {"win32": "hf.dll", "darwin": "libhf.dylib"}.get(sys.platform, "libhf.so.0")
-    beside = [pathlib.Path(__file__).resolve().parent / n for n in (name, "libhf.so")]
-    return [str(path) for path in beside if path.exists()] + [name]
-
-
-_loaded: Optional[ctypes.CDLL] = None
-
-
+@functools.lru_cache(None)
 def library() -> ctypes.CDLL:
     """The loaded shared library: $HF_LIBRARY, the file inside this package, or the system's."""
-    global _loaded
-    if _loaded is None:
-        tried = []
-        for path in _candidates():
-            try:
-                _loaded = _raw.load(path)
-                break
-            except (OSError, AttributeError) as error:  # not there, or too old: a function is missing
-                tried.append(f"{path}: {error}")
-        if _loaded is None:
-            raise ImportError("the hf library was not found; set HF_LIBRARY to libhf.so, or put it beside the package. "
-                              + "; ".join(tried))
-        _check_version(_loaded.hf_version_get())
-    return _loaded
+    name = {"win32": "hf.dll", "darwin": "libhf.dylib"}.get(sys.platform, "libhf.so.0")
+    beside = [os.path.join(os.path.dirname(os.path.abspath(__file__)), n) for n in (name, "libhf.so")]
+    given = os.environ.get("HF_LIBRARY")
+    tried = []
+    for path in [given] if given else [*filter(os.path.exists, beside), name]:
+        try:
+            return _raw.load(path)
+        except (OSError, AttributeError) as error:  # not there, of another version, or too old: a function is missing
+            tried.append(f"{path}: {error}")
+    raise ImportError("the hf library was not found; set HF_LIBRARY to libhf.so, or put it beside the package. " + "; ".join(tried))
 
 
-def _check_version(loaded: int) -> None:
-    major, minor, patch = (int(part) for part in _raw.HEADER_VERSION.split("."))
-    if loaded // 1000000 != major or loaded < major * 1000000 + minor * 1000:
-        raise ImportError(f"the hf library is of version {loaded // 1000000}.{loaded // 1000 % 1000}.{loaded % 1000}, "
-                          f"this package of {_raw.HEADER_VERSION}; install matching ones")
+def version() -> Tuple[int, ...]:
+    """Version of the loaded library: (major, minor, patch)."""
+    number = library().hf_version_get()
+    return number // 1000000, number // 1000 % 1000, number % 1000
 
 
 def call(name: str, *arguments: Any) -> None:
     """Calls a function that returns an hf_result; raises the exception of its code."""
-    lib = library()
-    code = getattr(lib, name)(*arguments)
+    code = getattr(library(), name)(*arguments)
     if code != _raw.HF_OK:
         detail = _raw.hf_error_detail()
-        lib.hf_error_get_detail(ctypes.byref(detail))
-        index = None if detail.index == NO_INDEX else detail.index
+        library().hf_error_get_detail(ctypes.byref(detail))
+        index = None if detail.index == _raw.HF_NO_INDEX else detail.index
         raise _errors.EXCEPTIONS.get(code, _errors.HfError)(detail.message.decode("utf-8", "replace"), code, index,
                                                             detail.function.decode())
 
 
+def require(right: Any, words: str, *values: Any, error: Any = InvalidArgumentError, index: Any = None) -> None:
+    """Refuses what is not right. The words are put together only then."""
+    if not right:
+        raise error(words.format(*values), index=index)
+
+
 # ---- numbers ----
 
-_INTEGERS: Dict[Any, tuple] = {ctypes.c_int32: (-(1 << 31), (1 << 31) - 1), ctypes.c_uint32: (0, (1 << 32) - 1),
-             ctypes.c_size_t: (0, 2 * sys.maxsize + 1)}
-_FLOATS: Dict[Any, float] = {ctypes.c_float: float(np.finfo(np.float32).max), ctypes.c_double: float(np.finfo(np.float64).max)}
+def numbers(values: ArrayLike, name: str) -> np.ndarray:
+    """An array of numbers, as given when it is one. Masks, complex numbers, objects and foreign byte order are refused:
+    numpy would drop or convert them without a word."""
+    for i, row in enumerate(values if isinstance(values, (list, tuple)) else (values,)):
+        if isinstance(row, np.ma.MaskedArray) and np.ma.is_masked(row):
+            first = int(np.flatnonzero(np.ma.getmaskarray(row))[0]) if row is values else i
+            require(False, "{} holds masked values, the first at {}", name, first, index=first)
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InvalidArgumentError(f"{name} must be numbers: {error}") from None
+    require(array.dtype.kind in "iuf" or not array.size, "{} must be numbers, not {}", name, array.dtype)
+    require(array.dtype.isnative, "{} is in foreign byte order ({}); convert it with astype(dtype.newbyteorder('='))",
+            name, array.dtype.str)
+    return array
+
+
+@functools.lru_cache(None)
+def _types(kinds: Any) -> list:
+    return [np.dtype(kind) for kind in (kinds.split() if isinstance(kinds, str) else [kinds])]
+
+
+def converted(values: ArrayLike, name: str, kinds: Any, sentinel: bool = False) -> np.ndarray:
+    """An array of one of the types that the library takes ('f4 f8', or one of ctypes), as given when it is one. sentinel: -1
+    stands for NO_INDEX."""
+    types = _types(kinds)
+    array = values if type(values) is np.ndarray and values.dtype in types else numbers(values, name)
+    if array.dtype in types or types[0].kind == "f":
+        return array if array.dtype in types else array.astype(types[-1])
+    limits, flat = np.iinfo(types[0]), array.ravel()
+    require(flat.dtype.kind in "iu" or not flat.size, "{} must be whole numbers, not {}", name, flat.dtype)
+    for i in np.flatnonzero((flat < (-1 if sentinel else limits.min)) | (flat > limits.max)):
+        require(False, "{} holds {}; it must lie in {} to {}", name, flat[i], limits.min, limits.max,
+                error=OutOfRangeError, index=int(i) if array.ndim else None)
+    return array.astype(types[0])
 
 
 def number(value: Any, name: str, kind: Any = ctypes.c_uint32, flag: bool = True) -> Any:
     """A number of a C type. ctypes would wrap what does not fit, and take floats and bools for counts; here they are refused by
     name. Flags (int32_t) take bools."""
-    is_bool: bool = isinstance(value, (bool, np.bool_))
-    if kind in _FLOATS:
-        if is_bool or not isinstance(value, (int, float, np.integer, np.floating)):
-            raise InvalidArgumentError(f"{name} must be a number, not {value!r}")
-        value = value if isinstance(value, int) else float(value)
-        if _FLOATS[kind] < abs(value) < float("inf"):
-            raise OutOfRangeError(f"{name} is {value}; it must lie within {_FLOATS[kind]:g}")
-        return float(value)
-    try:
-        whole = None if is_bool and not (flag and kind is ctypes.c_int32) else operator.index(int(value) if is_bool else value)
-    except TypeError:
-        whole = None
-    if whole is None:
-        raise InvalidArgumentError(f"{name} must be a whole number, not {value!r}")
-    low, high = _INTEGERS[kind]
-    if not low <= whole <= high:
-        raise OutOfRangeError(f"{name} is {whole}; it must lie in {low} to {high}")
-    return whole
-
-
-def numbers(values: ArrayLike, name: str) -> np.ndarray:
-    """An array of numbers, as given when it is one. Masks, complex numbers, objects and foreign byte order are refused:
-    numpy would drop or convert them without a word."""
-    rows = values if isinstance(values, (list, tuple)) else (values,)
-    masked = [i for i, row in enumerate(rows) if isinstance(row, np.ma.MaskedArray) and np.ma.is_masked(row)]
-    if masked:
-        first = masked[0] if rows is values else int(np.flatnonzero(np.ma.getmaskarray(values))[0])
-        raise InvalidArgumentError(f"{name} holds masked values, the first at {first}", index=first)
-    try:
-        array = np.asarray(values)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InvalidArgumentError(f"{name} must be numbers: {error}") from None
-    if array.dtype.kind not in "iuf" and array.size:
-        raise InvalidArgumentError(f"{name} must be numbers, not {array.dtype}")
-    if not array.dtype.isnative:
-        raise InvalidArgumentError(f"{name} is in foreign byte order ({array.dtype.str}); "
-                                   "convert it with astype(dtype.newbyteorder('='))")
-    return array
-
-
-def _whole(array: np.ndarray, name: str, dtype: Any, sentinel: bool) -> np.ndarray:
-    """Whole numbers of a type, checked. sentinel: -1 stands for NO_INDEX."""
-    if array.size and array.dtype.kind not in "iu":
-        raise InvalidArgumentError(f"{name} must be whole numbers, not {array.dtype}")
-    limits, flat = np.iinfo(dtype), array.ravel()
-    bad: Any = np.flatnonzero((flat < (-1 if sentinel else limits.min)) | (flat > limits.max)) if array.size else ()
-    if len(bad):
-        raise OutOfRangeError(f"{name} holds {flat[bad[0]]}", index=int(bad[0]))
-    return (array & limits.max if sentinel and array.size else array).astype(dtype)
-
-
-def _types(kinds: str) -> list:
-    return _KINDS.get(kinds) or _KINDS.setdefault(kinds, [np.dtype(_TYPES[kind]) for kind in kinds.split()])
-
-
-def converted(values: ArrayLike, name: str, kinds: str, sentinel: bool = False) -> np.ndarray:
-    """An array of one of the types that the library takes ('f4 f8'), as given when it is one."""
-    types = _types(kinds)
-    if type(values) is np.ndarray and values.dtype in types:
-        return values
-    array = numbers(values, name)
-    if array.dtype in types:
-        return array
-    if types[-1].kind == "f":
-        return array.astype(types[-1])
-    if array.dtype.kind == "b" or types[0] == np.int32:
-        return array.astype(np.int32)
-    if array.dtype == np.int32 and types[0] == np.uint32 and array.flags.c_contiguous and (not array.size or array.min() >= 0):
-        return array.view(np.uint32)  # the same bits
-    return _whole(array, name, types[0], sentinel)
+    if value.__class__ is int and 0 <= value < 1 << 31:
+        return value  # fits every type
+    is_flag = flag and kind is ctypes.c_int32 and isinstance(value, (bool, np.bool_))
+    array = converted(int(value) if is_flag else value, name, kind)
+    require(array.ndim == 0, "{} must be one number, not {!r}", name, value)
+    return array.item()
 
 
 def address(array: Optional[np.ndarray]) -> Optional[int]:
@@ -160,15 +112,22 @@ def address(array: Optional[np.ndarray]) -> Optional[int]:
     return None if array is None or array.size == 0 else array.__array_interface__["data"][0]
 
 
-PlaceLike = Union[int, Tuple[Sequence[int], Sequence[float]], _raw.hf_place, _raw.hf_hit]
+def _in_rows(array: np.ndarray) -> bool:
+    """Whether the library can use the array where it is: packed rows, with a stride between them."""
+    row = array[:1]
+    return array.flags.c_contiguous or (row.flags.c_contiguous and row.nbytes <= array.strides[0] < 1 << 31)
 
 
-def place(value: PlaceLike, name: str = "place") -> _raw.hf_place:
+def ref(struct: Any, kind: type = object) -> Any:
+    """The address of a struct; of one that the caller gave when it is of the right kind."""
+    require(isinstance(struct, (kind, type(None))), "info must be a {0.__name__}, not {1.__name__}", kind, type(struct))
+    return None if struct is None else ctypes.byref(struct)
+
+
+def place(value: PlaceLike, name: str = "place") -> Any:
     """One place: a vertex, a hit, or the three vertices of a triangle and their weights."""
-    if isinstance(value, _raw.hf_hit):
-        return value.place  # type: ignore[return-value]
-    if isinstance(value, _raw.hf_place):
-        return value
+    if isinstance(value, (_raw.hf_hit, _raw.hf_place)):
+        return getattr(value, "place", value)
     made: Any = _raw.hf_place()
     try:
         corners, weights = ((value,) * 3, (1.0, 0.0, 0.0)) if isinstance(value, (int, np.integer)) else value
@@ -179,276 +138,175 @@ def place(value: PlaceLike, name: str = "place") -> _raw.hf_place:
     return made
 
 
-def ref(struct: Any) -> Any:
-    return None if struct is None else ctypes.byref(struct)
-
-
 # ---- one call ----
 
 class Call:
     """The arrays of one call, kept until it is over, and the counts that follow from them and from the objects."""
 
     def __init__(self, *objects: Any, **named: Any) -> None:
-        self.n: Dict[str, int] = {}
+        self.n: Dict[str, int] = {key: count for thing in objects for key, count in thing._n.items()}
         self.keep: list = []
-        for thing in objects:
-            self.n.update(thing._n)
         for name, thing in named.items():
-            for key, value in getattr(thing, "_n", {}).items():
-                self.n[f"{name}.{key}"] = self.n[key] = value
+            for key, count in getattr(thing, "_n", {}).items():
+                self.n[f"{name}.{key}"] = self.n[key] = count
 
-    def _size(self, dim: Any) -> Optional[int]:
-        if dim.__class__ is int:
-            return dim
-        size = self.n.get(dim)
-        if size is None and " + " in dim:
-            base, _, more = dim.partition(" + ")
-            return None if base not in self.n else self.n[base] + int(more)
-        return size
+    # what goes in
 
-    def _fit(self, array: np.ndarray, name: str, dims: tuple) -> np.ndarray:
+    def size(self, dim: Any) -> Optional[int]:
+        """What a dimension such as 'face_count + 1' is; None: not known yet."""
+        base, _, more = ("", "", "") if dim.__class__ is int else dim.partition(" + ")
+        return dim if dim.__class__ is int else self.n[base] + int(more or 0) if base in self.n else self.n.get(dim)
+
+    def fit(self, array: np.ndarray, name: str, dims: tuple) -> np.ndarray:
         """The array in the shape that dims say; a dimension that is not known yet becomes known."""
-        known, loose = 1, None
-        sizes: Any = []
-        for dim in dims:
-            size = dim if dim.__class__ is int else self._size(dim)
-            sizes.append(size)
-            if size is not None:
-                known *= size
-            elif loose is None:
-                loose = dim
-            elif array.ndim != len(dims):
-                self._refuse(array, name, dims, sizes)
-        if array.ndim == 0 and loose is None:
-            return np.full(sizes, array)  # one number for all
-        if array.ndim == len(dims) > 1:
-            for dim, size, have in zip(dims, sizes, array.shape):
-                if size is None:
-                    self._learn(dim, have)
-                elif size != have:
-                    self._refuse(array, name, dims, sizes)
-        elif loose is None:
-            if array.size != known:
-                raise InvalidArgumentError(f"{name} must hold {known} numbers, not {array.size}")
-        elif known and array.size % known == 0:
-            self._learn(loose, array.size // known)
-        elif array.size:
-            self._refuse(array, name, dims, sizes)
-        else:
-            self._learn(loose, 0)
+        sizes = [self.size(dim) for dim in dims]
+        loose = [dim for dim, size in zip(dims, sizes) if size is None]
+        known = math.prod(size for size in sizes if size is not None)
+        if array.ndim == 0 and not loose:
+            return np.full([size or 0 for size in sizes], array)  # one number for all
+        found = list(array.shape)
+        if array.ndim != len(dims) and len(loose) < 2:  # one after the other
+            found = [array.size // (known or 1) if size is None else size for size in sizes]
+        right = len(found) == len(dims) and all(size in (None, have) for size, have in zip(sizes, found))
+        if not right or math.prod(found) != array.size:
+            wanted = ", ".join(str(dim if size is None else size) for dim, size in zip(dims, sizes))
+            require(False, "{} must have the shape ({}), not {}", name, wanted, array.shape)
+        self.n.update({dim: size for dim, size in zip(dims, found) if dim in loose})
         return array
 
-    def _learn(self, dim: str, size: int) -> None:
-        base, _, more = dim.partition(" + ")
-        self.n[base] = max(size - int(more or 0), 0)
-
-    def _refuse(self, array: np.ndarray, name: str, dims: tuple, sizes: list) -> None:
-        wanted = ", ".join(str(dim if size is None else size) for dim, size in zip(dims, [*sizes, None, None]))
-        raise InvalidArgumentError(f"{name} must have the shape ({wanted}), not {array.shape}")
-
-    def array(self, name: str, values: Optional[ArrayLike], kinds: str, dims: tuple, sentinel: bool = False) -> Optional[int]:
+    def kept(self, array: np.ndarray) -> Optional[int]:
         """The address of packed numbers."""
-        if values is None:
-            return None
-        array = np.ascontiguousarray(self._fit(converted(values, name, kinds, sentinel), name, dims))
-        self.keep.append(array)
-        return address(array)
+        self.keep.append(np.ascontiguousarray(array))
+        return address(self.keep[-1])
 
-    def rows(self, desc: Any, field: str, values: Optional[ArrayLike], kinds: str, dims: tuple, sentinel: bool = False,
-             name: str = "") -> None:
-        """Sets the pointer of a desc to packed numbers."""
-        if values is not None:
-            setattr(desc, field, self.array(name or field, values, kinds, dims, sentinel))
+    def array(self, name: str, values: Optional[ArrayLike], kinds: str, dims: tuple, sentinel: bool = False) -> Any:
+        return None if values is None else self.kept(self.fit(converted(values, name, kinds, sentinel), name, dims))
 
     def view(self, name: str, values: Optional[ArrayLike], kinds: str, dims: tuple) -> Any:
         """An hf_array of numbers; rows with a stride are used in place."""
         if values is None:
             return _raw.hf_array()
-        array = self._fit(converted(values, name, kinds), name, dims)
-        if not self._is_rows(array, dims):
-            array = np.ascontiguousarray(array)
-        self.keep.append(array)
-        return self._view(_raw.hf_array, array, dims)
+        array = self.fit(converted(values, name, kinds), name, dims)
+        self.keep.append(array if array.ndim == len(dims) and _in_rows(array) else np.ascontiguousarray(array))
+        return self.view_out(self.keep[-1], dims, _raw.hf_array)
 
-    def view_out(self, array: np.ndarray, dims: tuple) -> Any:
-        return self._view(_raw.hf_array_out, array, dims)
-
-    def _is_rows(self, array: np.ndarray, dims: tuple) -> bool:
-        """Whether the library can use the array where it is."""
-        if array.flags.c_contiguous:
-            return True
-        inner = array.ndim == 1 or (array.ndim == 2 and array.strides[1] == array.itemsize)
-        row = array.itemsize * (array.shape[1] if array.ndim == 2 else 1)
-        return array.ndim == len(dims) and inner and row <= array.strides[0] < 1 << 31
-
-    def _view(self, kind: Any, array: np.ndarray, dims: tuple) -> Any:
+    def view_out(self, array: np.ndarray, dims: tuple, kind: Any = _raw.hf_array_out) -> Any:
         stride = 0 if array.flags.c_contiguous else array.strides[0]
-        return kind(address(array), self._size(dims[0]) or 0, stride, _VIEW_TYPES.get(array.dtype, _raw.HF_TYPE_PLAIN))
+        number_type = {"d": _raw.HF_TYPE_DOUBLE, "H": _raw.HF_TYPE_UINT16}.get(array.dtype.char, _raw.HF_TYPE_PLAIN)
+        return kind(address(array), self.size(dims[0]) or 0, stride, number_type)
 
-    def struct(self, kind: type, options: Dict[str, Any], prefix: str = "") -> Any:
+    def struct(self, kind: Any, options: Dict[str, Any]) -> Any:
         """A struct with its size and the scalars among its fields set."""
-        made: Any = kind()
-        if options:
-            types = _FIELDS.get(kind) or _FIELDS.setdefault(kind, dict(f[:2] for f in kind._fields_))  # type: ignore[attr-defined]
-            for key, value in options.items():
-                if value.__class__ is not int or value:  # a whole 0 is the default of every field
-                    setattr(made, key, number(value, key, types[key]))
+        made, types = kind(), dict(field[:2] for field in kind._fields_) if options else {}
+        for key, value in options.items():
+            if value.__class__ is not int or value:  # a whole 0 is the default of every field
+                setattr(made, key, number(value, key, types[key]))
         self.keep.append(made)
         return made
 
-    def counts(self, desc: Any, **fields: Any) -> None:
-        """Sets the counts of a desc. (key, least): least where no array says."""
-        for field, (key, least) in fields.items():
-            setattr(desc, field, self.n.setdefault(key, least))
-
-    def ragged(self, desc: Any, counts: str, field: str, lists: Optional[Sequence[ArrayLike]], key: str) -> None:
-        """Lists of different lengths, one after the other."""
+    def lists(self, name: str, lists: Optional[Sequence[ArrayLike]], dims: tuple) -> tuple:
+        """Lists of different lengths, one after the other: where their lengths are, and they."""
         if lists is None:
-            return
-        if any(part is None for part in lists):
-            raise NullPointerError(f"{field} holds None")
-        arrays = [converted(part, f"{field}[{i}]", "u4").ravel() for i, part in enumerate(lists)]
-        if self.n.setdefault(key, len(arrays)) != len(arrays):
-            raise InvalidArgumentError(f"{field} must hold {self.n[key]} lists, not {len(arrays)}")
-        sizes = np.array([part.size for part in arrays], np.uint32)
-        together = np.concatenate(arrays) if arrays else np.empty(0, np.uint32)
-        self.keep += [sizes, together]
-        setattr(desc, counts, address(sizes))
-        setattr(desc, field, address(together))
+            return None, None
+        require(all(part is not None for part in lists), "{} holds None", name, error=NullPointerError)
+        arrays = [converted(part, f"{name}[{i}]", "u4").ravel() for i, part in enumerate(lists)]
+        sizes = self.fit(np.array([part.size for part in arrays], np.uint32), name, dims)
+        return self.kept(sizes), self.kept(np.concatenate([*arrays, np.empty(0, np.uint32)]))
 
-    def fixed(self, struct: Any, field: str, values: Optional[ArrayLike], name: str = "") -> None:
+    def fixed(self, into: Any, name: str, values: Optional[ArrayLike]) -> None:
         """A field of a fixed number of numbers."""
         if values is not None:
-            into = getattr(struct, field)
-            kind = np.dtype(into._type_)
-            array = numbers(values, name or field) if kind.kind == "f" else _whole(numbers(values, name or field), name or field, kind, True)
-            into[:] = self._fit(array, name or field, (len(into),)).ravel().tolist()
+            into[:] = self.fit(numbers(values, name), name, (len(into),)).ravel().tolist()
 
     def records(self, kind: type, dims: tuple, fields: Dict[str, tuple]) -> Optional[int]:
         """Rows of a plain struct, given field by field: field -> (name, values)."""
-        given = {field: (name, numbers(values, name)) for field, (name, values) in fields.items() if values is not None}
         types: Any = np.dtype(kind)
-        for field, (name, array) in given.items():
-            given[field] = (name, self._fit(array, name, (*dims, *types[field].shape)))
+        given = {field: self.fit(numbers(values, name), name, (*dims, *types[field].shape))
+                 for field, (name, values) in fields.items() if values is not None}
         rows: Any = np.zeros(self.n.get(dims[0], 0), types)
-        for field, (_, array) in given.items():
+        for field, array in given.items():
             rows[field] = array.reshape(rows[field].shape)
-        self.keep.append(rows)
-        return address(rows)
+        return self.kept(rows)
 
     def written(self, name: str, values: Optional[ArrayLike], kind: type, dims: tuple) -> Optional[int]:
         """Records that the library wrote, given back to it."""
-        if values is None:
-            return None
-        if not isinstance(values, np.ndarray) or values.dtype != np.dtype(kind):
-            raise InvalidArgumentError(f"{name} must be records of numpy.dtype(hf.constants.{kind.__name__})")
-        rows = np.ascontiguousarray(self._fit(values, name, dims))
-        self.keep.append(rows)
-        return address(rows)
+        right = values is None or getattr(values, "dtype", None) == np.dtype(kind)
+        require(right, "{} must be records of numpy.dtype(hf.constants.{})", name, kind.__name__)
+        return None if values is None else self.kept(self.fit(values, name, dims))
 
     def places(self, name: str, values: Optional[Sequence[PlaceLike]], dims: tuple) -> Optional[int]:
         """Places in any form, or records of numpy.dtype(hf.constants.hf_place)."""
-        if values is None or isinstance(values, np.ndarray) and values.dtype == np.dtype(_raw.hf_place):
-            return self.written(name, values, _raw.hf_place, dims)
-        rows = np.zeros(len(values), _raw.hf_place)
-        for i, value in enumerate(values):
-            rows[i] = np.frombuffer(place(value, f"{name}[{i}]"), _raw.hf_place)[0]  # type: ignore[call-overload]
-        return self.written(name, rows, _raw.hf_place, dims)
+        if values is not None and getattr(values, "dtype", None) != np.dtype(_raw.hf_place):
+            made = [np.frombuffer(place(value, f"{name}[{i}]"), _raw.hf_place)[0] for i, value in enumerate(values)]
+            values = np.array(made, np.dtype(_raw.hf_place))
+        return self.written(name, values, _raw.hf_place, dims)
 
     def text(self, values: Any) -> Optional[int]:
         """Lines in UTF-8: a string, or a list of one for each."""
         if values is None:
             return None
         lines = values if isinstance(values, str) else "".join(str(line).replace("\n", " ") + "\n" for line in values)
-        self.keep.append(ctypes.create_string_buffer(lines.encode()))
-        return ctypes.addressof(self.keep[-1])
+        return self.kept(np.frombuffer(lines.encode() + b"\0", np.uint8))
 
-    def bytes(self, desc: Any, field: str, count: str, values: Any) -> None:
-        if values is not None:
-            try:
-                block = np.frombuffer(values, np.uint8)
-            except (TypeError, ValueError, BufferError) as error:
-                raise InvalidArgumentError(f"{field} must be bytes: {error}") from None
-            self.keep.append(block)
-            setattr(desc, field, address(block))
-            setattr(desc, count, block.size)
+    def bytes(self, name: str, values: Any) -> tuple:
+        """Where bytes are, and how many."""
+        block = np.frombuffer(b"" if values is None else values, np.uint8)
+        return self.kept(block), block.size
 
     def inner(self, given: Any, first: str, fill: Callable, prefix: str) -> Optional[int]:
         """A desc inside a desc: a dict of its arguments, or its first array alone."""
-        if given is None:
-            return None
-        return ctypes.addressof(fill(self, prefix, **(given if isinstance(given, dict) else {first: given})))
+        given = given if given is None or isinstance(given, dict) else {first: given}
+        return None if given is None else ctypes.addressof(fill(self, prefix, **given))
 
-    def known(self, key: str, value: int) -> None:
-        if number(value, key):
-            self.n[key] = int(value)
-
-    # ---- what comes out ----
-
-    def into(self, struct: Any, room: Dict[str, int], arrays: Dict[str, Any]) -> None:
-        for key, value in room.items():
-            setattr(struct, key, value)
-        for key, array in arrays.items():
-            setattr(struct, key, address(array))
+    # what comes out
 
     def shape(self, dims: tuple) -> tuple:
         """channel_count and the like leave the shape where they are 1."""
-        sizes = [self._size(dim) or 0 for dim in dims]
-        return tuple(s for k, (s, dim) in enumerate(zip(sizes, dims)) if not (k and s == 1 and isinstance(dim, str)))
+        sizes = [(dim, self.size(dim) or 0) for dim in dims]
+        return tuple(size for k, (dim, size) in enumerate(sizes) if k == 0 or size != 1 or isinstance(dim, int))
 
-    def out(self, out: Optional[np.ndarray], kinds: str, dims: tuple, dtype: Any = None, name: str = "out", packed: bool = False) -> Any:
+    def out(self, out: Optional[np.ndarray], kinds: str, dims: tuple, dtype: Any = None, name: str = "out",
+            packed: bool = False) -> Any:
         """The caller's array, or a new one. Rows may have a stride, unless they must be packed."""
         shape, wanted = self.shape(dims), _types(kinds)
-        if out is None and dtype is not None and np.dtype(dtype) not in wanted:
-            raise InvalidArgumentError(f"dtype must be {' or '.join(map(str, wanted))}, not {dtype}")
         if out is None:
+            require(dtype is None or np.dtype(dtype) in wanted, "dtype must be one of {}, not {}", wanted, dtype)
             return np.empty(shape, dtype or wanted[0])
-        if not isinstance(out, np.ndarray) or isinstance(out, np.ma.MaskedArray) or out.dtype not in wanted:
-            raise InvalidArgumentError(f"{name} must be an array of {' or '.join(map(str, wanted))}")
-        if out.size != math.prod(shape):
-            raise TooSmallError(f"{name} must have the shape {shape}, not {out.shape}")
-        if not out.flags.writeable:
-            raise InvalidArgumentError(f"{name} is read-only")
-        if out.flags.c_contiguous:
-            return out
-        row = out.itemsize * (shape[1] if len(shape) > 1 else 1)
-        if packed:
-            raise InvalidArgumentError(f"{name} must be contiguous")
-        if out.shape != shape or out.strides[0] < row or (len(shape) > 1 and out.strides[1] != out.itemsize):
-            raise InvalidArgumentError(f"{name} may have a stride between rows only")
+        usual = isinstance(out, np.ndarray) and not isinstance(out, np.ma.MaskedArray)
+        require(usual and out.dtype in wanted, "{} must be an array of {}", name, wanted)
+        fits = out.size == math.prod(shape)
+        require(fits, "{} must have the shape {}, not {}", name, shape, out.shape, error=TooSmallError)
+        require(out.flags.writeable, "{} is read-only", name)
+        require(out.flags.c_contiguous or not packed, "{} must be contiguous", name)
+        rows = out.flags.c_contiguous or (out.shape == shape and _in_rows(out))
+        require(rows, "{} may have a stride between rows only", name)
         return out
 
-    def grow(self, owner: Any, function: str, run: Callable, tell: Callable, rooms: Dict[str, Any], arrays: Dict[str, tuple]) -> Any:
+    def into(self, struct: Any, room: Dict[str, int], arrays: Dict[str, Any]) -> None:
+        for key, value in {**room, **{key: address(array) for key, array in arrays.items()}}.items():
+            setattr(struct, key, value)
+
+    def grow(self, owner: Any, function: str, run: Callable, tell: Callable, rooms: Dict[str, Any],
+             arrays: Dict[str, tuple]) -> Any:
         """Arrays of lengths that the library tells. run(room, arrays) calls it, and again with more room when that was too
         little; tell() gives the counts. rooms: capacity -> the first to try, or None: what sufficed last time."""
         memory = owner.__dict__.setdefault("_rooms", {})
         room = {key: memory.get((function, key), 1024) if first is None else first for key, first in rooms.items()}
-        while True:
+        done = False
+        while not done:
             self.n.update(room)
-            blind = any(self._size(dim) is None for _, dims in arrays.values() for dim in dims)  # asks for counts alone
-            made: Any = {name: None if blind else np.zeros(self.shape(dims), dtype) for name, (dtype, dims) in arrays.items()}
+            made = {name: np.zeros(self.shape(dims), dtype) for name, (dtype, dims) in arrays.items()}
             try:
-                run({key: 0 if blind else value for key, value in room.items()}, made)
-                counts = tell()
-                if not blind and all(counts[key] <= room[key] for key in room):
-                    break
+                run(room, made)
             except TooSmallError:
-                counts = tell()
-                if all(counts[key] <= room[key] for key in room):
+                if all(count <= room.get(key, count) for key, count in tell().items()):
                     raise
-            room = {key: counts[key] if blind else max(value, counts[key] + counts[key] // 8) for key, value in room.items()}
-            self.n.update({key: value for key, value in counts.items() if key not in room})
-        memory.update({(function, key): max(value, 1) for key, value in room.items()})
-        self.n.update(counts)
-        return {name: array[:self._size(arrays[name][1][0])] for name, array in made.items()}
-
-    def info(self, info: Any, kind: Any) -> Any:
-        """A struct of the caller to fill, or NULL."""
-        if info is None:
-            return None
-        if not isinstance(info, kind):
-            raise InvalidArgumentError(f"info must be a {kind.__name__}, not {type(info).__name__}")
-        return ctypes.byref(info)
+            counts = tell()
+            done = all(count <= room[key] if key in room else count == self.n.get(key) for key, count in counts.items())
+            self.n.update(counts)
+            room = {key: counts[key] for key in room}
+            memory.update({(function, key): max(1024, count + count // 8) for key, count in room.items()})
+        return {name: array[:self.size(arrays[name][1][0])] for name, array in made.items()}
 
 
 class Object:
@@ -468,7 +326,8 @@ class Object:
         handle = ctypes.c_void_p()
         call(function, *arguments, ctypes.byref(handle))
         self._handle, self._open = handle.value, True
-        self._n = {key: value for key, value in call_of.n.items() if key.rpartition(".")[2] in self._counts}
+        self._n = {key: count for key, count in call_of.n.items() if key.rpartition(".")[2] in self._counts}
+        self._past, self._undone = [], []  # type: ignore[var-annotated]
 
     @property
     def raw_handle(self) -> Optional[int]:
@@ -490,15 +349,13 @@ class Object:
         raise TypeError(f"hf.{type(self).__name__} cannot be pickled: it lives in the memory of this process. "
                         "Send positions and triangles, or the bytes of Surface.save()")
 
-    def __copy__(self) -> Any:
+    def __copy__(self, memo: Any = None) -> Any:
         """A clone, of classes that have one."""
-        clone = getattr(self, "clone", None)
-        if clone is None:
+        if not isinstance(self, Recorded):
             raise TypeError(f"hf.{type(self).__name__} cannot be copied; use the same object, or make another one")
-        return clone()
+        return self.clone()  # type: ignore[attr-defined]
 
-    def __deepcopy__(self, _memo: dict) -> Any:
-        return self.__copy__()
+    __deepcopy__ = __copy__
 
     def __enter__(self) -> Any:
         return self
@@ -518,32 +375,25 @@ class Recorded(Object):
 
     def record(self) -> None:
         """Keeps the present state for undo()."""
-        self._past, self._undone = [*getattr(self, "_past", []), self.clone()], []
+        self._past, self._undone = [*self._past, self.clone()], []  # type: ignore[attr-defined]
 
     def undo(self) -> None:
         """Goes back to the last record, bit for bit. Without one it raises EmptyError."""
-        self._exchange("_past", "_undone")
+        self._exchange(self._past, self._undone, "nothing is recorded; call record() before the edits")
 
     def redo(self) -> None:
         """Goes to the state before the last undo(). Without one since the last record() it raises EmptyError."""
-        self._exchange("_undone", "_past")
+        self._exchange(self._undone, self._past, "nothing was undone since the last record()")
 
-    def _exchange(self, taken: str, kept: str) -> None:
+    def _exchange(self, taken: list, kept: list, nothing: str) -> None:
         if self.closed:
-            self.clone()  # raises what every call on a closed object raises
-        states = getattr(self, taken, [])
-        if not states:
-            raise EmptyError("nothing is recorded; call record() before the edits" if taken == "_past" else
-                             "nothing was undone since the last record()")
-        state = states[-1]
-        setattr(self, kept, [*getattr(self, kept, []), state])
+            self.clone()  # type: ignore[attr-defined] # raises what every call on a closed object raises
+        require(taken, nothing, error=EmptyError)
+        state = taken.pop()
         self._handle, state._handle = state._handle, self._handle
-        states.pop()
+        kept.append(state)
 
 
 def handle_of(thing: Any, kind: type, name: str) -> Optional[int]:
-    if thing is None:
-        return None
-    if not isinstance(thing, kind) or not isinstance(thing, Object):
-        raise InvalidArgumentError(f"{name} must be a {kind.__name__}, not {type(thing).__name__}")
-    return thing._handle
+    require(isinstance(thing, (kind, type(None))), "{} must be a {}, not {}", name, kind.__name__, type(thing).__name__)
+    return thing and thing._handle

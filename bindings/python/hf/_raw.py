@@ -1734,6 +1734,9 @@ PROTOTYPES = {
 def load(path: str) -> CDLL:
     """Loads the shared library and gives every function its prototype."""
     library = CDLL(path)
+    version = library.hf_version_get()
+    if not 1000 <= version < 1000000:
+        raise OSError(f"it is of version {version // 1000000}.{version // 1000 % 1000}, this package of 0.1.0; install matching ones")
     for name, (result, arguments) in PROTOTYPES.items():
         function = getattr(library, name)
         function.restype = result

@@ -1,9 +1,9 @@
 // Generated from include/hf/*.h by bindings/generate; do not edit.
 //! The objects, their options and results.
 #![allow(unused_mut, unused_variables, clippy::all)]
-use crate::call::{known, object, unknown, Call, Indices, Number, Reals, Room};
-use crate::core::{check, of_length, start_of, Real, TryClone};
-use crate::{raw, Result};
+use crate::call::{object, start, whole, Call, Indices, Reals};
+use crate::core::{check, Real, TryClone};
+use crate::{raw, Error, Result};
 
 /// A factor that `Surface::save` wrote. The surface loads it instead of computing it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,7 +14,7 @@ pub struct Factor<'a> {
 impl<'a> Factor<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_factor_desc> {
         let mut desc = raw::hf_factor_desc { ..Default::default() };
-        desc.bytes = start_of(self.bytes).cast();
+        desc.bytes = self.bytes.map_or(std::ptr::null(), start).cast();
         desc.byte_count = self.bytes.map_or(0, <[u8]>::len);
         Ok(desc)
     }
@@ -55,11 +55,11 @@ impl<'a> Links<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "mode" => self.mode = Number::fit(name, value)?,
-            "distance" => self.distance = Number::fit(name, value)?,
-            "stiffness" => self.stiffness = Number::fit(name, value)?,
-            "overlay_distance" => self.overlay_distance = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "mode" => self.mode = whole(name, value, f64::MAX)?,
+            "distance" => self.distance = value,
+            "stiffness" => self.stiffness = value,
+            "overlay_distance" => self.overlay_distance = value,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -106,10 +106,10 @@ pub struct Faces<'a> {
 impl<'a> Faces<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_faces_desc> {
         let mut desc = raw::hf_faces_desc { ..Default::default() };
-        desc.corners = c.words(self.corners, "corners", &["corner_count"])?;
-        desc.sizes = c.words(self.sizes, "sizes", &["faces"])?;
-        desc.starts = if self.sizes.is_none() { c.words(self.starts, "starts",
-            &["faces + 1"])? } else { c.words(self.starts, "starts", &["faces"])? };
+        desc.corners = c.view(self.corners.map(|v| Indices::U32(v).numbers()), "corners", &["corner_count"])?;
+        desc.sizes = c.view(self.sizes.map(|v| Indices::U32(v).numbers()), "sizes", &["faces"])?;
+        desc.starts = if self.sizes.is_none() { c.view(self.starts.map(|v| Indices::U32(v).numbers()), "starts",
+            &["faces + 1"])? } else { c.view(self.starts.map(|v| Indices::U32(v).numbers()), "starts", &["faces"])? };
         Ok(desc)
     }
 }
@@ -152,17 +152,17 @@ impl<'a> SurfaceOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "weld" => self.weld = Number::fit(name, value)?,
-            "weld_tolerance" => self.weld_tolerance = Number::fit(name, value)?,
-            "operator_kind" => self.operator_kind = Number::fit(name, value)?,
-            "field_kind" => self.field_kind = Number::fit(name, value)?,
-            "ordering" => self.ordering = Number::fit(name, value)?,
-            "thread_count" => self.thread_count = Number::fit(name, value)?,
-            "vertex_limit" => self.vertex_limit = Number::fit(name, value)?,
-            "triangle_limit" => self.triangle_limit = Number::fit(name, value)?,
-            "memory_limit_mb" => self.memory_limit_mb = Number::fit(name, value)?,
-            "work_limit_gflop" => self.work_limit_gflop = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "weld" => self.weld = whole(name, value, f64::MAX)?,
+            "weld_tolerance" => self.weld_tolerance = value,
+            "operator_kind" => self.operator_kind = whole(name, value, f64::MAX)?,
+            "field_kind" => self.field_kind = whole(name, value, f64::MAX)?,
+            "ordering" => self.ordering = whole(name, value, f64::MAX)?,
+            "thread_count" => self.thread_count = whole(name, value, f64::MAX)?,
+            "vertex_limit" => self.vertex_limit = whole(name, value, f64::MAX)?,
+            "triangle_limit" => self.triangle_limit = whole(name, value, f64::MAX)?,
+            "memory_limit_mb" => self.memory_limit_mb = whole(name, value, f64::MAX)?,
+            "work_limit_gflop" => self.work_limit_gflop = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -173,8 +173,8 @@ impl<'a> SurfaceOptions<'a> {
             operator_kind: self.operator_kind, field_kind: self.field_kind, ordering: self.ordering,
             thread_count: self.thread_count, vertex_limit: self.vertex_limit, triangle_limit: self.triangle_limit,
             memory_limit_mb: self.memory_limit_mb, work_limit_gflop: self.work_limit_gflop, ..Default::default() };
-        desc.positions = c.reals(positions, "positions", &["vertex_count", "3"])?;
-        desc.triangles = c.indices(triangles, "triangles", &["triangle_count", "3"])?;
+        desc.positions = c.view(positions.map(Reals::numbers), "positions", &["vertex_count", "3"])?;
+        desc.triangles = c.view(triangles.map(Indices::numbers), "triangles", &["triangle_count", "3"])?;
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         if let Some(inner) = &self.faces {
             let inner = inner.fill(c, "faces.")?;
@@ -227,16 +227,16 @@ impl<'a> GraphOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "vertex_count" => self.vertex_count = Number::fit(name, value)?,
-            "allow_negative" => self.allow_negative = Number::fit(name, value)?,
-            "field_kind" => self.field_kind = Number::fit(name, value)?,
-            "ordering" => self.ordering = Number::fit(name, value)?,
-            "thread_count" => self.thread_count = Number::fit(name, value)?,
-            "vertex_limit" => self.vertex_limit = Number::fit(name, value)?,
-            "edge_limit" => self.edge_limit = Number::fit(name, value)?,
-            "memory_limit_mb" => self.memory_limit_mb = Number::fit(name, value)?,
-            "work_limit_gflop" => self.work_limit_gflop = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "vertex_count" => self.vertex_count = whole(name, value, f64::MAX)?,
+            "allow_negative" => self.allow_negative = whole::<u8>(name, value, 1.0)? == 1,
+            "field_kind" => self.field_kind = whole(name, value, f64::MAX)?,
+            "ordering" => self.ordering = whole(name, value, f64::MAX)?,
+            "thread_count" => self.thread_count = whole(name, value, f64::MAX)?,
+            "vertex_limit" => self.vertex_limit = whole(name, value, f64::MAX)?,
+            "edge_limit" => self.edge_limit = whole(name, value, f64::MAX)?,
+            "memory_limit_mb" => self.memory_limit_mb = whole(name, value, f64::MAX)?,
+            "work_limit_gflop" => self.work_limit_gflop = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -247,10 +247,10 @@ impl<'a> GraphOptions<'a> {
             allow_negative: i32::from(self.allow_negative), field_kind: self.field_kind, ordering: self.ordering,
             thread_count: self.thread_count, vertex_limit: self.vertex_limit, edge_limit: self.edge_limit,
             memory_limit_mb: self.memory_limit_mb, work_limit_gflop: self.work_limit_gflop, ..Default::default() };
-        c.known("vertex_count", self.vertex_count);
-        desc.edges = c.indices(edges, "edges", &["edge_count", "2"])?;
-        desc.weights = c.reals(weights, "weights", &["edge_count"])?;
-        desc.masses = c.reals(self.masses, "masses", &["vertex_count"])?;
+        if self.vertex_count > 0 { c.learn("vertex_count", self.vertex_count as usize); }
+        desc.edges = c.view(edges.map(Indices::numbers), "edges", &["edge_count", "2"])?;
+        desc.weights = c.view(weights.map(Reals::numbers), "weights", &["edge_count"])?;
+        desc.masses = c.view(self.masses.map(Reals::numbers), "masses", &["vertex_count"])?;
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         if let Some(inner) = &self.saved_factor {
             let inner = inner.fill(c, "saved_factor.")?;
@@ -273,15 +273,15 @@ impl<'a> PickOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "front_only" => self.front_only = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "front_only" => self.front_only = whole::<u8>(name, value, 1.0)? == 1,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
 
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_pick_desc> {
         let mut desc = raw::hf_pick_desc { front_only: i32::from(self.front_only), ..Default::default() };
-        desc.positions = c.reals(self.positions, "positions", &["vertex_count", "3"])?;
+        desc.positions = c.view(self.positions.map(Reals::numbers), "positions", &["vertex_count", "3"])?;
         Ok(desc)
     }
 }
@@ -302,10 +302,10 @@ impl<'a> SolverOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "field_kind" => self.field_kind = Number::fit(name, value)?,
-            "channel_count" => self.channel_count = Number::fit(name, value)?,
-            "site_limit" => self.site_limit = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "field_kind" => self.field_kind = whole(name, value, f64::MAX)?,
+            "channel_count" => self.channel_count = whole(name, value, f64::MAX)?,
+            "site_limit" => self.site_limit = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -313,7 +313,7 @@ impl<'a> SolverOptions<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_solver_desc> {
         let mut desc = raw::hf_solver_desc { field_kind: self.field_kind, channel_count: self.channel_count,
             site_limit: self.site_limit, ..Default::default() };
-        c.known("channel_count", if self.channel_count == 0 { 1 } else { self.channel_count });
+        c.learn("channel_count", if self.channel_count == 0 { 1 } else { self.channel_count as usize });
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         Ok(desc)
     }
@@ -406,9 +406,9 @@ impl<'a> GeodesicsOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "method" => self.method = Number::fit(name, value)?,
-            "smoothing" => self.smoothing = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "method" => self.method = whole(name, value, f64::MAX)?,
+            "smoothing" => self.smoothing = value,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -439,10 +439,10 @@ impl<'a> ExtremitiesOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "kind" => self.kind = Number::fit(name, value)?,
-            "least_length_share" => self.least_length_share = Number::fit(name, value)?,
-            "source_count" => self.source_count = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "kind" => self.kind = whole(name, value, f64::MAX)?,
+            "least_length_share" => self.least_length_share = value,
+            "source_count" => self.source_count = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -450,7 +450,7 @@ impl<'a> ExtremitiesOptions<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_extremities_desc> {
         let mut desc = raw::hf_extremities_desc { kind: self.kind, least_length_share: self.least_length_share,
             source_count: self.source_count, ..Default::default() };
-        c.known("source_count", if self.source_count == 0 { 40 } else { self.source_count });
+        c.learn("source_count", if self.source_count == 0 { 40 } else { self.source_count as usize });
         desc.geodesics = self.geodesics.map_or(std::ptr::null_mut(), |o| o.handle);
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         Ok(desc)
@@ -471,9 +471,9 @@ impl<'a> DirectionOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "degree" => self.degree = Number::fit(name, value)?,
-            "site_limit" => self.site_limit = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "degree" => self.degree = whole(name, value, f64::MAX)?,
+            "site_limit" => self.site_limit = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -500,10 +500,10 @@ impl PoseOptions {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "band_count" => self.band_count = Number::fit(name, value)?,
-            "iteration_count" => self.iteration_count = Number::fit(name, value)?,
-            "group_count" => self.group_count = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "band_count" => self.band_count = whole(name, value, f64::MAX)?,
+            "iteration_count" => self.iteration_count = whole(name, value, f64::MAX)?,
+            "group_count" => self.group_count = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -542,10 +542,10 @@ impl<'a> HandlesOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "layer" => self.layer = Number::fit(name, value)?,
-            "in_place" => self.in_place = Number::fit(name, value)?,
-            "free_rotation" => self.free_rotation = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "layer" => self.layer = whole(name, value, f64::MAX)?,
+            "in_place" => self.in_place = whole::<u8>(name, value, 1.0)? == 1,
+            "free_rotation" => self.free_rotation = whole::<u8>(name, value, 1.0)? == 1,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -593,13 +593,13 @@ impl DeformOptions {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "iteration_count" => self.iteration_count = Number::fit(name, value)?,
-            "restart" => self.restart = Number::fit(name, value)?,
-            "refine" => self.refine = Number::fit(name, value)?,
-            "refine_from_last" => self.refine_from_last = Number::fit(name, value)?,
-            "first_vertex" => self.first_vertex = Number::fit(name, value)?,
-            "vertex_count" => self.vertex_count = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "iteration_count" => self.iteration_count = whole(name, value, f64::MAX)?,
+            "restart" => self.restart = whole::<u8>(name, value, 1.0)? == 1,
+            "refine" => self.refine = whole(name, value, f64::MAX)?,
+            "refine_from_last" => self.refine_from_last = whole::<u8>(name, value, 1.0)? == 1,
+            "first_vertex" => self.first_vertex = whole(name, value, f64::MAX)?,
+            "vertex_count" => self.vertex_count = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -608,7 +608,7 @@ impl DeformOptions {
         let mut desc = raw::hf_deform_desc { iteration_count: self.iteration_count, restart: i32::from(self.restart),
             refine: self.refine, refine_from_last: i32::from(self.refine_from_last), first_vertex: self.first_vertex,
             vertex_count: self.vertex_count, ..Default::default() };
-        c.known("vertex_count", self.vertex_count);
+        if self.vertex_count > 0 { c.learn("vertex_count", self.vertex_count as usize); }
         Ok(desc)
     }
 }
@@ -633,9 +633,9 @@ impl<'a> HandleProposalsOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "least_length_share" => self.least_length_share = Number::fit(name, value)?,
-            "limit" => self.limit = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "least_length_share" => self.least_length_share = value,
+            "limit" => self.limit = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -691,11 +691,11 @@ impl<'a> QuadsOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "face_count" => self.face_count = Number::fit(name, value)?,
-            "edge_length" => self.edge_length = Number::fit(name, value)?,
-            "crease_angle" => self.crease_angle = Number::fit(name, value)?,
-            "relax_count" => self.relax_count = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "face_count" => self.face_count = whole(name, value, f64::MAX)?,
+            "edge_length" => self.edge_length = value,
+            "crease_angle" => self.crease_angle = value,
+            "relax_count" => self.relax_count = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -737,15 +737,15 @@ impl<'a> RegionOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "base" => self.base = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "base" => self.base = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
 
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_region_desc> {
         let mut desc = raw::hf_region_desc { base: self.base, ..Default::default() };
-        desc.positions = c.reals(self.positions, "positions", &["vertex_count", "3"])?;
+        desc.positions = c.view(self.positions.map(Reals::numbers), "positions", &["vertex_count", "3"])?;
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         Ok(desc)
     }
@@ -776,10 +776,10 @@ impl<'a> Curve<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "side" => self.side = Number::fit(name, value)?,
-            "seed_vertex" => self.seed_vertex = Number::fit(name, value)?,
-            "kind" => self.kind = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "side" => self.side = whole(name, value, f64::MAX)?,
+            "seed_vertex" => self.seed_vertex = whole(name, value, f64::MAX)?,
+            "kind" => self.kind = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -814,8 +814,8 @@ impl<'a> RegionEditOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "ring_count" => self.ring_count = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "ring_count" => self.ring_count = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -862,8 +862,8 @@ impl<'a> DetailOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "scale" => self.scale = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "scale" => self.scale = value,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -902,10 +902,10 @@ impl<'a> RetargetOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "root_motion" => self.root_motion = Number::fit(name, value)?,
-            "leave_out" => self.leave_out = Number::fit(name, value)?,
-            "scale" => self.scale = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "root_motion" => self.root_motion = whole(name, value, f64::MAX)?,
+            "leave_out" => self.leave_out = whole(name, value, f64::MAX)?,
+            "scale" => self.scale = value,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -1028,13 +1028,13 @@ impl<'a> TransferOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "mode" => self.mode = Number::fit(name, value)?,
-            "cluster_count" => self.cluster_count = Number::fit(name, value)?,
-            "ground" => self.ground = Number::fit(name, value)?,
-            "kernel_width" => self.kernel_width = Number::fit(name, value)?,
-            "scale" => self.scale = Number::fit(name, value)?,
-            "alignment_angle" => self.alignment_angle = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "mode" => self.mode = whole(name, value, f64::MAX)?,
+            "cluster_count" => self.cluster_count = whole(name, value, f64::MAX)?,
+            "ground" => self.ground = whole(name, value, f64::MAX)?,
+            "kernel_width" => self.kernel_width = value,
+            "scale" => self.scale = value,
+            "alignment_angle" => self.alignment_angle = value,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -1043,8 +1043,8 @@ impl<'a> TransferOptions<'a> {
         let mut desc = raw::hf_transfer_desc { mode: self.mode, cluster_count: self.cluster_count, ground: self.ground,
             kernel_width: self.kernel_width, scale: self.scale, alignment_angle: self.alignment_angle,
             ..Default::default() };
-        desc.source_rest = c.reals(self.source_rest, "source_rest", &["source.vertex_count", "3"])?;
-        desc.target_rest = c.reals(self.target_rest, "target_rest", &["target.vertex_count", "3"])?;
+        desc.source_rest = c.view(self.source_rest.map(Reals::numbers), "source_rest", &["source.vertex_count", "3"])?;
+        desc.target_rest = c.view(self.target_rest.map(Reals::numbers), "target_rest", &["target.vertex_count", "3"])?;
         if let Some(given) = self.source_axes { desc.source_axes = given; }
         if let Some(given) = self.target_axes { desc.target_axes = given; }
         Ok(desc)
@@ -1099,13 +1099,13 @@ impl TransferDials {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "stride" => self.stride = Number::fit(name, value)?,
-            "hip_height_share" => self.hip_height_share = Number::fit(name, value)?,
-            "neck_follow" => self.neck_follow = Number::fit(name, value)?,
-            "tail_follow" => self.tail_follow = Number::fit(name, value)?,
-            "arm_space" => self.arm_space = Number::fit(name, value)?,
-            "long_follow" => self.long_follow = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "stride" => self.stride = value,
+            "hip_height_share" => self.hip_height_share = value,
+            "neck_follow" => self.neck_follow = value,
+            "tail_follow" => self.tail_follow = value,
+            "arm_space" => self.arm_space = value,
+            "long_follow" => self.long_follow = value,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -1132,7 +1132,8 @@ impl<'a> TransferFrame<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str,
             source_positions: Option<Reals<'_>>) -> Result<raw::hf_transfer_frame> {
         let mut desc = raw::hf_transfer_frame { ..Default::default() };
-        desc.source_positions = c.reals(source_positions, "source_positions", &["source.vertex_count", "3"])?;
+        desc.source_positions = c.view(source_positions.map(Reals::numbers), "source_positions",
+            &["source.vertex_count", "3"])?;
         desc.hold_pairs = c.array(self.hold_pairs, "hold_pairs", &[&format!("{prefix}hold_count")])?;
         desc.hold_positions = c.array(self.hold_positions, "hold_positions", &[&format!("{prefix}hold_count"), "3"])?;
         desc.hold_count = c.count(&format!("{prefix}hold_count"), 0)?;
@@ -1231,10 +1232,10 @@ impl<'a> WeightsTransferOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "distance" => self.distance = Number::fit(name, value)?,
-            "angle" => self.angle = Number::fit(name, value)?,
-            "influence_count" => self.influence_count = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "distance" => self.distance = value,
+            "angle" => self.angle = value,
+            "influence_count" => self.influence_count = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -1242,7 +1243,7 @@ impl<'a> WeightsTransferOptions<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_weights_transfer_desc> {
         let mut desc = raw::hf_weights_transfer_desc { distance: self.distance, angle: self.angle,
             influence_count: self.influence_count, ..Default::default() };
-        c.known("influence_count", if self.influence_count == 0 { 4 } else { self.influence_count });
+        c.learn("influence_count", if self.influence_count == 0 { 4 } else { self.influence_count as usize });
         desc.joints = c.array(self.joints, "joints", &["source.vertex_count",
             &format!("{prefix}source_influence_count")])?;
         desc.weights = c.array(self.weights, "weights", &["source.vertex_count",
@@ -1283,11 +1284,11 @@ impl<'a> WeightsMirrorOptions<'a> {
     /// Sets the option of this name. Refuses unknown names and values that the option cannot hold.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         match name {
-            "to" => self.to = Number::fit(name, value)?,
-            "distance" => self.distance = Number::fit(name, value)?,
-            "angle" => self.angle = Number::fit(name, value)?,
-            "influence_count" => self.influence_count = Number::fit(name, value)?,
-            _ => return Err(unknown(name)),
+            "to" => self.to = whole(name, value, f64::MAX)?,
+            "distance" => self.distance = value,
+            "angle" => self.angle = value,
+            "influence_count" => self.influence_count = whole(name, value, f64::MAX)?,
+            _ => return Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, format!("no option {name}"))),
         }
         Ok(())
     }
@@ -1295,7 +1296,7 @@ impl<'a> WeightsMirrorOptions<'a> {
     pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_weights_mirror_desc> {
         let mut desc = raw::hf_weights_mirror_desc { to: self.to, distance: self.distance, angle: self.angle,
             influence_count: self.influence_count, ..Default::default() };
-        c.known("influence_count", if self.influence_count == 0 { 4 } else { self.influence_count });
+        c.learn("influence_count", if self.influence_count == 0 { 4 } else { self.influence_count as usize });
         desc.heads = c.array(self.heads, "heads", &[&format!("{prefix}joint_count"), "3"])?;
         desc.partners = c.array(self.partners, "partners", &[&format!("{prefix}joint_count")])?;
         desc.plane = c.array(self.plane, "plane", &["6"])?;
@@ -1462,7 +1463,7 @@ object!(
 impl Progress {
     /// Creates a progress object.
     pub fn new() -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_progress_create(&mut handle_) })?;
@@ -1471,7 +1472,7 @@ impl Progress {
 
     /// Writes how much of the running call is done.
     pub fn fraction(&self) -> Result<f64> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut fraction = f64::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_progress_get_fraction(self.handle, &mut fraction) })?;
@@ -1480,7 +1481,7 @@ impl Progress {
 
     /// Stops the call that uses this object, or the next one that does. That call returns [`raw::HF_ERROR_CANCELLED`].
     pub fn cancel(&self) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_progress_cancel(self.handle) })?;
         Ok(())
@@ -1514,7 +1515,7 @@ impl Surface {
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn new<'i>(positions: impl Into<Reals<'i>>, triangles: impl Into<Indices<'i>>,
             options: &SurfaceOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         let desc = options.fill(&mut c, "", Some(positions.into()), Some(triangles.into()))?;
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
@@ -1541,7 +1542,7 @@ impl Surface {
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn from_graph<'i>(edges: impl Into<Indices<'i>>, weights: impl Into<Reals<'i>>,
             options: &GraphOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         let desc = options.fill(&mut c, "", Some(edges.into()), Some(weights.into()))?;
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
@@ -1551,7 +1552,7 @@ impl Surface {
 
     /// Writes the options of a surface.
     pub fn info(&self) -> Result<raw::hf_surface_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_surface_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_get_info(self.handle, &mut info) })?;
@@ -1560,7 +1561,7 @@ impl Surface {
 
     /// Writes the report of the mesh.
     pub fn report(&self) -> Result<raw::hf_surface_report> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut report = raw::hf_surface_report::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_get_report(self.handle, &mut report) })?;
@@ -1569,7 +1570,7 @@ impl Surface {
 
     /// Writes the statistics of the mesh.
     pub fn mesh_statistics(&self) -> Result<raw::hf_mesh_statistics> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut statistics = raw::hf_mesh_statistics::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_get_mesh_statistics(self.handle, &mut statistics) })?;
@@ -1579,17 +1580,16 @@ impl Surface {
     /// Writes the component of every vertex of your mesh, and [`raw::HF_NO_INDEX`] for isolated vertices. Components are
     /// numbered in the order of their lowest vertex numbers.
     pub fn components(&self) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut components: Vec<u32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut components, &["capacity"]);
+            let components_at = c.room(&mut components, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_surface_get_components(self.handle, room.get("capacity"),
-                room.at(&mut components), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_surface_get_components(self.handle, c.count("capacity", 0)?, components_at,
+                &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -1599,7 +1599,7 @@ impl Surface {
 
     /// Writes how the pieces of a surface are linked.
     pub fn links_info(&self) -> Result<raw::hf_links_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_links_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_get_links_info(self.handle, &mut info) })?;
@@ -1610,17 +1610,15 @@ impl Surface {
     /// say which pieces are light: name them in light_vertices, as `Surface::pieces` marks them. Then the list alone
     /// gives the same surface, bit for bit, without a search.
     pub fn links(&self) -> Result<Vec<raw::hf_link>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut links: Vec<raw::hf_link> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut links, &["capacity"]);
+            let links_at = c.room(&mut links, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_surface_get_links(self.handle, room.get("capacity"), room.at(&mut links),
-                &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_surface_get_links(self.handle, c.count("capacity", 0)?, links_at, &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -1631,19 +1629,18 @@ impl Surface {
     /// Writes the piece of every vertex of your mesh, and [`raw::HF_NO_INDEX`] for isolated vertices. Pieces are numbered
     /// in the order of their lowest vertices.
     pub fn pieces(&self) -> Result<(Vec<u32>, Vec<i32>)> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut pieces: Vec<u32> = Vec::new();
         let mut light: Vec<i32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"], &["capacity"]]);
-            room.make(&c, &mut pieces, &["capacity"]);
-            room.make(&c, &mut light, &["capacity"]);
+            let pieces_at = c.room(&mut pieces, &["capacity"]);
+            let light_at = c.room(&mut light, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_surface_get_pieces(self.handle, room.get("capacity"), room.at(&mut pieces),
-                room.at(&mut light), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_surface_get_pieces(self.handle, c.count("capacity", 0)?, pieces_at, light_at,
+                &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -1662,18 +1659,17 @@ impl Surface {
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn measure_gaps<'i>(&self, positions: impl Into<Reals<'i>>) -> Result<(Vec<f64>, raw::hf_gaps_info)> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_gaps_info::default();
-        let positions_ = c.reals(Some(positions.into()), "positions", &["vertex_count", "3"])?;
-        let mut room = Room::new(&[("capacity", None)]);
+        let positions_ = c.view(Some(positions.into().numbers()), "positions", &["vertex_count", "3"])?;
+        c.learn("capacity", Call::FIRST);
         let mut gaps: Vec<f64> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut gaps, &["capacity"]);
+            let gaps_at = c.room(&mut gaps, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_surface_measure_gaps(self.handle, &positions_, room.get("capacity"),
-                room.at(&mut gaps), &mut info) };
-            if room.enough(&mut c, code, &[("capacity", info.link_count)])? {
+            let code = unsafe { raw::hf_surface_measure_gaps(self.handle, &positions_, c.count("capacity", 0)?, gaps_at,
+                &mut info) };
+            if c.enough(code, &[("capacity", info.link_count)])? {
                 break;
             }
         }
@@ -1690,7 +1686,7 @@ impl Surface {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn relink(&self, links: &Links, progress: Option<&Progress>) -> Result<Self> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = links.fill(&mut c, "")?;
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
@@ -1701,7 +1697,7 @@ impl Surface {
 
     /// Writes the statistics of a surface and of the factor it was made with.
     pub fn statistics(&self) -> Result<raw::hf_surface_statistics> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut statistics = raw::hf_surface_statistics::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_get_statistics(self.handle, &mut statistics) })?;
@@ -1718,7 +1714,7 @@ impl Surface {
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_TOO_SMALL`].
     pub fn save(&self, field_kind: i32, progress: Option<&Progress>) -> Result<Vec<u8>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut size = 0;
         // SAFETY: the first call asks for the size.
         check(unsafe { raw::hf_surface_save(self.handle, field_kind, progress.map_or(std::ptr::null_mut(),
@@ -1736,7 +1732,7 @@ impl Surface {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
     pub fn cast_ray(&self, origin: &[f64], direction: &[f64], options: &PickOptions) -> Result<Option<raw::hf_hit>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let origin_ = c.array(Some(origin), "origin", &["3"])?;
         let direction_ = c.array(Some(direction), "direction", &["3"])?;
         let desc = options.fill(&mut c, "")?;
@@ -1752,7 +1748,7 @@ impl Surface {
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn find_vertex(&self, point: &[f64], options: &PickOptions) -> Result<(u32, f64)> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let point_ = c.array(Some(point), "point", &["3"])?;
         let desc = options.fill(&mut c, "")?;
         let mut vertex = u32::default();
@@ -1778,9 +1774,9 @@ impl Surface {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
     pub fn space_levels<'i>(&self, field: impl Into<Reals<'i>>, level_count: u32, spacing: i32) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
-        let field_ = c.reals(Some(field.into()), "field", &["vertex_count"])?;
-        c.known("level_count", level_count);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        let field_ = c.view(Some(field.into().numbers()), "field", &["vertex_count"])?;
+        if level_count > 0 { c.learn("level_count", level_count as usize); }
         let mut levels = vec![f64::default(); c.product(&["level_count"])];
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_space_levels(self.handle, &field_, spacing, level_count,
@@ -1800,11 +1796,12 @@ impl Surface {
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn trace_isolines<'i>(&self, field: impl Into<Reals<'i>>, levels: &[f64]) -> Result<Isolines> {
-        let mut c = Call::new(&self.counts);
-        let field_ = c.reals(Some(field.into()), "field", &["vertex_count"])?;
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        let field_ = c.view(Some(field.into().numbers()), "field", &["vertex_count"])?;
         let levels_ = c.array(Some(levels), "levels", &["level_count"])?;
         let mut lines = raw::hf_isolines { ..Default::default() };
-        let mut room = Room::new(&[("point_capacity", None), ("line_capacity", None)]);
+        c.learn("point_capacity", Call::FIRST);
+        c.learn("line_capacity", Call::FIRST);
         let mut all_point_edges: Vec<u32> = Vec::new();
         let mut all_parameters: Vec<f64> = Vec::new();
         let mut all_positions: Vec<f64> = Vec::new();
@@ -1812,27 +1809,18 @@ impl Surface {
         let mut all_line_levels: Vec<u32> = Vec::new();
         let mut all_line_closed: Vec<i32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["point_capacity", "2"], &["point_capacity"], &["point_capacity", "3"],
-                &["line_capacity + 1"], &["line_capacity"], &["line_capacity"]]);
-            room.make(&c, &mut all_point_edges, &["point_capacity", "2"]);
-            room.make(&c, &mut all_parameters, &["point_capacity"]);
-            room.make(&c, &mut all_positions, &["point_capacity", "3"]);
-            room.make(&c, &mut all_line_starts, &["line_capacity + 1"]);
-            room.make(&c, &mut all_line_levels, &["line_capacity"]);
-            room.make(&c, &mut all_line_closed, &["line_capacity"]);
-            lines.point_capacity = room.get("point_capacity");
-            lines.line_capacity = room.get("line_capacity");
-            lines.point_edges = room.at(&mut all_point_edges);
-            lines.parameters = room.at(&mut all_parameters);
-            lines.positions = room.at(&mut all_positions);
-            lines.line_starts = room.at(&mut all_line_starts);
-            lines.line_levels = room.at(&mut all_line_levels);
-            lines.line_closed = room.at(&mut all_line_closed);
+            lines.point_capacity = c.count("point_capacity", 0)?;
+            lines.line_capacity = c.count("line_capacity", 0)?;
+            lines.point_edges = c.room(&mut all_point_edges, &["point_capacity", "2"]);
+            lines.parameters = c.room(&mut all_parameters, &["point_capacity"]);
+            lines.positions = c.room(&mut all_positions, &["point_capacity", "3"]);
+            lines.line_starts = c.room(&mut all_line_starts, &["line_capacity + 1"]);
+            lines.line_levels = c.room(&mut all_line_levels, &["line_capacity"]);
+            lines.line_closed = c.room(&mut all_line_closed, &["line_capacity"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_surface_trace_isolines(self.handle, &field_, c.count("level_count", 1)?,
                 levels_, &mut lines) };
-            if room.enough(&mut c, code, &[("point_capacity", lines.point_count), ("line_capacity",
-                lines.line_count)])? {
+            if c.enough(code, &[("point_capacity", lines.point_count), ("line_capacity", lines.line_count)])? {
                 break;
             }
         }
@@ -1859,18 +1847,17 @@ impl Surface {
     /// Fails with [`raw::HF_ERROR_NON_FINITE`].
     pub fn find_critical_points<'i>(&self, field: impl Into<Reals<'i>>) -> Result<(Vec<raw::hf_critical_point>,
             raw::hf_critical_info)> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_critical_info::default();
-        let field_ = c.reals(Some(field.into()), "field", &["vertex_count"])?;
-        let mut room = Room::new(&[("capacity", None)]);
+        let field_ = c.view(Some(field.into().numbers()), "field", &["vertex_count"])?;
+        c.learn("capacity", Call::FIRST);
         let mut points: Vec<raw::hf_critical_point> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut points, &["capacity"]);
+            let points_at = c.room(&mut points, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_surface_find_critical_points(self.handle, &field_, room.get("capacity"),
-                room.at(&mut points), &mut info) };
-            if room.enough(&mut c, code, &[("capacity", info.point_count)])? {
+            let code = unsafe { raw::hf_surface_find_critical_points(self.handle, &field_, c.count("capacity", 0)?,
+                points_at, &mut info) };
+            if c.enough(code, &[("capacity", info.point_count)])? {
                 break;
             }
         }
@@ -1887,20 +1874,19 @@ impl Surface {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
     pub fn find_extremities(&self, field: Option<&mut [f64]>,
             options: &ExtremitiesOptions) -> Result<Vec<raw::hf_extremity>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut desc = options.fill(&mut c, "")?;
         let field_at = c.fill(field, "field", &["vertex_count"])?;
         desc.out_field = field_at;
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut extremities: Vec<raw::hf_extremity> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut extremities, &["capacity"]);
+            let extremities_at = c.room(&mut extremities, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_surface_find_extremities(self.handle, &desc, room.get("capacity"),
-                room.at(&mut extremities), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_surface_find_extremities(self.handle, &desc, c.count("capacity", 0)?,
+                extremities_at, &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -1915,18 +1901,17 @@ impl Surface {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`].
     pub fn propose_handles(&self, options: &HandleProposalsOptions) -> Result<Vec<raw::hf_handle_proposal>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = options.fill(&mut c, "")?;
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut proposals: Vec<raw::hf_handle_proposal> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut proposals, &["capacity"]);
+            let proposals_at = c.room(&mut proposals, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_surface_propose_handles(self.handle, &desc, room.get("capacity"),
-                room.at(&mut proposals), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_surface_propose_handles(self.handle, &desc, c.count("capacity", 0)?,
+                proposals_at, &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -1936,7 +1921,7 @@ impl Surface {
 
     /// Vertices of the surface, as given.
     pub fn vertex_count(&self) -> usize {
-        known(&self.counts, "vertex_count").unwrap_or(0)
+        self.counts.get("vertex_count").copied().unwrap_or(0)
     }
 }
 
@@ -1950,7 +1935,7 @@ impl Solver {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
     pub fn new(surface: &Surface, options: &SolverOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("surface", &surface.counts);
         let desc = options.fill(&mut c, "")?;
         let mut handle_ = std::ptr::null_mut();
@@ -1963,7 +1948,7 @@ impl Solver {
     /// and what the sites have cost, so a copy costs its list of sites only. Use one copy per thread or per set of sites.
     /// For undo, keep copies: one before each edit.
     pub fn try_clone(&self) -> Result<Self> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_clone(self.handle, &mut handle_) })?;
@@ -1972,7 +1957,7 @@ impl Solver {
 
     /// Writes the options of a solver.
     pub fn info(&self) -> Result<raw::hf_solver_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_solver_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_get_info(self.handle, &mut info) })?;
@@ -1985,7 +1970,7 @@ impl Solver {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn add_sites(&mut self, sites: &Sites) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = sites.fill(&mut c, "")?;
         let mut sites = vec![u32::default(); c.product(&["site_count"])];
         // SAFETY: every slice is as long as its check says.
@@ -2001,7 +1986,7 @@ impl Solver {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn add_site(&mut self, vertex: u32, values: Option<&[f64]>) -> Result<u32> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let values_ = c.array(values, "values", &["channel_count"])?;
         let mut site = u32::default();
         // SAFETY: every slice is as long as its check says.
@@ -2016,7 +2001,7 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     pub fn remove_sites(&mut self, sites: &[u32]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_remove_sites(self.handle, c.count("site_count", 1)?, sites_) })?;
@@ -2031,7 +2016,7 @@ impl Solver {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn move_sites(&mut self, sites: &[u32], to: &Sites) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
         let desc = to.fill(&mut c, "")?;
         // SAFETY: every slice is as long as its check says.
@@ -2046,7 +2031,7 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn set_values(&mut self, sites: &[u32], values: &[f64]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
         let values_ = c.array(Some(values), "values", &["site_count", "channel_count"])?;
         // SAFETY: every slice is as long as its check says.
@@ -2056,7 +2041,7 @@ impl Solver {
 
     /// Applies a batch of edits at once.
     pub fn edit_sites(&mut self, edit: &Edit) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = edit.fill(&mut c, "")?;
         let mut sites = vec![u32::default(); c.product(&["add.site_count"])];
         // SAFETY: every slice is as long as its check says.
@@ -2072,9 +2057,9 @@ impl Solver {
 
     /// Writes all sites.
     pub fn sites(&self) -> Result<SitesInfo> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_sites_info { ..Default::default() };
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut all_sites: Vec<u32> = Vec::new();
         let mut all_vertices: Vec<u32> = Vec::new();
         let mut all_components: Vec<u32> = Vec::new();
@@ -2083,26 +2068,17 @@ impl Solver {
         let mut all_flux: Vec<f64> = Vec::new();
         let mut all_radii: Vec<f64> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"], &["capacity"], &["capacity"], &["capacity", "channel_count"],
-                &["capacity"], &["capacity", "channel_count"], &["capacity"]]);
-            room.make(&c, &mut all_sites, &["capacity"]);
-            room.make(&c, &mut all_vertices, &["capacity"]);
-            room.make(&c, &mut all_components, &["capacity"]);
-            room.make(&c, &mut all_values, &["capacity", "channel_count"]);
-            room.make(&c, &mut all_stiffness, &["capacity"]);
-            room.make(&c, &mut all_flux, &["capacity", "channel_count"]);
-            room.make(&c, &mut all_radii, &["capacity"]);
-            info.capacity = room.get("capacity");
-            info.sites = room.at(&mut all_sites);
-            info.vertices = room.at(&mut all_vertices);
-            info.components = room.at(&mut all_components);
-            info.values = room.at(&mut all_values);
-            info.stiffness = room.at(&mut all_stiffness);
-            info.flux = room.at(&mut all_flux);
-            info.radii = room.at(&mut all_radii);
+            info.capacity = c.count("capacity", 0)?;
+            info.sites = c.room(&mut all_sites, &["capacity"]);
+            info.vertices = c.room(&mut all_vertices, &["capacity"]);
+            info.components = c.room(&mut all_components, &["capacity"]);
+            info.values = c.room(&mut all_values, &["capacity", "channel_count"]);
+            info.stiffness = c.room(&mut all_stiffness, &["capacity"]);
+            info.flux = c.room(&mut all_flux, &["capacity", "channel_count"]);
+            info.radii = c.room(&mut all_radii, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_solver_get_sites(self.handle, &mut info) };
-            if room.enough(&mut c, code, &[("capacity", info.count)])? {
+            if c.enough(code, &[("capacity", info.count)])? {
                 break;
             }
         }
@@ -2129,7 +2105,7 @@ impl Solver {
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn set_screening(&mut self, screening: Option<&[f64]>, targets: Option<&[f64]>) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let screening_ = c.array(screening, "screening", &["vertex_count"])?;
         let targets_ = c.array(targets, "targets", &["vertex_count", "channel_count"])?;
         // SAFETY: every slice is as long as its check says.
@@ -2145,10 +2121,10 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn solve(&self) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_solve_info::default();
         let mut out = vec![f64::default(); c.product(&["vertex_count", "channel_count"])];
-        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_solve(self.handle, &out_view, &mut info) })?;
         Ok(out)
@@ -2156,10 +2132,10 @@ impl Solver {
 
     /// As `solve`, into a slice of yours. Returns the figures of the call.
     pub fn solve_into<P: Real>(&self, out: &mut [P]) -> Result<raw::hf_solve_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_solve_info::default();
-        of_length(out, "out", c.product(&["vertex_count", "channel_count"]))?;
-        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
+        c.fit(out.len(), "out", &["vertex_count", "channel_count"])?;
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_solve(self.handle, &out_view, &mut info) })?;
         Ok(info)
@@ -2175,8 +2151,8 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn solve_at(&self, vertices: &[u32]) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
-        c.forget("vertex_count"); // of the list given here
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        c.sizes.remove("vertex_count"); // of the list given here
         let vertices_ = c.array(Some(vertices), "vertices", &["vertex_count"])?;
         let mut values = vec![f64::default(); c.product(&["vertex_count", "channel_count"])];
         // SAFETY: every slice is as long as its check says.
@@ -2195,10 +2171,10 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn solve_vectors(&self) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_solve_info::default();
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
-        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         let normals_at: *mut f64 = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_solve_vectors(self.handle, &out_view, normals_at, &mut info) })?;
@@ -2208,10 +2184,10 @@ impl Solver {
     /// As `solve_vectors`, into a slice of yours. Returns the figures of the call.
     pub fn solve_vectors_into<P: Real>(&self, out: &mut [P],
             normals: Option<&mut [f64]>) -> Result<raw::hf_solve_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_solve_info::default();
-        of_length(out, "out", c.product(&["vertex_count", "3"]))?;
-        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
+        c.fit(out.len(), "out", &["vertex_count", "3"])?;
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_solve_vectors(self.handle, &out_view, normals_at, &mut info) })?;
@@ -2236,10 +2212,10 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
     pub fn solve_preview(&self, correction_count: u32) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_preview_info::default();
         let mut out = vec![f64::default(); c.product(&["vertex_count", "channel_count"])];
-        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_solve_preview(self.handle, &out_view, correction_count, &mut info) })?;
         Ok(out)
@@ -2247,10 +2223,10 @@ impl Solver {
 
     /// As `solve_preview`, into a slice of yours. Returns the figures of the call.
     pub fn solve_preview_into<P: Real>(&self, out: &mut [P], correction_count: u32) -> Result<raw::hf_preview_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_preview_info::default();
-        of_length(out, "out", c.product(&["vertex_count", "channel_count"]))?;
-        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
+        c.fit(out.len(), "out", &["vertex_count", "channel_count"])?;
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_solve_preview(self.handle, &out_view, correction_count, &mut info) })?;
         Ok(info)
@@ -2259,7 +2235,7 @@ impl Solver {
     /// Frees the single-precision copy for all solvers that share it, as soon as no running call uses it. The next
     /// preview makes the copy again.
     pub fn release_preview(&self) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_release_preview(self.handle) })?;
         Ok(())
@@ -2274,7 +2250,7 @@ impl Solver {
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`].
     pub fn move_vectors(&mut self, sites: &[u32], vertices: &[u32]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
         let vertices_ = c.array(Some(vertices), "vertices", &["site_count"])?;
         // SAFETY: every slice is as long as its check says.
@@ -2289,7 +2265,7 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
     pub fn rotate_vectors(&mut self, sites: &[u32], angles: &[f64]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
         let angles_ = c.array(Some(angles), "angles", &["site_count"])?;
         // SAFETY: every slice is as long as its check says.
@@ -2306,7 +2282,7 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INACCURATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
     pub fn certify(&self, tolerance: f64) -> Result<raw::hf_certificate> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut certificate = raw::hf_certificate { tolerance: tolerance, ..Default::default() };
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_certify(self.handle, &mut certificate) })?;
@@ -2321,7 +2297,7 @@ impl Solver {
     ///
     /// Fails with [`raw::HF_ERROR_BUSY`], [`raw::HF_ERROR_EMPTY`].
     pub fn prepare_rebase(&self) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_prepare_rebase(self.handle) })?;
         Ok(())
@@ -2329,7 +2305,7 @@ impl Solver {
 
     /// Writes the statistics.
     pub fn statistics(&self) -> Result<raw::hf_solver_statistics> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut statistics = raw::hf_solver_statistics::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_get_statistics(self.handle, &mut statistics) })?;
@@ -2338,12 +2314,12 @@ impl Solver {
 
     /// As it was made with.
     pub fn channel_count(&self) -> usize {
-        known(&self.counts, "channel_count").unwrap_or(0)
+        self.counts.get("channel_count").copied().unwrap_or(0)
     }
 
     /// Vertices of the surface, as given.
     pub fn vertex_count(&self) -> usize {
-        known(&self.counts, "vertex_count").unwrap_or(0)
+        self.counts.get("vertex_count").copied().unwrap_or(0)
     }
 }
 impl TryClone for Solver {
@@ -2363,7 +2339,7 @@ impl Geodesics {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
     pub fn new(surface: &Surface, options: &GeodesicsOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("surface", &surface.counts);
         let desc = options.fill(&mut c, "")?;
         let mut handle_ = std::ptr::null_mut();
@@ -2384,10 +2360,10 @@ impl Geodesics {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
     pub fn solve(&self, sources: &[u32]) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sources_ = c.array(Some(sources), "sources", &["source_count"])?;
         let mut out = vec![f64::default(); c.product(&["vertex_count"])];
-        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_geodesics_solve(self.handle, c.count("source_count", 1)?, sources_, &out_view) })?;
         Ok(out)
@@ -2395,10 +2371,10 @@ impl Geodesics {
 
     /// As `solve`, into a slice of yours.
     pub fn solve_into<P: Real>(&self, sources: &[u32], out: &mut [P]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sources_ = c.array(Some(sources), "sources", &["source_count"])?;
-        of_length(out, "out", c.product(&["vertex_count"]))?;
-        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
+        c.fit(out.len(), "out", &["vertex_count"])?;
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_geodesics_solve(self.handle, c.count("source_count", 1)?, sources_, &out_view) })?;
         Ok(())
@@ -2411,24 +2387,20 @@ impl Geodesics {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
     pub fn find_path(&self, from: &raw::hf_place, to: &raw::hf_place) -> Result<Path> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut path = raw::hf_path { ..Default::default() };
-        let mut room = Room::new(&[("point_capacity", None)]);
+        c.learn("point_capacity", Call::FIRST);
         let mut all_point_edges: Vec<u32> = Vec::new();
         let mut all_parameters: Vec<f64> = Vec::new();
         let mut all_positions: Vec<f64> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["point_capacity", "2"], &["point_capacity"], &["point_capacity", "3"]]);
-            room.make(&c, &mut all_point_edges, &["point_capacity", "2"]);
-            room.make(&c, &mut all_parameters, &["point_capacity"]);
-            room.make(&c, &mut all_positions, &["point_capacity", "3"]);
-            path.point_capacity = room.get("point_capacity");
-            path.point_edges = room.at(&mut all_point_edges);
-            path.parameters = room.at(&mut all_parameters);
-            path.positions = room.at(&mut all_positions);
+            path.point_capacity = c.count("point_capacity", 0)?;
+            path.point_edges = c.room(&mut all_point_edges, &["point_capacity", "2"]);
+            path.parameters = c.room(&mut all_parameters, &["point_capacity"]);
+            path.positions = c.room(&mut all_positions, &["point_capacity", "3"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_geodesics_find_path(self.handle, from, to, &mut path) };
-            if room.enough(&mut c, code, &[("point_capacity", path.point_count)])? {
+            if c.enough(code, &[("point_capacity", path.point_count)])? {
                 break;
             }
         }
@@ -2447,7 +2419,7 @@ impl Geodesics {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
     pub fn map(&self, centre: &raw::hf_place, radius: f64) -> Result<(Vec<f64>, Vec<f64>)> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut map = vec![f64::default(); c.product(&["vertex_count", "2"])];
         let mut frame = vec![f64::default(); c.product(&["6"])];
         // SAFETY: every slice is as long as its check says.
@@ -2457,7 +2429,7 @@ impl Geodesics {
 
     /// Vertices of the surface, as given.
     pub fn vertex_count(&self) -> usize {
-        known(&self.counts, "vertex_count").unwrap_or(0)
+        self.counts.get("vertex_count").copied().unwrap_or(0)
     }
 }
 
@@ -2472,7 +2444,7 @@ impl Direction {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
     pub fn new(surface: &Surface, options: &DirectionOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("surface", &surface.counts);
         let desc = options.fill(&mut c, "")?;
         let mut handle_ = std::ptr::null_mut();
@@ -2484,7 +2456,7 @@ impl Direction {
     /// Makes a direction field with the same constraints under the same numbers; it has the same bits. Both share
     /// connection and factor, so the copy costs the constraints only. For undo, keep copies: one before each edit.
     pub fn try_clone(&self) -> Result<Self> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_direction_clone(self.handle, &mut handle_) })?;
@@ -2502,7 +2474,7 @@ impl Direction {
     /// Fails with [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn add_sites(&mut self, vertices: &[u32], vectors: &[f64]) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let vertices_ = c.array(Some(vertices), "vertices", &["site_count"])?;
         let vectors_ = c.array(Some(vectors), "vectors", &["site_count", "3"])?;
         let mut sites = vec![u32::default(); c.product(&["site_count"])];
@@ -2518,7 +2490,7 @@ impl Direction {
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     pub fn remove_sites(&mut self, sites: &[u32]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_direction_remove_sites(self.handle, c.count("site_count", 1)?, sites_) })?;
@@ -2534,7 +2506,7 @@ impl Direction {
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_OUT_OF_RANGE`].
     pub fn move_sites(&mut self, sites: &[u32], vertices: &[u32]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
         let vertices_ = c.array(Some(vertices), "vertices", &["site_count"])?;
         // SAFETY: every slice is as long as its check says.
@@ -2549,7 +2521,7 @@ impl Direction {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
     pub fn set_vectors(&mut self, sites: &[u32], vectors: &[f64]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
         let vectors_ = c.array(Some(vectors), "vectors", &["site_count", "3"])?;
         // SAFETY: every slice is as long as its check says.
@@ -2564,7 +2536,7 @@ impl Direction {
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
     pub fn rotate_sites(&mut self, sites: &[u32], angles: &[f64]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let sites_ = c.array(Some(sites), "sites", &["site_count"])?;
         let angles_ = c.array(Some(angles), "angles", &["site_count"])?;
         // SAFETY: every slice is as long as its check says.
@@ -2580,21 +2552,20 @@ impl Direction {
 
     /// Writes the constraints by ascending number.
     pub fn sites(&self) -> Result<(Vec<u32>, Vec<u32>, Vec<f64>)> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut sites: Vec<u32> = Vec::new();
         let mut vertices: Vec<u32> = Vec::new();
         let mut vectors: Vec<f64> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"], &["capacity"], &["capacity", "3"]]);
-            room.make(&c, &mut sites, &["capacity"]);
-            room.make(&c, &mut vertices, &["capacity"]);
-            room.make(&c, &mut vectors, &["capacity", "3"]);
+            let sites_at = c.room(&mut sites, &["capacity"]);
+            let vertices_at = c.room(&mut vertices, &["capacity"]);
+            let vectors_at = c.room(&mut vectors, &["capacity", "3"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_direction_get_sites(self.handle, room.get("capacity"), room.at(&mut sites),
-                room.at(&mut vertices), room.at(&mut vectors), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_direction_get_sites(self.handle, c.count("capacity", 0)?, sites_at, vertices_at,
+                vectors_at, &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -2613,10 +2584,10 @@ impl Direction {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`].
     pub fn solve(&self) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_solve_info::default();
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
-        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_direction_solve(self.handle, &out_view, &mut info) })?;
         Ok(out)
@@ -2624,10 +2595,10 @@ impl Direction {
 
     /// As `solve`, into a slice of yours. Returns the figures of the call.
     pub fn solve_into<P: Real>(&self, out: &mut [P]) -> Result<raw::hf_solve_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_solve_info::default();
-        of_length(out, "out", c.product(&["vertex_count", "3"]))?;
-        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
+        c.fit(out.len(), "out", &["vertex_count", "3"])?;
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_direction_solve(self.handle, &out_view, &mut info) })?;
         Ok(info)
@@ -2638,17 +2609,16 @@ impl Direction {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`].
     pub fn singularities(&self) -> Result<Vec<raw::hf_singularity>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut singularities: Vec<raw::hf_singularity> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut singularities, &["capacity"]);
+            let singularities_at = c.room(&mut singularities, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_direction_get_singularities(self.handle, room.get("capacity"),
-                room.at(&mut singularities), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_direction_get_singularities(self.handle, c.count("capacity", 0)?,
+                singularities_at, &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -2658,7 +2628,7 @@ impl Direction {
 
     /// Writes the statistics.
     pub fn statistics(&self) -> Result<raw::hf_direction_statistics> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut statistics = raw::hf_direction_statistics::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_direction_get_statistics(self.handle, &mut statistics) })?;
@@ -2667,7 +2637,7 @@ impl Direction {
 
     /// Vertices of the surface, as given.
     pub fn vertex_count(&self) -> usize {
-        known(&self.counts, "vertex_count").unwrap_or(0)
+        self.counts.get("vertex_count").copied().unwrap_or(0)
     }
 }
 impl TryClone for Direction {
@@ -2685,7 +2655,7 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
     pub fn new(surface: &Surface, options: &PoseOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("surface", &surface.counts);
         let desc = options.fill(&mut c, "")?;
         let mut handle_ = std::ptr::null_mut();
@@ -2696,7 +2666,7 @@ impl Pose {
 
     /// Copies a pose with its handles and transforms, so that several threads can pose one rig.
     pub fn try_clone(&self) -> Result<Self> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_clone(self.handle, &mut handle_) })?;
@@ -2705,7 +2675,7 @@ impl Pose {
 
     /// Writes the options of a pose.
     pub fn info(&self) -> Result<raw::hf_pose_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_pose_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_get_info(self.handle, &mut info) })?;
@@ -2725,7 +2695,7 @@ impl Pose {
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn add_handles(&mut self, region_vertices: Option<&[&[u32]]>, handles: &HandlesOptions) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = handles.fill(&mut c, "", region_vertices)?;
         let mut handles = vec![u32::default(); c.product(&["handle_count"])];
         // SAFETY: every slice is as long as its check says.
@@ -2741,7 +2711,7 @@ impl Pose {
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn add_handle_at(&mut self, point: &[f64], radius: f64) -> Result<u32> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let point_ = c.array(Some(point), "point", &["3"])?;
         let mut handle = u32::default();
         // SAFETY: every slice is as long as its check says.
@@ -2757,7 +2727,7 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     pub fn remove_handles(&mut self, handles: &[u32]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_remove_handles(self.handle, c.count("handle_count", 1)?, handles_) })?;
@@ -2776,17 +2746,17 @@ impl Pose {
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
     pub fn set_transforms(&mut self, handles: &[u32], rotations: Option<&[f64]>,
             translations: Option<&[f64]>) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
         let mut transforms = vec![raw::hf_transform::default(); c.product(&["handle_count"])];
         if let Some(given) = rotations {
-            of_length(given, "rotations", 4 * transforms.len())?;
+            c.fit(given.len(), "rotations", &["4", "handle_count"])?;
             for (row, numbers) in transforms.iter_mut().zip(given.chunks_exact(4)) {
                 row.rotation.copy_from_slice(numbers);
             }
         }
         if let Some(given) = translations {
-            of_length(given, "translations", 3 * transforms.len())?;
+            c.fit(given.len(), "translations", &["3", "handle_count"])?;
             for (row, numbers) in transforms.iter_mut().zip(given.chunks_exact(3)) {
                 row.translation.copy_from_slice(numbers);
             }
@@ -2805,7 +2775,7 @@ impl Pose {
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
     pub fn set_transform(&mut self, handle: u32, rotation: Option<[f64; 4]>,
             translation: Option<[f64; 3]>) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut transform = raw::hf_transform::default();
         if let Some(given) = rotation { transform.rotation = given; }
         if let Some(given) = translation { transform.translation = given; }
@@ -2834,7 +2804,7 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`].
     pub fn set_free_rotations(&mut self, handles: &[u32], free_rotation: bool) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_set_free_rotations(self.handle, c.count("handle_count", 1)?, handles_,
@@ -2856,7 +2826,7 @@ impl Pose {
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`],
     /// [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn set_following(&mut self, handles: &[u32], following: f64) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_set_following(self.handle, c.count("handle_count", 1)?, handles_, following) })?;
@@ -2876,7 +2846,7 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn set_limb_refine(&mut self, handles: &[u32], refine: i32) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_set_limb_refine(self.handle, c.count("handle_count", 1)?, handles_, refine) })?;
@@ -2895,8 +2865,8 @@ impl Pose {
     /// Fails with [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
     pub fn set_rigid_pieces(&mut self, vertices: &[u32]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
-        c.forget("vertex_count"); // of the list given here
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        c.sizes.remove("vertex_count"); // of the list given here
         let vertices_ = c.array(Some(vertices), "vertices", &["vertex_count"])?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_set_rigid_pieces(self.handle, c.count("vertex_count", 1)?, vertices_) })?;
@@ -2912,7 +2882,7 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
     pub fn set_matrices(&mut self, handles: &[u32], matrices: &[f64]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let handles_ = c.array(Some(handles), "handles", &["handle_count"])?;
         let matrices_ = c.array(Some(matrices), "matrices", &["handle_count", "16"])?;
         // SAFETY: every slice is as long as its check says.
@@ -2924,7 +2894,7 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     pub fn handle(&self, handle: u32) -> Result<raw::hf_handle_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_handle_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_get_handle(self.handle, handle, &mut info) })?;
@@ -2944,9 +2914,9 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     pub fn field(&self, handle: u32) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut out = vec![f64::default(); c.product(&["vertex_count"])];
-        let out_view = c.out(out.as_mut_ptr(), true, "vertex_count");
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_get_field(self.handle, handle, &out_view) })?;
         Ok(out)
@@ -2954,9 +2924,9 @@ impl Pose {
 
     /// As `field`, into a slice of yours.
     pub fn field_into<P: Real>(&self, handle: u32, out: &mut [P]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
-        of_length(out, "out", c.product(&["vertex_count"]))?;
-        let out_view = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        c.fit(out.len(), "out", &["vertex_count"])?;
+        let out_view = c.out(out.as_mut_ptr(), "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_get_field(self.handle, handle, &out_view) })?;
         Ok(())
@@ -2971,13 +2941,13 @@ impl Pose {
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
     pub fn deform(&mut self, options: &DeformOptions) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_deform_info::default();
         let mut desc = options.fill(&mut c, "")?;
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
-        desc.positions = c.out(out.as_mut_ptr(), true, "vertex_count");
+        desc.positions = c.out(out.as_mut_ptr(), "vertex_count");
         let normals_at: *mut f32 = std::ptr::null_mut();
-        desc.normals = c.out(normals_at, false, "vertex_count");
+        desc.normals = c.out(normals_at, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_deform(self.handle, &desc, &mut info) })?;
         Ok(out)
@@ -2986,13 +2956,13 @@ impl Pose {
     /// As `deform`, into a slice of yours. Returns the figures of the call.
     pub fn deform_into<P: Real>(&mut self, out: &mut [P], normals: Option<&mut [f32]>,
             options: &DeformOptions) -> Result<raw::hf_deform_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_deform_info::default();
         let mut desc = options.fill(&mut c, "")?;
-        of_length(out, "out", c.product(&["vertex_count", "3"]))?;
-        desc.positions = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
+        c.fit(out.len(), "out", &["vertex_count", "3"])?;
+        desc.positions = c.out(out.as_mut_ptr(), "vertex_count");
         let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
-        desc.normals = c.out(normals_at, false, "vertex_count");
+        desc.normals = c.out(normals_at, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_deform(self.handle, &desc, &mut info) })?;
         Ok(info)
@@ -3000,7 +2970,7 @@ impl Pose {
 
     /// Writes the statistics of a pose.
     pub fn statistics(&self) -> Result<raw::hf_pose_statistics> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut statistics = raw::hf_pose_statistics::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_get_statistics(self.handle, &mut statistics) })?;
@@ -3021,11 +2991,11 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn skin(&self, influence_count: u32, want_scales: bool) -> Result<SkinInfo> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut skin = raw::hf_skin_info { influence_count: influence_count, ..Default::default() };
-        c.known("influence_count", if influence_count == 0 { 4 } else { influence_count });
-        let mut room = Room::new(&[("joint_capacity", c.size("joint_count")), ("vertex_capacity",
-            c.size("vertex_count"))]);
+        c.learn("influence_count", if influence_count == 0 { 4 } else { influence_count as usize });
+        c.learn("joint_capacity", c.size("joint_count").unwrap_or(Call::FIRST));
+        c.learn("vertex_capacity", c.size("vertex_count").unwrap_or(Call::FIRST));
         let mut all_pivots: Vec<f64> = Vec::new();
         let mut all_rotations: Vec<f64> = Vec::new();
         let mut all_translations: Vec<f64> = Vec::new();
@@ -3034,29 +3004,19 @@ impl Pose {
         let mut all_vertex_joints: Vec<u32> = Vec::new();
         let mut all_vertex_weights: Vec<f32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["joint_capacity", "3"], &["joint_capacity", "4"], &["joint_capacity", "3"],
-                &["joint_capacity", "4"], &["joint_capacity", "3"], &["vertex_capacity", "influence_count"],
-                &["vertex_capacity", "influence_count"]]);
-            room.make(&c, &mut all_pivots, &["joint_capacity", "3"]);
-            room.make(&c, &mut all_rotations, &["joint_capacity", "4"]);
-            room.make(&c, &mut all_translations, &["joint_capacity", "3"]);
-            room.make(&c, &mut all_axes, &["joint_capacity", "4"]);
-            if want_scales { room.make(&c, &mut all_scales, &["joint_capacity", "3"]); }
-            room.make(&c, &mut all_vertex_joints, &["vertex_capacity", "influence_count"]);
-            room.make(&c, &mut all_vertex_weights, &["vertex_capacity", "influence_count"]);
-            skin.joint_capacity = room.get("joint_capacity");
-            skin.vertex_capacity = room.get("vertex_capacity");
-            skin.pivots = room.at(&mut all_pivots);
-            skin.rotations = room.at(&mut all_rotations);
-            skin.translations = room.at(&mut all_translations);
-            skin.axes = room.at(&mut all_axes);
-            skin.scales = room.at(&mut all_scales);
-            skin.vertex_joints = room.at(&mut all_vertex_joints);
-            skin.vertex_weights = room.at(&mut all_vertex_weights);
+            skin.joint_capacity = c.count("joint_capacity", 0)?;
+            skin.vertex_capacity = c.count("vertex_capacity", 0)?;
+            skin.pivots = c.room(&mut all_pivots, &["joint_capacity", "3"]);
+            skin.rotations = c.room(&mut all_rotations, &["joint_capacity", "4"]);
+            skin.translations = c.room(&mut all_translations, &["joint_capacity", "3"]);
+            skin.axes = c.room(&mut all_axes, &["joint_capacity", "4"]);
+            skin.scales = if want_scales { c.room(&mut all_scales, &["joint_capacity",
+                "3"]) } else { std::ptr::null_mut() };
+            skin.vertex_joints = c.room(&mut all_vertex_joints, &["vertex_capacity", "influence_count"]);
+            skin.vertex_weights = c.room(&mut all_vertex_weights, &["vertex_capacity", "influence_count"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_pose_get_skin(self.handle, &mut skin) };
-            if room.enough(&mut c, code, &[("joint_capacity", skin.joint_count), ("vertex_capacity", skin.vertex_count),
-                ("joint_count", skin.joint_count), ("vertex_count", skin.vertex_count)])? {
+            if c.enough(code, &[("joint_capacity", skin.joint_count), ("vertex_capacity", skin.vertex_count)])? {
                 break;
             }
         }
@@ -3177,7 +3137,7 @@ impl Pose {
 
     /// Vertices of the surface, as given.
     pub fn vertex_count(&self) -> usize {
-        known(&self.counts, "vertex_count").unwrap_or(0)
+        self.counts.get("vertex_count").copied().unwrap_or(0)
     }
 }
 impl TryClone for Pose {
@@ -3220,7 +3180,7 @@ impl Quads {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn new(surface: &Surface, options: &QuadsOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("surface", &surface.counts);
         let desc = options.fill(&mut c, "")?;
         let mut handle_ = std::ptr::null_mut();
@@ -3241,7 +3201,7 @@ impl Quads {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn update(&mut self, options: &QuadsOptions) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = options.fill(&mut c, "")?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_quads_update(self.handle, &desc) })?;
@@ -3250,7 +3210,7 @@ impl Quads {
 
     /// Writes the counts.
     pub fn info(&self) -> Result<raw::hf_quads_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_quads_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_quads_get_info(self.handle, &mut info) })?;
@@ -3261,33 +3221,26 @@ impl Quads {
     ///
     /// Fails with [`raw::HF_ERROR_TOO_SMALL`].
     pub fn mesh(&self) -> Result<QuadsMesh> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut mesh = raw::hf_quads_mesh { ..Default::default() };
-        let mut room = Room::new(&[("vertex_capacity", c.size("vertex_count")), ("face_capacity", None)]);
+        c.learn("vertex_capacity", c.size("vertex_count").unwrap_or(Call::FIRST));
+        c.learn("face_capacity", Call::FIRST);
         let mut all_positions: Vec<f64> = Vec::new();
         let mut all_faces: Vec<u32> = Vec::new();
         let mut all_triangles: Vec<u32> = Vec::new();
         let mut all_barycentrics: Vec<f64> = Vec::new();
         let mut all_corners: Vec<u32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["vertex_capacity", "3"], &["face_capacity", "4"], &["vertex_capacity"],
-                &["vertex_capacity", "3"], &["vertex_capacity", "3"]]);
-            room.make(&c, &mut all_positions, &["vertex_capacity", "3"]);
-            room.make(&c, &mut all_faces, &["face_capacity", "4"]);
-            room.make(&c, &mut all_triangles, &["vertex_capacity"]);
-            room.make(&c, &mut all_barycentrics, &["vertex_capacity", "3"]);
-            room.make(&c, &mut all_corners, &["vertex_capacity", "3"]);
-            mesh.vertex_capacity = room.get("vertex_capacity");
-            mesh.face_capacity = room.get("face_capacity");
-            mesh.positions = room.at(&mut all_positions);
-            mesh.faces = room.at(&mut all_faces);
-            mesh.triangles = room.at(&mut all_triangles);
-            mesh.barycentrics = room.at(&mut all_barycentrics);
-            mesh.corners = room.at(&mut all_corners);
+            mesh.vertex_capacity = c.count("vertex_capacity", 0)?;
+            mesh.face_capacity = c.count("face_capacity", 0)?;
+            mesh.positions = c.room(&mut all_positions, &["vertex_capacity", "3"]);
+            mesh.faces = c.room(&mut all_faces, &["face_capacity", "4"]);
+            mesh.triangles = c.room(&mut all_triangles, &["vertex_capacity"]);
+            mesh.barycentrics = c.room(&mut all_barycentrics, &["vertex_capacity", "3"]);
+            mesh.corners = c.room(&mut all_corners, &["vertex_capacity", "3"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_quads_get_mesh(self.handle, &mut mesh) };
-            if room.enough(&mut c, code, &[("vertex_capacity", mesh.vertex_count), ("face_capacity", mesh.face_count),
-                ("vertex_count", mesh.vertex_count)])? {
+            if c.enough(code, &[("vertex_capacity", mesh.vertex_count), ("face_capacity", mesh.face_count)])? {
                 break;
             }
         }
@@ -3310,7 +3263,7 @@ impl Flow {
     ///
     /// Fails with [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn new(surface: &Surface) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("surface", &surface.counts);
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
@@ -3329,33 +3282,27 @@ impl Flow {
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`].
     pub fn trace<'i>(&self, field: impl Into<Reals<'i>>, seeds: Option<&[u32]>,
             wanted_count: u32) -> Result<Streamlines> {
-        let mut c = Call::new(&self.counts);
-        let field_ = c.reals(Some(field.into()), "field", &["vertex_count"])?;
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        let field_ = c.view(Some(field.into().numbers()), "field", &["vertex_count"])?;
         let mut lines = raw::hf_streamlines { wanted_count: wanted_count, ..Default::default() };
         lines.seeds = c.array(seeds, "seeds", &["seed_count"])?;
         lines.seed_count = c.count("seed_count", 0)?;
-        let mut room = Room::new(&[("point_capacity", None), ("line_capacity", None)]);
+        c.learn("point_capacity", Call::FIRST);
+        c.learn("line_capacity", Call::FIRST);
         let mut all_positions: Vec<f64> = Vec::new();
         let mut all_values: Vec<f64> = Vec::new();
         let mut all_line_starts: Vec<u32> = Vec::new();
         let mut all_line_ends: Vec<u32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["point_capacity", "3"], &["point_capacity"], &["line_capacity + 1"],
-                &["line_capacity", "2"]]);
-            room.make(&c, &mut all_positions, &["point_capacity", "3"]);
-            room.make(&c, &mut all_values, &["point_capacity"]);
-            room.make(&c, &mut all_line_starts, &["line_capacity + 1"]);
-            room.make(&c, &mut all_line_ends, &["line_capacity", "2"]);
-            lines.point_capacity = room.get("point_capacity");
-            lines.line_capacity = room.get("line_capacity");
-            lines.positions = room.at(&mut all_positions);
-            lines.values = room.at(&mut all_values);
-            lines.line_starts = room.at(&mut all_line_starts);
-            lines.line_ends = room.at(&mut all_line_ends);
+            lines.point_capacity = c.count("point_capacity", 0)?;
+            lines.line_capacity = c.count("line_capacity", 0)?;
+            lines.positions = c.room(&mut all_positions, &["point_capacity", "3"]);
+            lines.values = c.room(&mut all_values, &["point_capacity"]);
+            lines.line_starts = c.room(&mut all_line_starts, &["line_capacity + 1"]);
+            lines.line_ends = c.room(&mut all_line_ends, &["line_capacity", "2"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_flow_trace(self.handle, &field_, &mut lines) };
-            if room.enough(&mut c, code, &[("point_capacity", lines.point_count), ("line_capacity",
-                lines.line_count)])? {
+            if c.enough(code, &[("point_capacity", lines.point_count), ("line_capacity", lines.line_count)])? {
                 break;
             }
         }
@@ -3369,7 +3316,7 @@ impl Flow {
 
     /// Vertices of the surface, as given.
     pub fn vertex_count(&self) -> usize {
-        known(&self.counts, "vertex_count").unwrap_or(0)
+        self.counts.get("vertex_count").copied().unwrap_or(0)
     }
 }
 
@@ -3383,7 +3330,7 @@ impl Region {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`].
     pub fn new(surface: &Surface, options: &RegionOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("surface", &surface.counts);
         let desc = options.fill(&mut c, "")?;
         let mut handle_ = std::ptr::null_mut();
@@ -3395,7 +3342,7 @@ impl Region {
     /// Copies a region. The copy shares the factor and all memory, until one of the two is edited. For undo, keep copies:
     /// one before each edit.
     pub fn try_clone(&self) -> Result<Self> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_clone(self.handle, &mut handle_) })?;
@@ -3411,7 +3358,7 @@ impl Region {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn edit(&mut self, edit: &RegionEditOptions) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = edit.fill(&mut c, "")?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_edit(self.handle, &desc) })?;
@@ -3420,7 +3367,7 @@ impl Region {
 
     /// Writes the info of a region.
     pub fn info(&self) -> Result<raw::hf_region_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_region_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_get_info(self.handle, &mut info) })?;
@@ -3429,7 +3376,7 @@ impl Region {
 
     /// Writes the statistics of a region.
     pub fn statistics(&self) -> Result<raw::hf_region_statistics> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut statistics = raw::hf_region_statistics::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_get_statistics(self.handle, &mut statistics) })?;
@@ -3442,17 +3389,16 @@ impl Region {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
     pub fn vertices(&self, list: i32) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut vertices: Vec<u32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut vertices, &["capacity"]);
+            let vertices_at = c.room(&mut vertices, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_region_get_vertices(self.handle, list, room.get("capacity"),
-                room.at(&mut vertices), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_region_get_vertices(self.handle, list, c.count("capacity", 0)?, vertices_at,
+                &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -3463,17 +3409,15 @@ impl Region {
     /// Writes the corners of the region's last curve, to draw it, in order, in the unit and frame of the positions in
     /// [`RegionOptions`]. The last corner is joined to the first. Rings, added and removed vertices leave it as it is.
     pub fn curve(&self) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut points: Vec<f64> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity", "3"]]);
-            room.make(&c, &mut points, &["capacity", "3"]);
+            let points_at = c.room(&mut points, &["capacity", "3"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_region_get_curve(self.handle, room.get("capacity"), room.at(&mut points),
-                &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_region_get_curve(self.handle, c.count("capacity", 0)?, points_at, &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -3492,12 +3436,12 @@ impl Region {
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn morph(&self, weight: f64) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
-        desc.positions = c.out(out.as_mut_ptr(), true, "vertex_count");
+        desc.positions = c.out(out.as_mut_ptr(), "vertex_count");
         let normals_at: *mut f32 = std::ptr::null_mut();
-        desc.normals = c.out(normals_at, false, "vertex_count");
+        desc.normals = c.out(normals_at, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_morph(self.handle, &desc) })?;
         Ok(out)
@@ -3505,12 +3449,12 @@ impl Region {
 
     /// As `morph`, into a slice of yours.
     pub fn morph_into<P: Real>(&self, weight: f64, out: &mut [P], normals: Option<&mut [f32]>) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
-        of_length(out, "out", c.product(&["vertex_count", "3"]))?;
-        desc.positions = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
+        c.fit(out.len(), "out", &["vertex_count", "3"])?;
+        desc.positions = c.out(out.as_mut_ptr(), "vertex_count");
         let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
-        desc.normals = c.out(normals_at, false, "vertex_count");
+        desc.normals = c.out(normals_at, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_region_morph(self.handle, &desc) })?;
         Ok(())
@@ -3518,7 +3462,7 @@ impl Region {
 
     /// Vertices of the surface, as given.
     pub fn vertex_count(&self) -> usize {
-        known(&self.counts, "vertex_count").unwrap_or(0)
+        self.counts.get("vertex_count").copied().unwrap_or(0)
     }
 }
 impl TryClone for Region {
@@ -3547,7 +3491,7 @@ impl Detail {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
     /// [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn new(source: &Region, target: &Region, options: &DetailOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("source", &source.counts);
         c.parent("target", &target.counts);
         let desc = options.fill(&mut c, "")?;
@@ -3567,12 +3511,12 @@ impl Detail {
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn morph(&self, weight: f64) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
         let mut out = vec![f64::default(); c.product(&["vertex_count", "3"])];
-        desc.positions = c.out(out.as_mut_ptr(), true, "vertex_count");
+        desc.positions = c.out(out.as_mut_ptr(), "vertex_count");
         let normals_at: *mut f32 = std::ptr::null_mut();
-        desc.normals = c.out(normals_at, false, "vertex_count");
+        desc.normals = c.out(normals_at, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_detail_morph(self.handle, &desc) })?;
         Ok(out)
@@ -3580,12 +3524,12 @@ impl Detail {
 
     /// As `morph`, into a slice of yours.
     pub fn morph_into<P: Real>(&self, weight: f64, out: &mut [P], normals: Option<&mut [f32]>) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut desc = MorphOptions {}.fill(&mut c, "", weight)?;
-        of_length(out, "out", c.product(&["vertex_count", "3"]))?;
-        desc.positions = c.out(out.as_mut_ptr(), P::DOUBLE, "vertex_count");
+        c.fit(out.len(), "out", &["vertex_count", "3"])?;
+        desc.positions = c.out(out.as_mut_ptr(), "vertex_count");
         let normals_at = c.fill(normals, "normals", &["vertex_count", "3"])?;
-        desc.normals = c.out(normals_at, false, "vertex_count");
+        desc.normals = c.out(normals_at, "vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_detail_morph(self.handle, &desc) })?;
         Ok(())
@@ -3593,7 +3537,7 @@ impl Detail {
 
     /// Vertices of the surface, as given.
     pub fn vertex_count(&self) -> usize {
-        known(&self.counts, "vertex_count").unwrap_or(0)
+        self.counts.get("vertex_count").copied().unwrap_or(0)
     }
 }
 
@@ -3606,7 +3550,7 @@ impl Retarget {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
     pub fn new(source: &Skeleton, target: &Skeleton, options: &RetargetOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("source", &source.counts);
         c.parent("target", &target.counts);
         let desc = options.fill(&mut c, "")?;
@@ -3618,7 +3562,7 @@ impl Retarget {
 
     /// Copies a retarget with the state of its feet: for another character with the same skeletons, and for undo.
     pub fn try_clone(&self) -> Result<Self> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_retarget_clone(self.handle, &mut handle_) })?;
@@ -3634,7 +3578,7 @@ impl Retarget {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
     pub fn solve(&mut self, source_pose: &[f32], seconds: f64) -> Result<Vec<f32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let source_pose_ = c.array(Some(source_pose), "source_pose", &["source.joint_count", "10"])?;
         let mut target_pose = vec![f32::default(); c.product(&["target.joint_count", "10"])];
         // SAFETY: every slice is as long as its check says.
@@ -3644,7 +3588,7 @@ impl Retarget {
 
     /// Forgets the state of the feet and the figures of the info. Call it where the clip jumps.
     pub fn reset(&mut self) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_retarget_reset(self.handle) })?;
         Ok(())
@@ -3652,7 +3596,7 @@ impl Retarget {
 
     /// Writes the figures.
     pub fn info(&self) -> Result<raw::hf_retarget_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_retarget_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_retarget_get_info(self.handle, &mut info) })?;
@@ -3661,17 +3605,16 @@ impl Retarget {
 
     /// Writes how chains follow.
     pub fn chains(&self) -> Result<Vec<raw::hf_chain_match>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut chains: Vec<raw::hf_chain_match> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut chains, &["capacity"]);
+            let chains_at = c.room(&mut chains, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_retarget_get_chains(self.handle, room.get("capacity"), room.at(&mut chains),
+            let code = unsafe { raw::hf_retarget_get_chains(self.handle, c.count("capacity", 0)?, chains_at,
                 &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -3682,17 +3625,16 @@ impl Retarget {
     /// Writes which joint of the source each joint of the target follows. A joint between two gets the nearer, a joint
     /// without a partner [`raw::HF_NO_INDEX`].
     pub fn partners(&self) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut partners: Vec<u32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut partners, &["capacity"]);
+            let partners_at = c.room(&mut partners, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_retarget_get_partners(self.handle, room.get("capacity"), room.at(&mut partners),
+            let code = unsafe { raw::hf_retarget_get_partners(self.handle, c.count("capacity", 0)?, partners_at,
                 &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -3702,7 +3644,7 @@ impl Retarget {
 
     /// As it was made with.
     pub fn joint_count(&self) -> usize {
-        known(&self.counts, "joint_count").unwrap_or(0)
+        self.counts.get("joint_count").copied().unwrap_or(0)
     }
 }
 impl TryClone for Retarget {
@@ -3724,7 +3666,7 @@ impl Skeleton {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
     pub fn ground_velocity(&self, poses: &[f32], seconds: f64) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let poses_ = c.array(Some(poses), "poses", &["frame_count", "joint_count", "10"])?;
         let mut velocity = vec![f64::default(); c.product(&["3"])];
         // SAFETY: every slice is as long as its check says.
@@ -3743,7 +3685,7 @@ impl Skeleton {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn new(names: Option<&[&str]>, parents: &[u32], rest: &[f32], options: &SkeletonOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         let desc = options.fill(&mut c, "", names, Some(parents), Some(rest))?;
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
@@ -3753,7 +3695,7 @@ impl Skeleton {
 
     /// Writes the findings.
     pub fn info(&self) -> Result<raw::hf_skeleton_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_skeleton_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_skeleton_get_info(self.handle, &mut info) })?;
@@ -3762,17 +3704,16 @@ impl Skeleton {
 
     /// Writes one entry for each joint.
     pub fn joints(&self) -> Result<Vec<raw::hf_joint_info>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut joints: Vec<raw::hf_joint_info> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut joints, &["capacity"]);
+            let joints_at = c.room(&mut joints, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_skeleton_get_joints(self.handle, room.get("capacity"), room.at(&mut joints),
+            let code = unsafe { raw::hf_skeleton_get_joints(self.handle, c.count("capacity", 0)?, joints_at,
                 &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -3782,17 +3723,16 @@ impl Skeleton {
 
     /// Writes the chains.
     pub fn chains(&self) -> Result<Vec<raw::hf_chain>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut chains: Vec<raw::hf_chain> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut chains, &["capacity"]);
+            let chains_at = c.room(&mut chains, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_skeleton_get_chains(self.handle, room.get("capacity"), room.at(&mut chains),
+            let code = unsafe { raw::hf_skeleton_get_chains(self.handle, c.count("capacity", 0)?, chains_at,
                 &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -3802,17 +3742,16 @@ impl Skeleton {
 
     /// Writes the joints of chain after chain.
     pub fn chain_joints(&self) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut joints: Vec<u32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut joints, &["capacity"]);
+            let joints_at = c.room(&mut joints, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_skeleton_get_chain_joints(self.handle, room.get("capacity"),
-                room.at(&mut joints), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_skeleton_get_chain_joints(self.handle, c.count("capacity", 0)?, joints_at,
+                &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -3823,7 +3762,7 @@ impl Skeleton {
     /// Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful
     /// finding.
     pub fn reasons(&self) -> Result<String> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut size = 0;
         // SAFETY: the first call asks for the size.
         check(unsafe { raw::hf_skeleton_get_reasons(self.handle, 0, std::ptr::null_mut(), &mut size) })?;
@@ -3834,7 +3773,7 @@ impl Skeleton {
 
     /// As it was made with.
     pub fn joint_count(&self) -> usize {
-        known(&self.counts, "joint_count").unwrap_or(0)
+        self.counts.get("joint_count").copied().unwrap_or(0)
     }
 }
 
@@ -3855,7 +3794,7 @@ impl Transfer {
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_INVALID_OBJECT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
     pub fn new(source: &Surface, target: &Surface, options: &TransferOptions) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("source", &source.counts);
         c.parent("target", &target.counts);
         let desc = options.fill(&mut c, "")?;
@@ -3876,7 +3815,7 @@ impl Transfer {
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn add_pairs(&mut self, source_vertices: &[&[u32]], target_vertices: &[&[u32]], flags: Option<&[u32]>,
             pairs: &Pairs) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = pairs.fill(&mut c, "", Some(source_vertices), Some(target_vertices), flags)?;
         let mut pairs = vec![u32::default(); c.product(&["pair_count"])];
         // SAFETY: every slice is as long as its check says.
@@ -3890,7 +3829,7 @@ impl Transfer {
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     pub fn remove_pairs(&mut self, pairs: &[u32]) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let pairs_ = c.array(Some(pairs), "pairs", &["pair_count"])?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_remove_pairs(self.handle, c.count("pair_count", 1)?, pairs_) })?;
@@ -3902,7 +3841,7 @@ impl Transfer {
     ///
     /// Fails with [`raw::HF_ERROR_NOT_FOUND`].
     pub fn pair(&self, pair: u32) -> Result<raw::hf_pair_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_pair_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_get_pair(self.handle, pair, &mut info) })?;
@@ -3914,7 +3853,7 @@ impl Transfer {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`].
     pub fn info(&self) -> Result<raw::hf_transfer_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_transfer_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_get_info(self.handle, &mut info) })?;
@@ -3923,7 +3862,7 @@ impl Transfer {
 
     /// Writes the statistics of a transfer.
     pub fn statistics(&self) -> Result<raw::hf_transfer_statistics> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut statistics = raw::hf_transfer_statistics::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_get_statistics(self.handle, &mut statistics) })?;
@@ -3934,7 +3873,7 @@ impl Transfer {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
     pub fn set_dials(&mut self, dials: &TransferDials) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = dials.fill(&mut c, "")?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_set_dials(self.handle, &desc) })?;
@@ -3943,7 +3882,7 @@ impl Transfer {
 
     /// Writes the dials; stride is never 0.
     pub fn dials(&self) -> Result<raw::hf_transfer_dials> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut dials = raw::hf_transfer_dials::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_get_dials(self.handle, &mut dials) })?;
@@ -3971,12 +3910,12 @@ impl Transfer {
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn apply<'i>(&mut self, source_positions: impl Into<Reals<'i>>, frame: &TransferFrame) -> Result<Vec<f64>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut desc = frame.fill(&mut c, "", Some(source_positions.into()))?;
         let mut out = vec![f64::default(); c.product(&["target.vertex_count", "3"])];
-        desc.target_positions = c.out(out.as_mut_ptr(), true, "target.vertex_count");
+        desc.target_positions = c.out(out.as_mut_ptr(), "target.vertex_count");
         let target_normals_at: *mut f32 = std::ptr::null_mut();
-        desc.target_normals = c.out(target_normals_at, false, "target.vertex_count");
+        desc.target_normals = c.out(target_normals_at, "target.vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_apply(self.handle, &desc) })?;
         Ok(out)
@@ -3985,12 +3924,12 @@ impl Transfer {
     /// As `apply`, into a slice of yours.
     pub fn apply_into<'i, P: Real>(&mut self, source_positions: impl Into<Reals<'i>>, out: &mut [P],
             target_normals: Option<&mut [f32]>, frame: &TransferFrame) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut desc = frame.fill(&mut c, "", Some(source_positions.into()))?;
-        of_length(out, "out", c.product(&["target.vertex_count", "3"]))?;
-        desc.target_positions = c.out(out.as_mut_ptr(), P::DOUBLE, "target.vertex_count");
+        c.fit(out.len(), "out", &["target.vertex_count", "3"])?;
+        desc.target_positions = c.out(out.as_mut_ptr(), "target.vertex_count");
         let target_normals_at = c.fill(target_normals, "target_normals", &["target.vertex_count", "3"])?;
-        desc.target_normals = c.out(target_normals_at, false, "target.vertex_count");
+        desc.target_normals = c.out(target_normals_at, "target.vertex_count");
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_apply(self.handle, &desc) })?;
         Ok(())
@@ -4000,7 +3939,7 @@ impl Transfer {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`].
     pub fn sinking(&self) -> Result<Vec<u8>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut sinking = vec![u8::default(); c.product(&["target.vertex_count"])];
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_transfer_get_sinking(self.handle, sinking.as_mut_ptr()) })?;
@@ -4015,11 +3954,11 @@ impl Transfer {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn skin(&self, influence_count: u32, want_scales: bool) -> Result<SkinInfo> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut skin = raw::hf_skin_info { influence_count: influence_count, ..Default::default() };
-        c.known("influence_count", if influence_count == 0 { 4 } else { influence_count });
-        let mut room = Room::new(&[("joint_capacity", c.size("joint_count")), ("vertex_capacity",
-            c.size("vertex_count"))]);
+        c.learn("influence_count", if influence_count == 0 { 4 } else { influence_count as usize });
+        c.learn("joint_capacity", c.size("joint_count").unwrap_or(Call::FIRST));
+        c.learn("vertex_capacity", c.size("vertex_count").unwrap_or(Call::FIRST));
         let mut all_pivots: Vec<f64> = Vec::new();
         let mut all_rotations: Vec<f64> = Vec::new();
         let mut all_translations: Vec<f64> = Vec::new();
@@ -4028,29 +3967,19 @@ impl Transfer {
         let mut all_vertex_joints: Vec<u32> = Vec::new();
         let mut all_vertex_weights: Vec<f32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["joint_capacity", "3"], &["joint_capacity", "4"], &["joint_capacity", "3"],
-                &["joint_capacity", "4"], &["joint_capacity", "3"], &["vertex_capacity", "influence_count"],
-                &["vertex_capacity", "influence_count"]]);
-            room.make(&c, &mut all_pivots, &["joint_capacity", "3"]);
-            room.make(&c, &mut all_rotations, &["joint_capacity", "4"]);
-            room.make(&c, &mut all_translations, &["joint_capacity", "3"]);
-            room.make(&c, &mut all_axes, &["joint_capacity", "4"]);
-            if want_scales { room.make(&c, &mut all_scales, &["joint_capacity", "3"]); }
-            room.make(&c, &mut all_vertex_joints, &["vertex_capacity", "influence_count"]);
-            room.make(&c, &mut all_vertex_weights, &["vertex_capacity", "influence_count"]);
-            skin.joint_capacity = room.get("joint_capacity");
-            skin.vertex_capacity = room.get("vertex_capacity");
-            skin.pivots = room.at(&mut all_pivots);
-            skin.rotations = room.at(&mut all_rotations);
-            skin.translations = room.at(&mut all_translations);
-            skin.axes = room.at(&mut all_axes);
-            skin.scales = room.at(&mut all_scales);
-            skin.vertex_joints = room.at(&mut all_vertex_joints);
-            skin.vertex_weights = room.at(&mut all_vertex_weights);
+            skin.joint_capacity = c.count("joint_capacity", 0)?;
+            skin.vertex_capacity = c.count("vertex_capacity", 0)?;
+            skin.pivots = c.room(&mut all_pivots, &["joint_capacity", "3"]);
+            skin.rotations = c.room(&mut all_rotations, &["joint_capacity", "4"]);
+            skin.translations = c.room(&mut all_translations, &["joint_capacity", "3"]);
+            skin.axes = c.room(&mut all_axes, &["joint_capacity", "4"]);
+            skin.scales = if want_scales { c.room(&mut all_scales, &["joint_capacity",
+                "3"]) } else { std::ptr::null_mut() };
+            skin.vertex_joints = c.room(&mut all_vertex_joints, &["vertex_capacity", "influence_count"]);
+            skin.vertex_weights = c.room(&mut all_vertex_weights, &["vertex_capacity", "influence_count"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_transfer_get_skin(self.handle, &mut skin) };
-            if room.enough(&mut c, code, &[("joint_capacity", skin.joint_count), ("vertex_capacity", skin.vertex_count),
-                ("joint_count", skin.joint_count), ("vertex_count", skin.vertex_count)])? {
+            if c.enough(code, &[("joint_capacity", skin.joint_count), ("vertex_capacity", skin.vertex_count)])? {
                 break;
             }
         }
@@ -4068,7 +3997,7 @@ impl Transfer {
 
     /// Vertices of the surface, as given.
     pub fn vertex_count(&self) -> usize {
-        known(&self.counts, "vertex_count").unwrap_or(0)
+        self.counts.get("vertex_count").copied().unwrap_or(0)
     }
 }
 
@@ -4085,10 +4014,10 @@ impl Weights {
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn new(surface: &Surface, joints: &Joints, influence_count: u32) -> Result<Self> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("surface", &surface.counts);
         let desc = joints.fill(&mut c, "")?;
-        c.known("influence_count", if influence_count == 0 { 4 } else { influence_count });
+        c.learn("influence_count", if influence_count == 0 { 4 } else { influence_count as usize });
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_weights_create(surface.handle, &desc, influence_count, &mut handle_) })?;
@@ -4098,7 +4027,7 @@ impl Weights {
     /// Copies the weights with joints, pins and locks. The copy shares the factors and all memory, until one of the two
     /// is changed. For undo, keep copies: one before each change.
     pub fn try_clone(&self) -> Result<Self> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_weights_clone(self.handle, &mut handle_) })?;
@@ -4111,7 +4040,7 @@ impl Weights {
     /// [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn set_joints(&mut self, joints: &Joints) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = joints.fill(&mut c, "")?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_weights_set_joints(self.handle, &desc) })?;
@@ -4127,7 +4056,7 @@ impl Weights {
     /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
     /// [`raw::HF_ERROR_TOO_LARGE`].
     pub fn set_pins(&mut self, vertices: Option<&[u32]>, pins: &Pins) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = pins.fill(&mut c, "", vertices)?;
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_weights_set_pins(self.handle, &desc) })?;
@@ -4143,7 +4072,7 @@ impl Weights {
     /// Fails with [`raw::HF_ERROR_DUPLICATE`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`].
     pub fn set_locks(&mut self, joints: &[u32], values: Option<&[f32]>) -> Result<()> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let joints_ = c.array(Some(joints), "joints", &["lock_count"])?;
         let values_ = c.array(values, "values", &["vertex_count", "lock_count"])?;
         // SAFETY: every slice is as long as its check says.
@@ -4156,26 +4085,21 @@ impl Weights {
     ///
     /// Fails with [`raw::HF_ERROR_TOO_LARGE`].
     pub fn get(&self) -> Result<WeightsOut> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut weights = raw::hf_weights_out { ..Default::default() };
-        let mut room = Room::new(&[("vertex_capacity", c.size("vertex_count"))]);
+        c.learn("vertex_capacity", c.size("vertex_count").unwrap_or(Call::FIRST));
         let mut all_joints: Vec<u32> = Vec::new();
         let mut all_weights: Vec<f32> = Vec::new();
         let mut all_origins: Vec<u8> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["vertex_capacity", "influence_count"], &["vertex_capacity", "influence_count"],
-                &["vertex_capacity"]]);
-            room.make(&c, &mut all_joints, &["vertex_capacity", "influence_count"]);
-            room.make(&c, &mut all_weights, &["vertex_capacity", "influence_count"]);
-            room.make(&c, &mut all_origins, &["vertex_capacity"]);
-            weights.vertex_capacity = room.get("vertex_capacity");
-            weights.joints = room.at(&mut all_joints);
-            weights.weights = room.at(&mut all_weights);
-            weights.origins = room.at(&mut all_origins);
+            weights.vertex_capacity = c.count("vertex_capacity", 0)?;
+            weights.joints = c.room(&mut all_joints, &["vertex_capacity", "influence_count"]);
+            weights.weights = c.room(&mut all_weights, &["vertex_capacity", "influence_count"]);
+            weights.origins = c.room(&mut all_origins, &["vertex_capacity"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_weights_get(self.handle, &mut weights) };
-            if room.enough(&mut c, code, &[("vertex_capacity", weights.vertex_count), ("vertex_count",
-                weights.vertex_count), ("influence_count", weights.influence_count)])? {
+            if c.enough(code, &[("vertex_capacity", weights.vertex_count), ("influence_count",
+                weights.influence_count)])? {
                 break;
             }
         }
@@ -4189,19 +4113,18 @@ impl Weights {
     /// Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not deform have no
     /// flags.
     pub fn joints(&self) -> Result<(Vec<u32>, Vec<u32>)> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut flags: Vec<u32> = Vec::new();
         let mut vertex_counts: Vec<u32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"], &["capacity"]]);
-            room.make(&c, &mut flags, &["capacity"]);
-            room.make(&c, &mut vertex_counts, &["capacity"]);
+            let flags_at = c.room(&mut flags, &["capacity"]);
+            let vertex_counts_at = c.room(&mut vertex_counts, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_weights_get_joints(self.handle, room.get("capacity"), room.at(&mut flags),
-                room.at(&mut vertex_counts), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_weights_get_joints(self.handle, c.count("capacity", 0)?, flags_at,
+                vertex_counts_at, &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -4212,7 +4135,7 @@ impl Weights {
 
     /// Writes the info.
     pub fn info(&self) -> Result<raw::hf_weights_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_weights_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_weights_get_info(self.handle, &mut info) })?;
@@ -4221,7 +4144,7 @@ impl Weights {
 
     /// Writes the statistics.
     pub fn statistics(&self) -> Result<raw::hf_weights_statistics> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut statistics = raw::hf_weights_statistics::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_weights_get_statistics(self.handle, &mut statistics) })?;
@@ -4235,17 +4158,16 @@ impl Weights {
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`].
     pub fn helpers(&self, names: Option<&[&str]>) -> Result<Vec<u32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut reasons: Vec<u32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity"]]);
-            room.make(&c, &mut reasons, &["capacity"]);
+            let reasons_at = c.room(&mut reasons, &["capacity"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_weights_get_helpers(self.handle, c.text(names)?, room.get("capacity"),
-                room.at(&mut reasons), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_weights_get_helpers(self.handle, c.text(names)?, c.count("capacity", 0)?,
+                reasons_at, &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
@@ -4264,31 +4186,26 @@ impl Weights {
     /// [`raw::HF_ERROR_TOO_SMALL`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn transfer(source: &Surface, target: &Surface, options: &WeightsTransferOptions) -> Result<(WeightsOut,
             raw::hf_weights_transfer_info)> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("source", &source.counts);
         c.parent("target", &target.counts);
         let mut info = raw::hf_weights_transfer_info::default();
         let desc = options.fill(&mut c, "")?;
         let mut weights_ = raw::hf_weights_out { ..Default::default() };
-        let mut room = Room::new(&[("vertex_capacity", c.size("vertex_count"))]);
+        c.learn("vertex_capacity", c.size("vertex_count").unwrap_or(Call::FIRST));
         let mut all_joints: Vec<u32> = Vec::new();
         let mut all_weights: Vec<f32> = Vec::new();
         let mut all_origins: Vec<u8> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["vertex_capacity", "influence_count"], &["vertex_capacity", "influence_count"],
-                &["vertex_capacity"]]);
-            room.make(&c, &mut all_joints, &["vertex_capacity", "influence_count"]);
-            room.make(&c, &mut all_weights, &["vertex_capacity", "influence_count"]);
-            room.make(&c, &mut all_origins, &["vertex_capacity"]);
-            weights_.vertex_capacity = room.get("vertex_capacity");
-            weights_.joints = room.at(&mut all_joints);
-            weights_.weights = room.at(&mut all_weights);
-            weights_.origins = room.at(&mut all_origins);
+            weights_.vertex_capacity = c.count("vertex_capacity", 0)?;
+            weights_.joints = c.room(&mut all_joints, &["vertex_capacity", "influence_count"]);
+            weights_.weights = c.room(&mut all_weights, &["vertex_capacity", "influence_count"]);
+            weights_.origins = c.room(&mut all_origins, &["vertex_capacity"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_weights_transfer(source.handle, target.handle, &desc, &mut weights_,
                 &mut info) };
-            if room.enough(&mut c, code, &[("vertex_capacity", weights_.vertex_count), ("vertex_count",
-                weights_.vertex_count), ("influence_count", weights_.influence_count)])? {
+            if c.enough(code, &[("vertex_capacity", weights_.vertex_count), ("influence_count",
+                weights_.influence_count)])? {
                 break;
             }
         }
@@ -4312,7 +4229,7 @@ impl Weights {
     /// [`raw::HF_ERROR_TOO_SMALL`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn mirror(surface: &Surface, options: &WeightsMirrorOptions) -> Result<(WeightsOut, Vec<u32>, Vec<u32>,
             raw::hf_weights_mirror_info, raw::hf_weights_mirror_statistics)> {
-        let mut c = Call::new(&[]);
+        let mut c = Call::default();
         c.parent("surface", &surface.counts);
         let mut info = raw::hf_weights_mirror_info::default();
         let mut statistics = raw::hf_weights_mirror_statistics::default();
@@ -4320,25 +4237,20 @@ impl Weights {
         let mut weights_ = raw::hf_weights_out { ..Default::default() };
         let mut partners_ = vec![u32::default(); c.product(&["joint_count"])];
         let mut pairings = vec![u32::default(); c.product(&["joint_count"])];
-        let mut room = Room::new(&[("vertex_capacity", c.size("vertex_count"))]);
+        c.learn("vertex_capacity", c.size("vertex_count").unwrap_or(Call::FIRST));
         let mut all_joints: Vec<u32> = Vec::new();
         let mut all_weights: Vec<f32> = Vec::new();
         let mut all_origins: Vec<u8> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["vertex_capacity", "influence_count"], &["vertex_capacity", "influence_count"],
-                &["vertex_capacity"]]);
-            room.make(&c, &mut all_joints, &["vertex_capacity", "influence_count"]);
-            room.make(&c, &mut all_weights, &["vertex_capacity", "influence_count"]);
-            room.make(&c, &mut all_origins, &["vertex_capacity"]);
-            weights_.vertex_capacity = room.get("vertex_capacity");
-            weights_.joints = room.at(&mut all_joints);
-            weights_.weights = room.at(&mut all_weights);
-            weights_.origins = room.at(&mut all_origins);
+            weights_.vertex_capacity = c.count("vertex_capacity", 0)?;
+            weights_.joints = c.room(&mut all_joints, &["vertex_capacity", "influence_count"]);
+            weights_.weights = c.room(&mut all_weights, &["vertex_capacity", "influence_count"]);
+            weights_.origins = c.room(&mut all_origins, &["vertex_capacity"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_weights_mirror(surface.handle, &desc, &mut weights_, partners_.as_mut_ptr(),
                 pairings.as_mut_ptr(), &mut info, &mut statistics) };
-            if room.enough(&mut c, code, &[("vertex_capacity", weights_.vertex_count), ("vertex_count",
-                weights_.vertex_count), ("influence_count", weights_.influence_count)])? {
+            if c.enough(code, &[("vertex_capacity", weights_.vertex_count), ("influence_count",
+                weights_.influence_count)])? {
                 break;
             }
         }
@@ -4351,7 +4263,7 @@ impl Weights {
 
     /// Vertices of the surface, as given.
     pub fn vertex_count(&self) -> usize {
-        known(&self.counts, "vertex_count").unwrap_or(0)
+        self.counts.get("vertex_count").copied().unwrap_or(0)
     }
 }
 impl TryClone for Weights {

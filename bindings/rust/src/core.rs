@@ -34,21 +34,15 @@ impl Error {
         unsafe { raw::hf_error_get_detail(&mut detail) };
         // SAFETY: the library ends both texts with a zero.
         let text = |bytes: &[std::os::raw::c_char]| unsafe { CStr::from_ptr(bytes.as_ptr()) }.to_string_lossy().into_owned();
-        Error {
-            code,
-            message: text(&detail.message),
-            function: text(&detail.function),
-            index: (detail.index != raw::HF_NO_INDEX).then_some(detail.index),
-        }
+        let index = (detail.index != raw::HF_NO_INDEX).then_some(detail.index);
+        Error { code, message: text(&detail.message), function: text(&detail.function), index }
     }
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if !self.function.is_empty() {
-            write!(out, "{}: ", self.function)?;
-        }
-        write!(out, "{} ({})", self.message, self.name())
+        let colon = if self.function.is_empty() { "" } else { ": " };
+        write!(out, "{}{colon}{} ({})", self.function, self.message, self.name())
     }
 }
 
@@ -58,34 +52,7 @@ impl std::error::Error for Error {}
 pub type Result<T> = std::result::Result<T, Error>;
 
 pub(crate) fn check(code: i32) -> Result<()> {
-    if code == raw::HF_OK {
-        Ok(())
-    } else {
-        Err(Error::last(code))
-    }
-}
-
-/// Refuses a slice of another length than the library will read or write.
-pub(crate) fn of_length<T>(values: &[T], name: &str, length: usize) -> Result<()> {
-    if values.len() == length {
-        return Ok(());
-    }
-    let message = format!("{name} must hold {length} entries, not {}", values.len());
-    Err(Error::new(raw::HF_ERROR_INVALID_ARGUMENT, message))
-}
-
-/// The start of a slice; null if it is empty.
-pub(crate) fn start<T>(values: &[T]) -> *const T {
-    if values.is_empty() {
-        std::ptr::null()
-    } else {
-        values.as_ptr()
-    }
-}
-
-/// The start of an optional slice; null without one.
-pub(crate) fn start_of<T>(values: Option<&[T]>) -> *const T {
-    values.map_or(std::ptr::null(), start)
+    (code == raw::HF_OK).then_some(()).ok_or_else(|| Error::last(code))
 }
 
 mod sealed {
@@ -95,16 +62,8 @@ mod sealed {
 }
 
 /// Numbers that positions and fields may have: `f32` or `f64`.
-pub trait Real: sealed::Sealed + Copy + Default {
-    #[doc(hidden)]
-    const DOUBLE: bool;
-}
-impl Real for f32 {
-    const DOUBLE: bool = false;
-}
-impl Real for f64 {
-    const DOUBLE: bool = true;
-}
+pub trait Real: sealed::Sealed + Copy + Default {}
+impl<T: sealed::Sealed + Copy + Default> Real for T {}
 
 /// What [`History`] keeps: objects whose clones share memory with them.
 pub trait TryClone: Sized {
