@@ -2364,22 +2364,29 @@ class Pose {
   BlendRows blend_rows() const {
     Call c(counts_);
     auto rows = make<hf_blend_rows>();
-    Room room({{"vertex_capacity", c.size("vertex_count")}, {"entry_capacity", -1}});
+    c.sizes["vertex_capacity"] = c.count("vertex_count", Call::kFirst);
+    c.sizes["entry_capacity"] = Call::kFirst;
     BlendRows found;
-    room.array(found.rows, {"vertex_capacity", "2"}, &rows.rows);
-    room.array(found.clusters, {"entry_capacity"}, &rows.clusters);
-    room.array(found.weights, {"entry_capacity"}, &rows.weights);
-    room.array(found.gradients, {"entry_capacity", "3"}, &rows.gradients);
-    room.array(found.positions, {"vertex_capacity", "3"}, &rows.positions);
-    room.array(found.normals, {"vertex_capacity", "3"}, &rows.normals);
-    room.array(found.offsets, {"vertex_capacity", "3"}, &rows.offsets);
-    do {
-      room.begin(c);
-      rows.vertex_capacity = room.get("vertex_capacity");
-      rows.entry_capacity = room.get("entry_capacity");
-      room.code = hf_pose_get_blend_rows(get(), &rows);
-    } while (!room.enough(c, {{"vertex_capacity", rows.vertex_count}, {"entry_capacity", rows.entry_count},
-        {"vertex_count", rows.vertex_count}}));
+    for (bool done = false; !done;) {
+      rows.vertex_capacity = c.count("vertex_capacity", 0);
+      rows.entry_capacity = c.count("entry_capacity", 0);
+      rows.rows = c.room(found.rows, {"vertex_capacity", "2"});
+      rows.clusters = c.room(found.clusters, {"entry_capacity"});
+      rows.weights = c.room(found.weights, {"entry_capacity"});
+      rows.gradients = c.room(found.gradients, {"entry_capacity", "3"});
+      rows.positions = c.room(found.positions, {"vertex_capacity", "3"});
+      rows.normals = c.room(found.normals, {"vertex_capacity", "3"});
+      rows.offsets = c.room(found.offsets, {"vertex_capacity", "3"});
+      const hf_result code = hf_pose_get_blend_rows(get(), &rows);
+      done = c.enough(code, {{"vertex_capacity", rows.vertex_count}, {"entry_capacity", rows.entry_count}});
+    }
+    found.rows.resize(c.product({"vertex_capacity", "2"}));
+    found.clusters.resize(c.product({"entry_capacity"}));
+    found.weights.resize(c.product({"entry_capacity"}));
+    found.gradients.resize(c.product({"entry_capacity", "3"}));
+    found.positions.resize(c.product({"vertex_capacity", "3"}));
+    found.normals.resize(c.product({"vertex_capacity", "3"}));
+    found.offsets.resize(c.product({"vertex_capacity", "3"}));
     found.longest_row = rows.longest_row;
     return found;
   }
@@ -2403,13 +2410,14 @@ class Pose {
   std::vector<float> blend_transforms() const {
     Call c(counts_);
     uint32_t count = 0;
-    Room room({{"capacity", -1}});
+    c.sizes["capacity"] = Call::kFirst;
     std::vector<float> transforms;
-    room.array(transforms, {"capacity", "12"});
-    do {
-      room.begin(c);
-      room.code = hf_pose_get_blend_transforms(get(), room.get("capacity"), room.at(transforms), &count);
-    } while (!room.enough(c, {{"capacity", count}}));
+    for (bool done = false; !done;) {
+      auto* transforms_at = c.room(transforms, {"capacity", "12"});
+      const hf_result code = hf_pose_get_blend_transforms(get(), c.count("capacity", 0), transforms_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    transforms.resize(c.product({"capacity", "12"}));
     return transforms;
   }
 

@@ -4628,38 +4628,36 @@ namespace Hf
             {
                 var rowsStruct = new hf_blend_rows { struct_size = (uint)sizeof(hf_blend_rows) };
                 hf_blend_rows* rows = &rowsStruct;
-                var found = new Growth(c, this, "hf_pose_get_blend_rows");
-                found.Room("vertex_capacity", "vertex_count");
-                found.Room("entry_capacity", null);
-                found.Array<uint>("rows", "vertex_capacity", "2");
-                found.Array<ushort>("clusters", "entry_capacity");
-                found.Array<float>("weights", "entry_capacity");
-                found.Array<float>("gradients", "entry_capacity", "3");
-                found.Array<float>("positions", "vertex_capacity", "3");
-                found.Array<float>("normals", "vertex_capacity", "3");
-                found.Array<float>("offsets", "vertex_capacity", "3");
+                uint[] allRows = null;
+                ushort[] allClusters = null;
+                float[] allWeights = null;
+                float[] allGradients = null;
+                float[] allPositions = null;
+                float[] allNormals = null;
+                float[] allOffsets = null;
+                c.Room("vertex_capacity", "vertex_count");
+                c.Room("entry_capacity", "hf_pose_get_blend_rows.entry_capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        rows->vertex_capacity = (uint)found["vertex_capacity"];
-                        rows->entry_capacity = (uint)found["entry_capacity"];
-                        rows->rows = (IntPtr)found.Place("rows");
-                        rows->clusters = (IntPtr)found.Place("clusters");
-                        rows->weights = (IntPtr)found.Place("weights");
-                        rows->gradients = (IntPtr)found.Place("gradients");
-                        rows->positions = (IntPtr)found.Place("positions");
-                        rows->normals = (IntPtr)found.Place("normals");
-                        rows->offsets = (IntPtr)found.Place("offsets");
-                        found.Result = Functions.hf_pose_get_blend_rows(RawHandle, rows);
-                        found.Told("vertex_capacity", rows->vertex_count);
-                        found.Told("entry_capacity", rows->entry_count);
-                        found.Told("vertex_count", rows->vertex_count);
+                        rows->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        rows->entry_capacity = (uint)c.Size("entry_capacity");
+                        rows->rows = c.Make(out allRows, "vertex_capacity", "2");
+                        rows->clusters = c.Make(out allClusters, "entry_capacity");
+                        rows->weights = c.Make(out allWeights, "entry_capacity");
+                        rows->gradients = c.Make(out allGradients, "entry_capacity", "3");
+                        rows->positions = c.Make(out allPositions, "vertex_capacity", "3");
+                        rows->normals = c.Make(out allNormals, "vertex_capacity", "3");
+                        rows->offsets = c.Make(out allOffsets, "vertex_capacity", "3");
+                        result = Functions.hf_pose_get_blend_rows(RawHandle, rows);
                 }
-                while (found.Again());
-                return new BlendRows { LongestRow = rows->longest_row, Rows = found.Take<uint>("rows"),
-                    Clusters = found.Take<ushort>("clusters"), Weights = found.Take<float>("weights"),
-                    Gradients = found.Take<float>("gradients"), Positions = found.Take<float>("positions"),
-                    Normals = found.Take<float>("normals"), Offsets = found.Take<float>("offsets") };
+                while (c.Again("hf_pose_get_blend_rows", result, ("vertex_capacity", rows->vertex_count),
+                    ("entry_capacity", rows->entry_count)));
+                return new BlendRows { LongestRow = rows->longest_row, Rows = c.Cut(allRows, "vertex_capacity", "2"),
+                    Clusters = c.Cut(allClusters, "entry_capacity"), Weights = c.Cut(allWeights, "entry_capacity"),
+                    Gradients = c.Cut(allGradients, "entry_capacity", "3"), Positions = c.Cut(allPositions,
+                    "vertex_capacity", "3"), Normals = c.Cut(allNormals, "vertex_capacity", "3"),
+                    Offsets = c.Cut(allOffsets, "vertex_capacity", "3") };
             }
         }
 
@@ -4690,18 +4688,17 @@ namespace Hf
             using (var c = new Call(this))
             {
                 uint count = 0;
-                var found = new Growth(c, this, "hf_pose_get_blend_transforms");
-                found.Room("capacity", null);
-                found.Array<float>("transforms", "capacity", "12");
+                float[] allTransforms = null;
+                c.Room("capacity", "hf_pose_get_blend_transforms.capacity");
+                int result;
                 do
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_pose_get_blend_transforms(RawHandle, (uint)found["capacity"],
-                            found.Place("transforms"), &count);
-                        found.Told("capacity", count);
+                        void* transformsPlace = (void*)c.Make(out allTransforms, "capacity", "12");
+                        result = Functions.hf_pose_get_blend_transforms(RawHandle, (uint)c.Size("capacity"),
+                            transformsPlace, &count);
                 }
-                while (found.Again());
-                return found.Take<float>("transforms");
+                while (c.Again("hf_pose_get_blend_transforms", result, ("capacity", count)));
+                return c.Cut(allTransforms, "capacity", "12");
             }
         }
 

@@ -207,6 +207,14 @@ Value pose_statistics(Surface& s, const Arguments&) {
       {"normal_ms", info.normal_ms}, {"refine_ms", info.refine_ms}});
 }
 
+// pose_blend_info()
+Value pose_blend_info(Surface& s, const Arguments&) {
+  auto info = make<hf_blend_info>();
+  check(hf_pose_get_blend_info(pose_of(s), &info));
+  return named({{"cluster_count", info.cluster_count}, {"revision", info.revision}, {"offset_share",
+      info.offset_share}});
+}
+
 // quads_info()
 Value quads_info(Surface& s, const Arguments&) {
   auto info = make<hf_quads_info>();
@@ -283,6 +291,7 @@ const std::vector<Entry>& made_methods() {
       {"set_rigid_pieces", 1, 1, set_rigid_pieces},
       {"set_matrices", 2, 2, set_matrices},
       {"pose_statistics", 0, 0, pose_statistics},
+      {"pose_blend_info", 0, 0, pose_blend_info},
       {"quads_info", 0, 0, quads_info},
       {"region_statistics", 0, 0, region_statistics},
       {"transfer_remove_pairs", 1, 1, transfer_remove_pairs},

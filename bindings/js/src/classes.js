@@ -1210,20 +1210,23 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     blendRows() {
       const c = new Call(this);
       const rows = c.struct('hf_blend_rows', {});
-      const found = c.grow(this, 'hf_pose_get_blend_rows', (room, made) => (c.into(rows, room, made),
+      const found = c.grow(this, 'hf_pose_get_blend_rows', (room, made) => (rows.set('vertex_capacity',
+              room.vertex_capacity).set('entry_capacity', room.entry_capacity).set('rows',
+              written(made.rows)).set('clusters', written(made.clusters)).set('weights',
+              written(made.weights)).set('gradients', written(made.gradients)).set('positions',
+              written(made.positions)).set('normals', written(made.normals)).set('offsets', written(made.offsets)),
               call('hf_pose_get_blend_rows', this._handle, rows)), () => ({ vertex_capacity: rows.get('vertex_count'),
-              entry_capacity: rows.get('entry_count'), vertex_count: rows.get('vertex_count') }),
-              { vertex_capacity: c.n.vertex_count, entry_capacity: null }, { rows: ['u4', ['vertex_capacity', 2]],
-              clusters: ['u2', ['entry_capacity']], weights: ['f4', ['entry_capacity']], gradients: ['f4',
-              ['entry_capacity', 3]], positions: ['f4', ['vertex_capacity', 3]], normals: ['f4', ['vertex_capacity',
-              3]], offsets: ['f4', ['vertex_capacity', 3]] });
+              entry_capacity: rows.get('entry_count') }), { vertex_capacity: c.n.vertex_count, entry_capacity: null },
+              { rows: ['u4', ['vertex_capacity', 2]], clusters: ['u2', ['entry_capacity']], weights: ['f4',
+              ['entry_capacity']], gradients: ['f4', ['entry_capacity', 3]], positions: ['f4', ['vertex_capacity', 3]],
+              normals: ['f4', ['vertex_capacity', 3]], offsets: ['f4', ['vertex_capacity', 3]] });
       return { ...found, vertexCount: rows.get('vertex_count'), entryCount: rows.get('entry_count'),
               longestRow: rows.get('longest_row') };
     }
 
     solve(iterationCount = 0, restart = false) {
       const c = new Call(this);
-      const info = c.told(this, 'hf_deform_info');
+      const info = Call.told(this, 'hf_deform_info');
       call('hf_pose_solve', this._handle, iterationCount, restart, info);
     }
 

@@ -2466,12 +2466,11 @@ class Pose(Recorded):
             call('hf_pose_get_blend_rows', self._handle, ref(rows))
 
         found = c.grow(self, 'hf_pose_get_blend_rows', run, lambda: {'vertex_capacity': rows.vertex_count,
-                'entry_capacity': rows.entry_count, 'vertex_count': rows.vertex_count},
-                {'vertex_capacity': c.n.get('vertex_count'), 'entry_capacity': None}, {'rows': (np.uint32,
-                ('vertex_capacity', 2)), 'clusters': (np.uint16, ('entry_capacity',)), 'weights': (np.float32,
-                ('entry_capacity',)), 'gradients': (np.float32, ('entry_capacity', 3)), 'positions': (np.float32,
-                ('vertex_capacity', 3)), 'normals': (np.float32, ('vertex_capacity', 3)), 'offsets': (np.float32,
-                ('vertex_capacity', 3))})
+                'entry_capacity': rows.entry_count}, {'vertex_capacity': c.n.get('vertex_count'),
+                'entry_capacity': None}, {'rows': (np.uint32, ('vertex_capacity', 2)), 'clusters': (np.uint16,
+                ('entry_capacity',)), 'weights': (np.float32, ('entry_capacity',)), 'gradients': (np.float32,
+                ('entry_capacity', 3)), 'positions': (np.float32, ('vertex_capacity', 3)), 'normals': (np.float32,
+                ('vertex_capacity', 3)), 'offsets': (np.float32, ('vertex_capacity', 3))})
         return BlendRows(longest_row=rows.longest_row, **found)
 
     def solve(self, iteration_count: int = 0, restart: bool = False, *, info: Optional[DeformInfo] = None) -> None:
@@ -2486,7 +2485,7 @@ class Pose(Recorded):
         """
         c = Call(self)
         call('hf_pose_solve', self._handle, number(iteration_count, 'iteration_count', ctypes.c_uint32), number(restart,
-                'restart', ctypes.c_int32), c.info(info, _raw.hf_deform_info))
+                'restart', ctypes.c_int32), ref(info, _raw.hf_deform_info))
 
     def blend_transforms(self) -> np.ndarray:
         """Writes the transforms of the clusters in the last Pose.solve or Pose.deform, without its refine. Before the

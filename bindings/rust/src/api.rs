@@ -3036,7 +3036,7 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn blend_info(&self) -> Result<raw::hf_blend_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_blend_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_get_blend_info(self.handle, &mut info) })?;
@@ -3048,9 +3048,10 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn blend_rows(&self) -> Result<BlendRows> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut rows = raw::hf_blend_rows { ..Default::default() };
-        let mut room = Room::new(&[("vertex_capacity", c.size("vertex_count")), ("entry_capacity", None)]);
+        c.learn("vertex_capacity", c.size("vertex_count").unwrap_or(Call::FIRST));
+        c.learn("entry_capacity", Call::FIRST);
         let mut all_rows: Vec<u32> = Vec::new();
         let mut all_clusters: Vec<u16> = Vec::new();
         let mut all_weights: Vec<f32> = Vec::new();
@@ -3059,29 +3060,18 @@ impl Pose {
         let mut all_normals: Vec<f32> = Vec::new();
         let mut all_offsets: Vec<f32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["vertex_capacity", "2"], &["entry_capacity"], &["entry_capacity"],
-                &["entry_capacity", "3"], &["vertex_capacity", "3"], &["vertex_capacity", "3"], &["vertex_capacity",
-                "3"]]);
-            room.make(&c, &mut all_rows, &["vertex_capacity", "2"]);
-            room.make(&c, &mut all_clusters, &["entry_capacity"]);
-            room.make(&c, &mut all_weights, &["entry_capacity"]);
-            room.make(&c, &mut all_gradients, &["entry_capacity", "3"]);
-            room.make(&c, &mut all_positions, &["vertex_capacity", "3"]);
-            room.make(&c, &mut all_normals, &["vertex_capacity", "3"]);
-            room.make(&c, &mut all_offsets, &["vertex_capacity", "3"]);
-            rows.vertex_capacity = room.get("vertex_capacity");
-            rows.entry_capacity = room.get("entry_capacity");
-            rows.rows = room.at(&mut all_rows);
-            rows.clusters = room.at(&mut all_clusters);
-            rows.weights = room.at(&mut all_weights);
-            rows.gradients = room.at(&mut all_gradients);
-            rows.positions = room.at(&mut all_positions);
-            rows.normals = room.at(&mut all_normals);
-            rows.offsets = room.at(&mut all_offsets);
+            rows.vertex_capacity = c.count("vertex_capacity", 0)?;
+            rows.entry_capacity = c.count("entry_capacity", 0)?;
+            rows.rows = c.room(&mut all_rows, &["vertex_capacity", "2"]);
+            rows.clusters = c.room(&mut all_clusters, &["entry_capacity"]);
+            rows.weights = c.room(&mut all_weights, &["entry_capacity"]);
+            rows.gradients = c.room(&mut all_gradients, &["entry_capacity", "3"]);
+            rows.positions = c.room(&mut all_positions, &["vertex_capacity", "3"]);
+            rows.normals = c.room(&mut all_normals, &["vertex_capacity", "3"]);
+            rows.offsets = c.room(&mut all_offsets, &["vertex_capacity", "3"]);
             // SAFETY: the arrays have the room that the call is told.
             let code = unsafe { raw::hf_pose_get_blend_rows(self.handle, &mut rows) };
-            if room.enough(&mut c, code, &[("vertex_capacity", rows.vertex_count), ("entry_capacity", rows.entry_count),
-                ("vertex_count", rows.vertex_count)])? {
+            if c.enough(code, &[("vertex_capacity", rows.vertex_count), ("entry_capacity", rows.entry_count)])? {
                 break;
             }
         }
@@ -3105,7 +3095,7 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`].
     pub fn solve(&mut self, iteration_count: u32, restart: bool) -> Result<raw::hf_deform_info> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut info = raw::hf_deform_info::default();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_solve(self.handle, iteration_count, i32::from(restart), &mut info) })?;
@@ -3117,17 +3107,16 @@ impl Pose {
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn blend_transforms(&self) -> Result<Vec<f32>> {
-        let mut c = Call::new(&self.counts);
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
-        let mut room = Room::new(&[("capacity", None)]);
+        c.learn("capacity", Call::FIRST);
         let mut transforms: Vec<f32> = Vec::new();
         loop {
-            room.begin(&mut c, &[&["capacity", "12"]]);
-            room.make(&c, &mut transforms, &["capacity", "12"]);
+            let transforms_at = c.room(&mut transforms, &["capacity", "12"]);
             // SAFETY: the arrays have the room that the call is told.
-            let code = unsafe { raw::hf_pose_get_blend_transforms(self.handle, room.get("capacity"),
-                room.at(&mut transforms), &mut count) };
-            if room.enough(&mut c, code, &[("capacity", count)])? {
+            let code = unsafe { raw::hf_pose_get_blend_transforms(self.handle, c.count("capacity", 0)?, transforms_at,
+                &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
                 break;
             }
         }
