@@ -69,7 +69,7 @@ function firstMinute(hf, faults) {
 
   const place = ({ position, radius }, id) => ({ id, position, radius, ...rest });
   let handles = surface.proposeHandles().slice(0, 3).map(place);
-  const pulled = () => handles.map((handle, i) => (i === 1 ? { ...handle, translation: [0.1, 0.2, 0] } : handle));
+  const pulled = () => handles.map((handle, i) => (i === 1 ? { ...handle, following: 0.25, translation: [0.1, 0.2, 0] } : handle));
   pose.deform(handles, 'exact');
   handles = pulled();
   pose.deform(handles, 'follow');

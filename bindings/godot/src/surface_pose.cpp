@@ -77,6 +77,20 @@ Value set_free_rotations(Surface& s, const Arguments& a) {
   return done();
 }
 
+// set_following(handles, following): 1: all of the surface follows; 0: the limbs alone. Handles of layer 0
+Value set_following(Surface& s, const Arguments& a) {
+  const List handles = integers(at(a, 0), "handles");
+  check(hf_pose_set_following(pose_of(s), handles.count(), handles.data(), at(a, 1).number));
+  return done();
+}
+
+// set_limb_refine(handles, steps): 8 keep the lengths of the limbs, 0 are none. Handles of layer 0
+Value set_limb_refine(Surface& s, const Arguments& a) {
+  const List handles = integers(at(a, 0), "handles");
+  check(hf_pose_set_limb_refine(pose_of(s), handles.count(), handles.data(), signed_whole(at(a, 1).number, "steps")));
+  return done();
+}
+
 Value remove_handles(Surface& s, const Arguments& a) {
   const List handles = integers(at(a, 0), "handles");
   check(hf_pose_remove_handles(pose_of(s), handles.count(), handles.data()));
@@ -123,7 +137,9 @@ Value handle_info(Surface& s, const Arguments& a) {
                 {"translation_y", info.translation[1]},
                 {"translation_z", info.translation[2]},
                 {"layer", info.layer},
-                {"free_rotation", info.free_rotation}});
+                {"free_rotation", info.free_rotation},
+                {"following", info.following},
+                {"limb_refine", info.limb_refine}});
 }
 
 Value handle_field(Surface& s, const Arguments& a) {
@@ -296,6 +312,8 @@ const std::vector<Entry>& pose_methods() {
       {"add_handles_at", 2, 5, add_handles_at},
       {"add_handle_at", 2, 2, add_handle_at},
       {"set_free_rotations", 2, 2, set_free_rotations},
+      {"set_following", 2, 2, set_following},
+      {"set_limb_refine", 2, 2, set_limb_refine},
       {"remove_handles", 1, 1, remove_handles},
       {"set_transforms", 3, 3, set_transforms},
       {"set_transform", 2, 3, set_transform},

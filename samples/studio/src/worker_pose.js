@@ -11,12 +11,19 @@ const REST_ITERATIONS = 100;
 const LENGTH_STEPS = 8;
 const LIVE_VERTICES = 6000;
 
+/** What a handle says beside its place: [name, its value, how the pose is told]. A rotation is given from where it stands. */
+const SETTINGS = [
+  ['free', ({ free }) => Number(Boolean(free)), (pose, numbers, value) => pose.setFreeRotations(numbers, value)],
+  ['following', ({ following = 1 }) => following, (pose, numbers, value) => pose.setFollowing(numbers, value)],
+  ['limb', ({ limb }) => (limb ? LENGTH_STEPS : 0), (pose, numbers, value) => pose.setLimbRefine(numbers, value)],
+];
+
 const sameRegion = (a, b) => a.id === b.id && a.radius === b.radius && a.position.every((x, k) => x === b.position[k]);
 
 export function poseOf(body) {
   const { hf, surface } = body;
   let pose = null;
-  let held = []; // { id, position, radius, number, free }
+  let held = []; // { id, position, radius, number, and what the pose was told of it (SETTINGS) }
   let told = {};
   let grabbed = false; // since the last deform
 
@@ -36,7 +43,9 @@ export function poseOf(body) {
         radii: added.map(({ radius }) => radius),
         inPlace,
       });
-      added.forEach(({ id, position, radius }, i) => held.push({ id, position, radius, number: numbers[i], free: false }));
+      added.forEach(({ id, position, radius }, i) =>
+        held.push({ id, position, radius, number: numbers[i], free: 0, following: 1, limb: 0 }),
+      );
     }
   };
 
@@ -56,22 +65,24 @@ export function poseOf(body) {
     return { refine: live ? 1 : LENGTH_STEPS, refineFromLast: Number(live) };
   };
 
-  /** Frees rotations, or gives them as the handles stand. */
-  const free = (handles) => {
-    for (const wanted of [true, false]) {
-      const changed = held.filter((one, i) => one.free !== wanted && Boolean(handles[i].free) === wanted);
-      if (!changed.length) continue;
-      pose.setFreeRotations(
-        changed.map(({ number }) => number),
-        Number(wanted),
-      );
-      for (const one of changed) one.free = wanted;
-    }
+  /** Tells the pose the settings that differ. */
+  const set = (handles) => {
+    for (const [name, wanted, tell] of SETTINGS)
+      for (const value of new Set(handles.map(wanted))) {
+        const changed = held.filter((one, i) => one[name] !== value && wanted(handles[i]) === value);
+        if (!changed.length) continue;
+        tell(
+          pose,
+          changed.map(({ number }) => number),
+          value,
+        );
+        for (const one of changed) one[name] = value;
+      }
   };
 
   const place = (handles) => {
     change(handles);
-    free(handles);
+    set(handles);
     pose.setTransforms(
       held.map(({ number }) => number),
       {
