@@ -87,43 +87,37 @@ namespace Hf.Unity
             if (source == null || target == null) return;
             from = new Bones(source);
             to = new Bones(target);
-            Try(() =>
+            try
             {
                 using (Skeleton first = from.Skeleton(), second = to.Skeleton())
                     retarget = new Retarget(first, second, rootMotion: rootMotion);
-            });
+                LastError = null;
+            }
+            catch (HfException failure) { Say(failure); }
         }
 
         /// <summary>The clip jumps: planted feet are forgotten.</summary>
         public void ResetFeet() { if (retarget != null) retarget.Reset(); }
 
-        void LateUpdate()
+        // A frame allocates nothing.
+        unsafe void LateUpdate()
         {
             if (retarget == null) return;
             from.Read();
-            Try(Play);
-        }
-
-        // A frame allocates nothing.
-        unsafe void Play()
-        {
-            fixed (float* posed = from.pose, follows = to.pose)
-                HfException.Check(Functions.hf_retarget_solve(retarget.RawHandle, posed, Time.deltaTime, follows));
-            to.Write();
-        }
-
-        void Try(System.Action act)
-        {
             try
             {
-                act();
+                fixed (float* posed = from.pose, follows = to.pose)
+                    HfException.Check(Functions.hf_retarget_solve(retarget.RawHandle, posed, Time.deltaTime, follows));
+                to.Write();
                 LastError = null;
             }
-            catch (HfException failure)
-            {
-                if (LastError != failure.Message) Debug.LogWarning("hf: " + failure.Message, this);
-                LastError = failure.Message; // nothing has changed; said once
-            }
+            catch (HfException failure) { Say(failure); }
+        }
+
+        void Say(HfException failure)
+        {
+            if (LastError != failure.Message) Debug.LogWarning("hf: " + failure.Message, this);
+            LastError = failure.Message; // the target stays; said once
         }
     }
 }
