@@ -59,8 +59,15 @@ namespace UnityEngine
         public void SetParent(Transform parent, bool keep) { this.parent = parent; parent.children.Add(this); }
     }
     public class MeshFilter : Component { public Mesh sharedMesh; }
-    public class Mesh : Object { public Vector3[] vertices, normals; public int[] triangles;
-        public void MarkDynamic() { } public void RecalculateBounds() { } }
+    public class Mesh : Object
+    {
+        Vector3[] at;
+        public Vector3[] vertices { get { return (Vector3[])at.Clone(); } set { at = (Vector3[])value.Clone(); } }
+        public Vector3[] normals;
+        public int[] triangles;
+        public void MarkDynamic() { }
+        public void RecalculateBounds() { }
+    }
     public class TextAsset : Object { public byte[] bytes; }
     public struct Vector3
     {
