@@ -95,11 +95,11 @@ struct Entry {
   int least, most;  // arguments
   Method method;
 };
-const std::vector<Entry>& methods();         // all of them
-const std::vector<Entry>& solver_methods();  // those of surface_solver.cpp
-const std::vector<Entry>& pose_methods();    // those of surface_pose.cpp
-const std::vector<Entry>& field_methods();   // those of surface_fields.cpp
-const std::vector<Entry>& region_methods();  // those of surface_regions.cpp
+const std::vector<Entry>& methods();           // all of them
+const std::vector<Entry>& solver_methods();    // those of surface_solver.cpp
+const std::vector<Entry>& pose_methods();      // those of surface_pose.cpp
+const std::vector<Entry>& field_methods();     // those of surface_fields.cpp
+const std::vector<Entry>& region_methods();    // those of surface_regions.cpp
 const std::vector<Entry>& retarget_methods();  // those of surface_retarget.cpp
 
 hf_solver solver_of(Surface& surface);  // made when there is none
