@@ -41,8 +41,7 @@ pub struct Retargeted {
     target: Vec<Entity>,
     /// how far they fit, and where a clip jumps: `reset`
     pub retarget: hf::Retarget,
-    source_pose: Vec<f32>,
-    target_pose: Vec<f32>,
+    pose: Vec<f32>,
 }
 
 /// A joint as the library wants it: translation, rotation x y z w, scale.
@@ -80,8 +79,7 @@ fn pair(new: Query<(Entity, &Retarget), (Without<Retargeted>, Without<DeformErro
         let made = source.and_then(|source| {
             let target = target?;
             let retarget = hf::Retarget::new(&source.skeleton, &target.skeleton, &wanted.options)?;
-            let (source_pose, target_pose) = (source.rest, target.rest);
-            Ok(Retargeted { source: source.entities, target: target.entities, retarget, source_pose, target_pose })
+            Ok(Retargeted { source: source.entities, target: target.entities, retarget, pose: source.rest })
         });
         match made {
             Ok(made) => {
@@ -97,17 +95,20 @@ fn pair(new: Query<(Entity, &Retarget), (Without<Retargeted>, Without<DeformErro
 
 fn play(mut playing: Query<&mut Retargeted>, mut joints: Query<&mut Transform>, time: Res<Time>) {
     for mut playing in &mut playing {
-        let Retargeted { source, target, retarget, source_pose, target_pose } = &mut *playing;
-        for (&entity, row) in source.iter().zip(source_pose.as_chunks_mut::<10>().0) {
+        let Retargeted { source, target, retarget, pose } = &mut *playing;
+        for (&entity, row) in source.iter().zip(pose.as_chunks_mut::<10>().0) {
             if let Ok(joint) = joints.get(entity) {
                 *row = numbers(joint);
             }
         }
-        if let Err(error) = retarget.solve_into(source_pose, time.delta_secs_f64(), target_pose) {
-            warn!("{error}");
-            continue;
-        }
-        for (&entity, &[x, y, z, a, b, c, d, u, v, w]) in target.iter().zip(target_pose.as_chunks::<10>().0) {
+        let posed = match retarget.solve(pose, time.delta_secs_f64()) {
+            Ok(posed) => posed,
+            Err(error) => {
+                warn!("{error}");
+                continue;
+            }
+        };
+        for (&entity, &[x, y, z, a, b, c, d, u, v, w]) in target.iter().zip(posed.as_chunks::<10>().0) {
             if let Ok(mut joint) = joints.get_mut(entity) {
                 *joint = Transform { translation: Vec3::new(x, y, z), rotation: Quat::from_xyzw(a, b, c, d), scale: Vec3::new(u, v, w) };
             }

@@ -1,5 +1,4 @@
 //! What all objects share: errors, checked slices, undo, places.
-use crate::call::known;
 use crate::raw;
 use std::ffi::CStr;
 use std::fmt;
@@ -145,17 +144,6 @@ fn exchange<T>(from: &mut Vec<T>, to: &mut Vec<T>, object: &mut T, nothing: &str
     std::mem::swap(object, &mut state);
     to.push(state);
     Ok(())
-}
-
-impl crate::Retarget {
-    /// As `solve`, into a slice of yours: a frame allocates nothing.
-    pub fn solve_into(&mut self, source_pose: &[f32], seconds: f64, target_pose: &mut [f32]) -> Result<()> {
-        let numbers = |skeleton| 10 * known(&self.counts, skeleton).unwrap_or(0);
-        of_length(source_pose, "source_pose", numbers("source.joint_count"))?;
-        of_length(target_pose, "target_pose", numbers("target.joint_count"))?;
-        // SAFETY: both slices are as long as the library reads and writes.
-        check(unsafe { raw::hf_retarget_solve(self.handle, source_pose.as_ptr(), seconds, target_pose.as_mut_ptr()) })
-    }
 }
 
 impl From<u32> for raw::hf_place {
