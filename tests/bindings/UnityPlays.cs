@@ -156,6 +156,7 @@ static class UnityPlays
         for (int frame = 0; frame < 20; ++frame)
         {
             man[0].localPosition = new Vector3(0, 1, 0.05f * frame);
+            man[0].localRotation = Turn(0, 1, 0, 0.02 * frame);
             man[3].localRotation = Turn(1, 0, 0, -0.05 * frame);
             Send(component, "LateUpdate");
             most = Math.Max(most, Far(Plain(robot), plain.Solve(Plain(man), Time.deltaTime)));
