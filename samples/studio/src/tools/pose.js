@@ -384,7 +384,7 @@ export class PoseTool {
           }),
           button('Back to rest', () => app.commit(this.with(handle.id, rest), 'back to rest'), { id: 'back' }),
           button('Remove', () => this.remove(handle), { id: 'remove' }),
-          button('Keep limb', () => app.commit(this.with(handle.id, { limb: !handle.limb }), 'keep the limb'), {
+          button('Keep limb lengths', () => app.commit(this.with(handle.id, { limb: !handle.limb }), 'keep the limb'), {
             id: 'limb',
             'aria-pressed': String(Boolean(handle.limb)),
             title: 'The limb of this handle keeps its lengths and bends like two bones; the body stays as it is',
