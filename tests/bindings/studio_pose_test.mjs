@@ -78,6 +78,16 @@ const dial = (following, limb = false) => dragged(0.2, { following, limb });
 const [all, part] = [1, 0.25].map((following) => pose.deform(dial(following), 'rest'));
 assert.ok(mean(part) < 0.8 * mean(all), `with .25 the body goes ${mean(part)} of the box, with 1 ${mean(all)}`);
 assert.ok(far(pose.deform(dragged(0.2), 'rest'), all) < 1e-5, 'a handle without a dial, as in an old session, has all');
+// a handle that is grabbed stands: its dial counts from its first move on. A link and a session keep it as text
+const third = { id: 'h2', radius: 0.3 * ends[0].radius, following: 0.25 };
+third.position = ends[0].position.map((x, k) => (x + ends[1].position[k]) / 2);
+const before = pose.deform(dial(1), 'rest');
+const grabbed = { ...third, ...JSON.parse(JSON.stringify(pose.grab(dial(1), [third])))[0] };
+const [x, y, z] = grabbed.translation;
+const stood = pose.deform([...dial(1), grabbed], 'rest');
+assert.ok(far(stood, before) < 1e-3, `a grabbed handle moves the body by ${far(stood, before)}`);
+const moved = [1, 0.25].map((following) => pose.deform([...dial(1), { ...grabbed, following, translation: [x, y + 1e-6, z] }], 'rest'));
+assert.ok(far(...moved) > 1e-4, 'moved, it has its dial');
 pose.deform(dial(0.25, true), 'rest');
 const kept = pose.deform(dial(0.25, true), 'exact');
 assert.ok(far(kept, part) > 1e-4, 'a limb that keeps its lengths is another');

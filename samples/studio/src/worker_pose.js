@@ -14,7 +14,12 @@ const LIVE_VERTICES = 6000;
 /** What a handle says beside its place: [name, its value, how the pose is told]. A rotation is given from where it stands. */
 const SETTINGS = [
   ['free', ({ free }) => Number(Boolean(free)), (pose, numbers, value) => pose.setFreeRotations(numbers, value)],
-  ['following', ({ following = 1 }) => following, (pose, numbers, value) => pose.setFollowing(numbers, value)],
+  // a handle that stands where it was grabbed moves nothing: what follows it counts from its first move on
+  [
+    'following',
+    ({ following = 1, from, translation }) => (from?.every((x, k) => x === translation[k]) ? 1 : following),
+    (pose, numbers, value) => pose.setFollowing(numbers, value),
+  ],
   ['limb', ({ limb }) => (limb ? LENGTH_STEPS : 0), (pose, numbers, value) => pose.setLimbRefine(numbers, value)],
 ];
 
@@ -104,8 +109,9 @@ export function poseOf(body) {
       change([...handles, ...added], true);
       grabbed = true;
       return held.slice(handles.length).map(({ number }) => {
-        const { rotation, translation } = pose.handle(number);
-        return { rotation, translation };
+        // plain lists: a link and a session keep them
+        const [rotation, translation] = [pose.handle(number).rotation, pose.handle(number).translation].map((x) => Array.from(x));
+        return { rotation, translation, from: translation };
       });
     },
     /**

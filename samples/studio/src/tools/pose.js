@@ -395,7 +395,8 @@ export class PoseTool {
           'How much follows',
           { value: handle.following ?? 1, low: 0, high: 1, step: 0.05, id: 'follows' },
           (following) => app.preview(this.with(handle.id, { following })),
-          () => app.commitPreview('how much follows'),
+          // other poses of least energy can be near: the one that an undo and a saved session show
+          () => app.commitPreview('how much follows').then(() => app.again()),
         ),
       make(
         'div',
