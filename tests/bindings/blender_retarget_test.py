@@ -144,6 +144,8 @@ knee_of_man = np.array(man.pose.bones["left_shin"].matrix)[:3, 3] - np.array(man
 assert np.dot(knee, knee_of_man) / np.linalg.norm(knee) / np.linalg.norm(knee_of_man) > 0.95, (knee, knee_of_man)
 assert far(bare.solve(pose_of(man), 0.0), seen[20]) > 1e-3, "the mesh tells nothing"
 
+assert panels.next_step(robot, None) == "robot follows man: play any clip."
+
 # ---- a clip that jumps back has forgotten its planted feet: the frame is that of a fresh player
 bpy.context.scene.frame_set(10)
 plain.reset()

@@ -11,6 +11,8 @@ from .operators import mesh_of
 def next_step(obj, found):
     """The sentence at the top of the tab. found: the session of the mesh, or None while it is not bound."""
     if obj is not None and obj.type == "ARMATURE":
+        if obj.hf_source:
+            return f"{obj.name} follows {obj.hf_source.name}: play any clip."
         return "Select the armature that moves, then this one, and press Follow armature."
     if obj is None or obj.type != "MESH":
         return "Select a mesh."
@@ -144,7 +146,7 @@ class HF_PT_retarget(Tool, bpy.types.Panel):
 
     def draw(self, context):
         super().draw(context)
-        self.layout.prop(context.active_object, "hf_source")
+        self.layout.prop(context.active_object, "hf_source", text="")
 
 
 class HF_PT_quads(Tool, bpy.types.Panel):
