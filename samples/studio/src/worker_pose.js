@@ -14,10 +14,12 @@ const LIVE_VERTICES = 6000;
 /** What a handle says beside its place: [name, its value, how the pose is told]. A rotation is given from where it stands. */
 const SETTINGS = [
   ['free', ({ free }) => Number(Boolean(free)), (pose, numbers, value) => pose.setFreeRotations(numbers, value)],
-  // a handle that stands where it was grabbed moves nothing: what follows it counts from its first move on
+  // A handle that stands where it was grabbed moves nothing: what follows it counts from its first move on. It takes as long
+  // as adding the handle, so a drag tells it a frame later.
   [
     'following',
-    ({ following = 1, from, translation }) => (from?.every((x, k) => x === translation[k]) ? 1 : following),
+    ({ following = 1, from, translation }, { fresh }) =>
+      fresh || from?.every((x, k) => x === translation[k]) ? 1 : following,
     (pose, numbers, value) => pose.setFollowing(numbers, value),
   ],
   ['limb', ({ limb }) => (limb ? LENGTH_STEPS : 0), (pose, numbers, value) => pose.setLimbRefine(numbers, value)],
@@ -49,7 +51,7 @@ export function poseOf(body) {
         inPlace,
       });
       added.forEach(({ id, position, radius }, i) =>
-        held.push({ id, position, radius, number: numbers[i], free: 0, following: 1, limb: 0 }),
+        held.push({ id, position, radius, number: numbers[i], fresh: true, free: 0, following: 1, limb: 0 }),
       );
     }
   };
@@ -71,10 +73,11 @@ export function poseOf(body) {
   };
 
   /** Tells the pose the settings that differ. */
-  const set = (handles) => {
+  const set = (handles, way) => {
+    if (way !== 'follow') for (const one of held) one.fresh = false;
     for (const [name, wanted, tell] of SETTINGS)
-      for (const value of new Set(handles.map(wanted))) {
-        const changed = held.filter((one, i) => one[name] !== value && wanted(handles[i]) === value);
+      for (const value of new Set(held.map((one, i) => wanted(handles[i], one)))) {
+        const changed = held.filter((one, i) => one[name] !== value && wanted(handles[i], one) === value);
         if (!changed.length) continue;
         tell(
           pose,
@@ -83,11 +86,12 @@ export function poseOf(body) {
         );
         for (const one of changed) one[name] = value;
       }
+    for (const one of held) one.fresh = false;
   };
 
-  const place = (handles) => {
+  const place = (handles, way) => {
     change(handles);
-    set(handles);
+    set(handles, way);
     pose.setTransforms(
       held.map(({ number }) => number),
       {
@@ -126,7 +130,7 @@ export function poseOf(body) {
         return body.positions.slice();
       }
       const known = new Set(held.map(({ number }) => number));
-      place(handles);
+      place(handles, way);
       const added = grabbed || held.some(({ number }) => !known.has(number));
       grabbed = false;
       const positions = pose.deform(null, {
