@@ -151,6 +151,31 @@ bpy.context.scene.frame_set(10)
 plain.reset()
 assert far(plain.solve(pose_of(man), 0.0), pose_of(robot)) < 1e-5
 
+# ---- a mesh whose handles are bones of the target follows them in the same frame
+def shown():
+    return np.array([v.co[:] for v in body.data.vertices])
+
+
+made = bpy.data.meshes.new("body")
+made.from_pydata([(x, y, 0.1 * z) for z in range(41) for x, y in ((0.3, 0.3), (-0.3, 0.3), (-0.3, -0.3), (0.3, -0.3))], [],
+    [(4 * z + k, 4 * z + (k + 1) % 4, 4 * z + 4 + (k + 1) % 4, 4 * z + 4 + k) for z in range(40) for k in range(4)])
+body = bpy.data.objects.new("body", made)
+bpy.context.scene.collection.objects.link(body)
+body.matrix_world = robot.matrix_world
+for name, first in (("left_foot", 0), ("hips", 76), ("head", 140)):
+    body.vertex_groups.new(name=name).add(range(first, first + 12), 1.0, "REPLACE")
+selected(robot, body)
+bpy.context.scene.frame_set(1)
+assert bpy.ops.hf.add_bones() == {"FINISHED"}
+rest = shown()
+bpy.context.scene.frame_set(20)
+seen_at_once = shown()
+bpy.ops.hf.update()
+went, late = np.abs(seen_at_once - rest).max(), np.abs(shown() - seen_at_once).max()
+assert went > 0.5 and late < 0.05 * went, (went, late)
+assert bpy.ops.hf.unbind() == {"FINISHED"}
+bpy.data.objects.remove(body)
+
 # ---- another bone in the target pairs again; a cleared source leaves the bones as they stand; a saved file goes on
 kept = retarget.players["robot"]
 bpy.context.view_layer.objects.active = robot

@@ -65,8 +65,9 @@ def on_depsgraph(scene, depsgraph):
 
 @persistent
 def on_frame(scene, depsgraph=None):
-    if depsgraph is not None:
-        retarget.play(scene, depsgraph)
+    if depsgraph is not None and retarget.play(scene, depsgraph) and session.sessions:
+        with operators.quiet():
+            depsgraph.view_layer.update()  # bones that carry handles have moved
     if scene.hf_live:
         follow(scene)
 

@@ -111,7 +111,8 @@ def start(source, target):
 
 
 def play(scene, depsgraph):
-    """A frame of every armature that follows another."""
+    """A frame of every armature that follows another. Returns whether there is one."""
+    played = False
     for target in scene.objects:
         source = target.hf_source if target.type == "ARMATURE" else None
         if source is None:
@@ -120,5 +121,7 @@ def play(scene, depsgraph):
             if target.name not in players or not players[target.name].fits(source, target):
                 start(source, target)
             players[target.name].play(scene, depsgraph, source, target)
+            played = True
         except (hf.HfError, KeyError) as error:
             print(f"hf: {target.name} does not follow {source.name}: {error}")
+    return played
