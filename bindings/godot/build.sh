@@ -39,4 +39,4 @@ case "$library" in
     ;;
 esac
 cp "$here/addon/hf.gdnlib" "$here/addon/hf_surface.gdns" "$out/hf/"
-sed -f "$here/godot3.sed" "$here/addon/hf_deformer.gd" >"$out/hf/hf_deformer.gd"
+for script in hf_deformer hf_retarget; do sed -f "$here/godot3.sed" "$here/addon/$script.gd" >"$out/hf/$script.gd"; done

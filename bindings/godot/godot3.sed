@@ -15,6 +15,12 @@ s/\.is_empty()/.empty()/g
 s/\.reverse()/.invert()/g
 s/\.instantiate()/.instance()/g
 s/\.get_rotation_quaternion()/.get_rotation_quat()/g
+s/\bSkeleton3D\b/Skeleton/g
+s/@export var \(\w*\): NodePath/export(NodePath) var \1/
+# poses of bones are relative to their rest
+s/skeleton\.get_bone_pose(bone)/(skeleton.get_bone_rest(bone) * skeleton.get_bone_pose(bone))/
+/set_bone_pose_position\|set_bone_pose_scale/d
+s/set_bone_pose_rotation(bone, turn)/set_bone_pose(bone, skeleton.get_bone_rest(bone).affine_inverse() * Transform(Basis(turn).x * size.x, Basis(turn).y * size.y, Basis(turn).z * size.z, place))/
 s/\bawait process_frame\b/yield(self, "idle_frame")/g
 s|res://addons/hf/|res://hf/|g
 # a global class in Godot 4

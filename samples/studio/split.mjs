@@ -65,19 +65,23 @@ function firstMinute(hf, faults) {
   const { positions, triangles } = body(faults);
   const surface = new hf.Surface(positions, triangles, { linkPieces: true });
   const [pose, field] = [poseOf, fieldOf].map((make) => make({ hf, surface, positions }));
-  void [surface.report, surface.components(), surface.statistics];
+  void [surface.report, surface.linksInfo, surface.components(), surface.statistics];
 
   const place = ({ position, radius }, id) => ({ id, position, radius, ...rest });
   let handles = surface.proposeHandles().slice(0, 3).map(place);
-  const pulled = () => handles.map((handle, i) => (i === 1 ? { ...handle, translation: [0.1, 0.2, 0] } : handle));
+  // a drag frees the rotation of a tip, and little follows it
+  const tip = { following: 0.25, free: true };
+  const pulled = (id, x) => handles.map((handle) => (handle.id === id ? { ...handle, ...tip, translation: [x, 0.2, 0] } : handle));
   pose.deform(handles, 'exact');
-  handles = pulled();
-  pose.deform(handles, 'follow');
+  for (const x of [0.1, 0.15]) pose.deform((handles = pulled(1, x)), 'follow');
   pose.deform(handles, 'rest');
   const added = [place({ position: Array.from(positions.subarray(900, 903)), radius: 0.2 }, 'added')];
   handles = [...handles, { ...added[0], ...pose.grab(handles, added)[0] }];
   pose.deform(handles, 'follow');
   pose.deform(handles, 'exact');
+  for (const x of [0.1, 0.15]) pose.deform((handles = pulled('added', x)), 'follow');
+  pose.deform(handles, 'exact');
+  pose.deform(handles.map((handle) => ({ ...handle, free: false, following: 1 })), 'rest');
   pose.deform(handles.slice(1), 'rest');
   // so many sites that the library factorises the rest of the body: a handle around each twelfth ring of the first tube
   const middle = (ring) =>

@@ -456,6 +456,31 @@ bent = mesh_data.positions_of(post.data)
 np.testing.assert_allclose(bent[list(feet[0]["hf_vertices"])], post_points[list(feet[0]["hf_vertices"])], atol=1e-5)
 assert np.abs(bent - post_points).max() > 0.9
 
+# ---- a proposed tip hardly moves what is not its limb; a saved file keeps the dial, and a file of before has 1
+rest_of_body = post_points[:, 2] < 2.5
+
+
+def body_moves(following):
+    tips[0].hf_following = following
+    for _ in range(40):
+        bpy.ops.hf.update()
+    return np.linalg.norm(mesh_data.positions_of(post.data) - post_points, axis=1)[rest_of_body].mean()
+
+
+assert tips[0].hf_following == 0.25 and feet[0].hf_following == 1 and held.pose.handle(held.numbers[tips[0]["hf_id"]]).following == 0.25
+whole, tip_alone = body_moves(1.0), body_moves(0.25)
+assert tip_alone < 0.7 * whole, (tip_alone, whole)
+tips[0].hf_limb = True  # without the operator: the panel does the same
+assert held.pose.handle(held.numbers[tips[0]["hf_id"]]).limb_refine == 8
+tips[0].hf_limb = False
+saved = os.path.join(os.path.dirname(PICTURE), "tips.blend")
+bpy.ops.wm.save_as_mainfile(filepath=saved, copy=True)
+with bpy.data.libraries.load(saved) as (_, into):
+    into.objects = [tips[0].name]
+assert into.objects[0].hf_following == 0.25 and bpy.data.objects["bar"].hf_following == 1
+bpy.data.objects.remove(into.objects[0])
+bent = mesh_data.positions_of(post.data)
+
 # ---- the drag has freed the rotation of the tip; turning its empty gives it from there without a jump; a drag frees it again
 tip, region = tips[0], list(tips[0]["hf_vertices"])
 handle_of = lambda empty: held.pose.handle(held.numbers[empty["hf_id"]])

@@ -5,6 +5,7 @@
 extends SceneTree
 
 const Deformer = preload("res://addons/hf/hf_deformer.gd")
+const Player = preload("res://addons/hf/hf_retarget.gd")
 const Host = preload("res://host.gd")
 var meshes = {}
 var failed = 0
@@ -541,9 +542,128 @@ func imported():
 		deformer.update()
 	after = deformer.rotation_of(deformer.surface.handle_info(number_of))
 	expect(deformer.surface.handle_info(number_of).free_rotation == 1, "a rotation is freed again")
+	following(deformer, moved, size)
 	print("imported glb: ", rest.size(), " vertices posed")
 	root_node.free()
 	deformer.free()
+
+# A tip that is dragged hardly moves what it does not pull: the middle of the body.
+func following(deformer, moved, size):
+	var rest = deformer.arrays[Mesh.ARRAY_VERTEX]
+	var sums = []
+	var share = deformer.TIP_FOLLOWING
+	for follows in [1.0, share, 1.0]:
+		deformer.set_following(moved, follows)
+		var posed = []
+		for i in 60:
+			posed = deformer.update()
+		var sum = 0.0
+		for i in rest.size():
+			sum += posed[i].distance_to(rest[i])
+		sums.append(sum / rest.size() / size)
+	expect(sums[1] < 0.7 * sums[0] and abs(sums[2] - sums[0]) < 1e-3, "how much follows: the body goes %s of its size" % [sums])
+	expect(deformer.handles[moved].following == 1.0 and deformer.surface.handle_info(deformer.handles[moved].number).following == 1.0,
+		"the dial is kept")
+	deformer.keep_lengths(moved)
+	expect(deformer.surface.handle_info(deformer.handles[moved].number).limb_refine == 8, "the limb keeps its lengths")
+	expect(deformer.surface.set_following([deformer.handles[moved].number], 2) == null, "a wrong dial is refused")
+	for row in deformer.surface.propose_handles():
+		var added = deformer.add_proposed(row)
+		if added != null:
+			expect(deformer.handles[added].following == (1.0 if row.pinned else share), "a tip is proposed with a quarter")
+
+# A body of bones whose frames are turned by `roll` about x, which moves no bone.
+func skeleton(size, roll):
+	var made = Skeleton3D.new()
+	var turn = Basis(Vector3(1, 0, 0), roll)
+	for bone in BONES:
+		made.add_bone(bone[0])
+		var index = made.get_bone_count() - 1
+		made.set_bone_parent(index, bone[1])
+		var place = bone[2] * size
+		var rest = Transform3D(turn, place) if bone[1] < 0 else Transform3D(Basis(), turn.inverse() * place)
+		made.set_bone_rest(index, rest)
+		put(made, index, rest)
+	return made
+
+func put(skeleton, bone, transform):
+	var place = transform.origin
+	var turn = transform.basis.get_rotation_quaternion()
+	var size = Vector3(1, 1, 1)
+	skeleton.set_bone_pose_position(bone, place)
+	skeleton.set_bone_pose_rotation(bone, turn)
+	skeleton.set_bone_pose_scale(bone, size)
+
+# Where a bone is in the skeleton, with what its parents do.
+func place_of(skeleton, bone):
+	var place = Transform3D()
+	while bone >= 0:
+		place = skeleton.get_bone_pose(bone) * place
+		bone = skeleton.get_bone_parent(bone)
+	return place
+
+const BONES = [["hips", -1, Vector3(0, 1, 0)], ["spine", 0, Vector3(0, 0.3, 0)], ["head", 1, Vector3(0, 0.4, 0)],
+	["left_thigh", 0, Vector3(0.1, -0.05, 0)], ["left_shin", 3, Vector3(0, -0.45, 0.02)], ["left_foot", 4, Vector3(0, -0.42, -0.02)],
+	["right_thigh", 0, Vector3(-0.1, -0.05, 0)], ["right_shin", 6, Vector3(0, -0.45, 0.02)], ["right_foot", 7, Vector3(0, -0.42, -0.02)]]
+
+# A frame of hf_retarget.gd is what the library makes of the plain arrays.
+func retargeted():
+	var man = skeleton(1, 0)
+	var robot = skeleton(2, 1.2)
+	var player = Player.new()
+	expect(player.bind(man, robot), "skeletons are paired")
+	var plain = HfSurface.new()
+	var names = []
+	var parents = []
+	var rests = [[], []]
+	for bone in BONES.size():
+		names.append(BONES[bone][0])
+		parents.append(BONES[bone][1])
+		for one in 2:
+			var size = one + 1
+			var place = BONES[bone][2] * size
+			var half = 0.6 * one
+			if bone == 0:
+				rests[one] += [place.x, place.y, place.z, sin(half), 0, 0, cos(half), 1, 1, 1]
+			else:
+				place = Basis(Vector3(1, 0, 0), -2 * half) * place
+				rests[one] += [place.x, place.y, place.z, 0, 0, 0, 1, 1, 1, 1]
+	var text = names[0]
+	for i in range(1, names.size()):
+		text += "\n" + names[i]
+	expect(plain.retarget_create(text, parents, rests[0], text, parents, rests[1]) == true, str(plain.get_error()))
+	expect(plain.retarget_info().matched_joint_count == 9 and abs(plain.retarget_info().scale - 2) < 0.01, "every bone has its partner")
+	var most = 0.0
+	var pose = rests[0].duplicate()
+	for frame in 20:
+		pose[2] = 0.05 * frame
+		pose[33] = sin(-0.025 * frame)
+		pose[36] = cos(0.025 * frame)
+		put(man, 0, Transform3D(Basis(), Vector3(0, 1, pose[2])))
+		put(man, 3, Transform3D(Basis(Vector3(1, 0, 0), -0.05 * frame), BONES[3][2]))
+		player.play(0.04)
+		var wanted = plain.retarget_solve(pose, 0.04)
+		for bone in BONES.size():
+			var place = Vector3(wanted[10 * bone], wanted[10 * bone + 1], wanted[10 * bone + 2])
+			var turn = Quaternion(wanted[10 * bone + 3], wanted[10 * bone + 4], wanted[10 * bone + 5], wanted[10 * bone + 6])
+			var stands = player.pose_of(robot, bone)
+			most = max(most, max(stands.origin.distance_to(place), 1 - abs(stands.basis.get_rotation_quaternion().dot(turn))))
+	expect(most < 1e-5, "a frame differs from the plain arrays by %s" % most)
+	var knee = place_of(robot, 4).origin - place_of(robot, 3).origin
+	var knee_of_man = place_of(man, 4).origin - place_of(man, 3).origin
+	expect(knee.distance_to(2 * knee_of_man) < 0.05 and place_of(robot, 0).origin.z > 1.8, "the robot walks as the man does")
+	player.reset()
+	put(man, 3, Transform3D(Basis(), Vector3(NAN, 0, 0)))
+	var stood = place_of(robot, 4)
+	player.play(0.04)
+	expect(place_of(robot, 4) == stood, "a refused frame changes nothing")
+	var rock = Skeleton3D.new()
+	rock.add_bone("rock")
+	expect(not player.bind(rock, robot) and player.from == man, "a skeleton without a partner is refused, and the old one stays")
+	expect(plain.retarget_create("a", [0], [0, 0], "a", [-1], rests[1]) == null and plain.retarget_solve([1], 0) == null, "wrong lists are refused")
+	for made in [man, robot, rock, player]:
+		made.free()
+	print("retarget: ", BONES.size(), " bones of one skeleton follow another")
 
 func _initialize():
 	for name in ["strip", "torus", "bar", "long_bar", "small", "lonely", "pair"]:
@@ -554,5 +674,6 @@ func _initialize():
 	expect(done > 500 and wrong >= 275, "too few steps")
 	lifetime()
 	memory()
+	retargeted()
 	imported()
 	quit(1 if failed > 0 else 0)

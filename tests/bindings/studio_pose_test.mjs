@@ -1,4 +1,5 @@
-// The pose of the studio (samples/studio/src/worker_pose.js) in node, with the native library: free and given rotations.
+// The pose of the studio (samples/studio/src/worker_pose.js) in node, with the native library: free and given rotations,
+// and how much follows a handle.
 // HF_LIBRARY: the shared library; HF_NODE_MODULES: where koffi is.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -71,6 +72,30 @@ for (let i = 0; i <= 20; ++i) {
   assert.ok(far(shown, last) < 0.03, `frame ${i} of the second drag jumps by ${far(shown, last)} of the box`);
   last = shown;
 }
+// the dial: what does not belong to the limb of the hand stays nearer to rest, and the handles alone decide
+const mean = (shown) => shown.reduce((sum, x, i) => sum + Math.abs(x - positions[i]), 0) / shown.length / box;
+const dial = (following, limb = false) => dragged(0.2, { following, limb });
+const [all, part] = [1, 0.25].map((following) => pose.deform(dial(following), 'rest'));
+assert.ok(mean(part) < 0.8 * mean(all), `with .25 the body goes ${mean(part)} of the box, with 1 ${mean(all)}`);
+assert.ok(far(pose.deform(dragged(0.2), 'rest'), all) < 1e-5, 'a handle without a dial, as in an old session, has all');
+// a handle that is grabbed stands: its dial counts from its first move on. A link and a session keep it as text
+const third = { id: 'h2', radius: 0.3 * ends[0].radius, following: 0.25 };
+third.position = ends[0].position.map((x, k) => (x + ends[1].position[k]) / 2);
+const before = pose.deform(dial(1), 'rest');
+const grabbed = { ...third, ...JSON.parse(JSON.stringify(pose.grab(dial(1), [third])))[0] };
+const [x, y, z] = grabbed.translation;
+const stood = pose.deform([...dial(1), grabbed], 'rest');
+assert.ok(far(stood, before) < 1e-3, `a grabbed handle moves the body by ${far(stood, before)}`);
+const moved = [1, 0.25].map((following) => pose.deform([...dial(1), { ...grabbed, following, translation: [x, y + 1e-6, z] }], 'rest'));
+assert.ok(far(...moved) > 1e-4, 'moved, it has its dial');
+pose.deform(dial(0.25, true), 'rest');
+const kept = pose.deform(dial(0.25, true), 'exact');
+assert.ok(far(kept, part) > 1e-4, 'a limb that keeps its lengths is another');
+const fresh = poseOf(body);
+assert.ok(far(fresh.deform(dial(0.25, true), 'exact'), kept) < 1e-9, 'the same dial from the start gives the same body');
+fresh.close();
+assert.throws(() => pose.deform(dial(2), 'rest'), /following/);
+assert.ok(far(pose.deform(dial(0.25, true), 'exact'), kept) < 1e-9, 'a refused dial changes nothing');
 pose.close();
 surface.close();
 console.log(`studio pose: the drag turned the handle by ${((found * 180) / Math.PI).toFixed(0)} degrees`);

@@ -243,6 +243,71 @@ export default async function story(host) {
       assert.ok(third[0] !== second[0] && third[1] < second[1]);
     },
   );
+  await check('a dragged hand moves the head by less than .03 of the box; saved and opened again it still does', async () => {
+    const other = await Studio.open(host, { query: '' });
+    await other.page.selectOption('#sample', 'biped');
+    await other.page.waitForFunction(() => window.hfStudio.body.name === 'biped.glb' && window.hfStudio.skin.bvh);
+    await other.settle();
+    /** The highest vertex at rest is the head's. */
+    const head = () =>
+      other.page.evaluate(() => {
+        const { body, skin } = window.hfStudio;
+        const at = [0, 1, 2].map((k) => body.positions.filter((_, i) => i % 3 === k));
+        const box = Math.hypot(...at.map((list) => list.reduce((a, b) => Math.max(a, b)) - list.reduce((a, b) => Math.min(a, b))));
+        const top = at[1].indexOf(at[1].reduce((a, b) => Math.max(a, b)));
+        return Math.hypot(...at.map((list, k) => skin.positions[3 * top + k] - list[top])) / box;
+      });
+    // the offer that is farthest aside is a hand
+    const hand = await other.page.evaluate(() => {
+      const { pose } = window.hfStudio.tools;
+      const free = pose.offers.filter(({ pinned }) => !pinned);
+      return free.reduce((a, b) => (Math.abs(b.position[0]) > Math.abs(a.position[0]) ? b : a)).label;
+    });
+    const { x, y } = await other.mark(hand);
+    await other.drag(x, y, x > 500 ? -60 : 60, -120);
+    const dial = () => other.page.evaluate(() => window.hfStudio.state.handles.at(-1).following);
+    const set = async (value) => {
+      await other.page.locator('#follows').fill(String(value));
+      await other.page.locator('#follows').dispatchEvent('change');
+      await other.settle();
+    };
+    assert.equal(await dial(), 0.25);
+    const tip = await head();
+    await other.page.evaluate(() => window.hfStudio.again()); // a picture that no drag has a part in
+    await other.picture('pose_follows');
+    await set(1);
+    const all = await head();
+    assert.equal(await dial(), 1);
+    await other.page.keyboard.press('Control+z');
+    await other.settle();
+    const back = await head();
+    assert.equal(await dial(), 0.25);
+    await other.page.click('#limb');
+    await other.settle();
+    const limb = await head();
+    assert.equal(await other.page.locator('#limb').getAttribute('aria-pressed'), 'true');
+    await other.written();
+    await other.page.reload();
+    await other.ready();
+    await other.page.waitForFunction(() => window.hfStudio.state.handles.at(-1).limb);
+    await other.settle();
+    const again = await head();
+    assert.equal(await dial(), 0.25);
+    // a session of before has no dial
+    await other.page.evaluate(async () => {
+      const app = window.hfStudio;
+      const handles = app.state.handles.map(({ following, limb, ...handle }) => handle);
+      await app.take({ ...app.state, handles });
+    });
+    const old = await head();
+    const told = `the head goes ${tip.toFixed(4)} of the box, ${all.toFixed(4)} where all follows`;
+    assert.ok(tip < 0.03 && tip < 0.7 * all, told);
+    for (const same of [back, again, limb]) assert.ok(Math.abs(same - tip) < 2e-3, `${told}; later ${same}`);
+    assert.ok(Math.abs(old - all) < 5e-3, `${told}; in an old session ${old}`);
+    assert.deepEqual(other.complaints, []);
+    await other.close();
+    return told;
+  });
   await check('pieces that a pose pulls apart are said', async () => {
     await page.setInputFiles('#file', {
       name: 'near.obj',

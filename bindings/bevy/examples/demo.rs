@@ -136,7 +136,7 @@ fn headless(model: &str, out: &str) -> Result<(), String> {
 
     let (mut pose, mut solve, mut whole) = (vec![], vec![], vec![]);
     for (k, &(point, radius)) in tips.iter().take(3).enumerate() {
-        let handle = app.world_mut().spawn(DeformHandle::at(deformer, point, radius)).id(); // while posed: no factorisation
+        let handle = app.world_mut().spawn(DeformHandle::tip(deformer, point, radius)).id(); // while posed: no factorisation
         for frame in 0..=FRAMES {
             app.world_mut().get_mut::<Transform>(handle).unwrap().translation = point + path(&stage, frame);
             let begin = Instant::now();
@@ -266,7 +266,7 @@ mod window {
                 if let Some(last) = drag.handle.take() {
                     world.despawn(last);
                 }
-                drag.handle = Some(world.spawn(DeformHandle::at(deformer, point, radius)).id());
+                drag.handle = Some(world.spawn(DeformHandle::tip(deformer, point, radius)).id());
             }
             world.get_mut::<Transform>(drag.handle.unwrap()).unwrap().translation = point + path(&stage, drag.frame % FRAMES);
             drag.frame += 1;

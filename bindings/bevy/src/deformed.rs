@@ -1,6 +1,6 @@
 //! The state of a bound deformer: its surface, its pose, and the meshes that it writes.
 use crate::shading::Shading;
-use crate::{DeformHandle, HandleRotation, Wanted};
+use crate::{DeformHandle, HandleLimb, HandleRotation, Wanted};
 use bevy::ecs::entity::EntityHashMap;
 use bevy::math::{Affine3A, DQuat, DVec3, Mat3A, Vec3A};
 use bevy::mesh::VertexAttributeValues;
@@ -15,6 +15,8 @@ use std::time::{Duration, Instant};
 const SETTLED: f64 = 1e-5;
 /// 1 minus the cosine of half an angle. An entity that turns by more was turned: single precision rounds by less.
 const TURNED: f64 = 1e-11;
+/// The least steps that hf_pose_set_limb_refine gives for lengths.
+const LENGTH_STEPS: i32 = 8;
 
 /// A mesh of the surface.
 pub(crate) struct Part {
@@ -52,6 +54,8 @@ struct Grip {
     turned: bool,
     /// the rotation of the region where the entity has none
     offset: DQuat,
+    /// what the pose was told
+    limb: HandleLimb,
     /// the place of its entity was refused
     failed: bool,
 }
@@ -260,8 +264,8 @@ impl DeformedMesh {
     }
 
     fn keep(&mut self, wanted: &Wanted, number: Option<u32>, centroid: DVec3) {
-        let (free, turned, offset) = (false, false, DQuat::IDENTITY);
-        let grip = Grip { handle: wanted.handle, number, centroid, transform: AT_REST, free, turned, offset, failed: false };
+        let (free, turned, offset, limb) = (false, false, DQuat::IDENTITY, default());
+        let grip = Grip { handle: wanted.handle, number, centroid, transform: AT_REST, free, turned, offset, limb, failed: false };
         self.grips.insert(wanted.entity, grip);
     }
 
@@ -272,6 +276,11 @@ impl DeformedMesh {
             let Some(grip) = self.grips.get_mut(&wanted.entity) else { continue };
             let Some(number) = grip.number else { continue };
             let placed = motion(wanted, grip.centroid).and_then(|transform| {
+                if grip.handle.layer == 0 && grip.limb != wanted.limb {
+                    self.pose.set_following(&[number], wanted.limb.following)?;
+                    self.pose.set_limb_refine(&[number], if wanted.limb.keep_lengths { LENGTH_STEPS } else { 0 })?;
+                    (grip.limb, moved) = (wanted.limb, true);
+                }
                 let free = grip.wants_free(wanted.rotation, &transform);
                 if grip.free != free {
                     if grip.free && grip.handle.layer == 0 {

@@ -3,9 +3,11 @@
 #![allow(clippy::type_complexity)] // queries are long types
 mod bind;
 mod deformed;
+mod retarget;
 mod shading;
 
 pub use crate::deformed::DeformedMesh;
+pub use crate::retarget::{Retarget, RetargetPlugin, Retargeted};
 pub use hf;
 
 use bevy::asset::AssetEventSystems;
@@ -66,7 +68,7 @@ impl Default for Deformer {
 /// region moves rigidly with the entity, and turns as [`HandleRotation`] says. Scale is ignored. The entity can be a child of anything. Spawn, change and despawn
 /// handles at any time: nothing is factorised again. A handle that is refused gets a [`DeformError`].
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
-#[require(Transform, HandleRotation)]
+#[require(Transform, HandleRotation, HandleLimb)]
 pub struct DeformHandle {
     /// the entity with the [`Deformer`]
     pub deformer: Entity,
@@ -79,9 +81,32 @@ pub struct DeformHandle {
 }
 
 impl DeformHandle {
-    /// A handle at its rest place, as a child of the deformer.
+    /// A handle at its rest place, as a child of the deformer. All of the surface follows it.
     pub fn at(deformer: Entity, point: Vec3, radius: f32) -> impl Bundle {
         (DeformHandle { deformer, point, radius, layer: 0 }, Transform::from_translation(point), ChildOf(deformer))
+    }
+
+    /// A handle as [`DeformHandle::at`] for a tip that is dragged, such as a hand: its limb follows, and the body hardly leans.
+    pub fn tip(deformer: Entity, point: Vec3, radius: f32) -> impl Bundle {
+        (Self::at(deformer, point, radius), HandleLimb { following: TIP_FOLLOWING, ..default() })
+    }
+}
+
+/// How much follows a tip: its limb, and a quarter of what the body would lean. hf_deform_script takes the same.
+pub const TIP_FOLLOWING: f64 = 0.25;
+
+/// How the surface follows a [`DeformHandle`] of layer 0. Handles of other layers ignore it.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct HandleLimb {
+    /// 1: all of the surface follows the handle; 0: its limb alone, such as an arm
+    pub following: f64,
+    /// the limb keeps its lengths and bends like two bones; the rest stays as it is
+    pub keep_lengths: bool,
+}
+
+impl Default for HandleLimb {
+    fn default() -> Self {
+        HandleLimb { following: 1.0, keep_lengths: false }
     }
 }
 
@@ -124,18 +149,19 @@ struct Wanted {
     entity: Entity,
     handle: DeformHandle,
     rotation: HandleRotation,
+    limb: HandleLimb,
     place: Affine3A,
 }
 
 fn pose_meshes(
     mut deformed: Query<(Entity, &mut DeformedMesh, &Deformer)>,
-    handles: Query<(Entity, &DeformHandle, &HandleRotation)>,
+    handles: Query<(Entity, &DeformHandle, &HandleRotation, &HandleLimb)>,
     places: Places,
 ) {
     let mut wanted: EntityHashMap<Vec<Wanted>> = default();
-    for (entity, &handle, &rotation) in &handles {
+    for (entity, &handle, &rotation, &limb) in &handles {
         if let Some(place) = place_in(&places, entity, handle.deformer) {
-            wanted.entry(handle.deformer).or_default().push(Wanted { entity, handle, rotation, place });
+            wanted.entry(handle.deformer).or_default().push(Wanted { entity, handle, rotation, limb, place });
         }
     }
     // a pose depends on the order in which its handles are added, and a query has none

@@ -17,7 +17,7 @@ import hf  # noqa: E402
 import bpy  # noqa: E402
 from bpy.app.handlers import persistent  # noqa: E402
 
-from . import carriers, operators, panels, quad_operators, quads, rig, session, skinning  # noqa: E402
+from . import carriers, operators, panels, quad_operators, quads, retarget, rig, session, skinning  # noqa: E402
 from .operators import refresh  # noqa: E402
 
 
@@ -64,7 +64,10 @@ def on_depsgraph(scene, depsgraph):
 
 
 @persistent
-def on_frame(scene, *_):
+def on_frame(scene, depsgraph=None):
+    if depsgraph is not None and retarget.play(scene, depsgraph) and session.sessions:
+        with operators.quiet():
+            depsgraph.view_layer.update()  # bones that carry handles have moved
     if scene.hf_live:
         follow(scene)
 
@@ -72,6 +75,11 @@ def on_frame(scene, *_):
 def on_lengths(scene, context):
     if scene.hf_live:
         follow(scene)
+
+
+def on_handle(carrier, context):
+    if context.scene.hf_live and not operators.busy() and "hf_key" in carrier:
+        follow(context.scene, {carrier["hf_key"]})
 
 
 @persistent
@@ -87,12 +95,14 @@ def on_undo(*_):
 def on_load(*_):
     skinning.forget()
     rig.forget_motions()
+    retarget.forget()
     session.sessions.clear()  # the next use binds again, from the rest positions kept in the mesh
     quads.forget()
     quads.known = None
 
 
 CLASSES = (*operators.OPERATORS, *quad_operators.CLASSES, *panels.PANELS)
+CARRIERS = (bpy.types.Object, bpy.types.PoseBone)  # of handles
 HANDLERS = (("depsgraph_update_post", on_depsgraph), ("frame_change_post", on_frame), ("undo_post", on_undo),
     ("redo_post", on_undo), ("load_post", on_load))
 
@@ -105,6 +115,14 @@ def register():
         description="Follow the handles while they are dragged")
     bpy.types.Scene.hf_lengths = bpy.props.BoolProperty(name="Keep lengths", default=False, update=on_lengths,
         description="Limbs keep their length and thickness; bends get sharper, and a pose takes longer")
+    for carrier in CARRIERS:
+        carrier.hf_following = bpy.props.FloatProperty(name="How much follows", default=1, min=0, max=1, update=on_handle,
+            description="1: the whole mesh follows this handle; 0: its limb alone, such as an arm")
+        carrier.hf_limb = bpy.props.BoolProperty(name="Keep lengths of the limb", update=on_handle,
+            description="The limb of this handle keeps its lengths and bends like two bones; the rest stays as it is")
+    bpy.types.Object.hf_source = bpy.props.PointerProperty(name="Follows", type=bpy.types.Object,
+        poll=lambda self, other: other.type == "ARMATURE" and other != self,
+        description="The armature whose motion this one plays; clear it and the bones stay as they are")
     bpy.types.Object.hf_quads = bpy.props.PointerProperty(type=quad_operators.HF_PG_quads)
     for name, (label, neutral, least, most, description) in operators.DIALS.items():
         unit = {"subtype": "ANGLE"} if name == "arm_space" else {}
@@ -123,7 +141,11 @@ def unregister():
     quads.known = None
     skinning.forget()
     rig.forget_motions()
+    retarget.forget()
     session.sessions.clear()
+    for carrier in CARRIERS:
+        del carrier.hf_following, carrier.hf_limb
+    del bpy.types.Object.hf_source
     del bpy.types.Object.hf_quads
     del bpy.types.Scene.hf_live
     del bpy.types.Scene.hf_lengths

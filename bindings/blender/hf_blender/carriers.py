@@ -81,6 +81,8 @@ def unmark(carrier):
     for name in PROPERTIES:
         if name in carrier:
             del carrier[name]
+    for name in ("hf_following", "hf_limb"):
+        carrier.property_unset(name)
 
 
 def motion_of(to_local, carrier):

@@ -6,7 +6,7 @@ import bpy
 
 import hf
 
-from . import carriers, mesh_data, rig, session, skinning
+from . import carriers, mesh_data, retarget, rig, session, skinning
 
 _busy = 0
 
@@ -298,6 +298,23 @@ class HF_OT_dials(bpy.types.Operator):
         say_idle_dials(self, target, context.scene)
 
 
+class HF_OT_retarget(bpy.types.Operator):
+    """The active armature follows the other selected armature in every frame: any clip plays on it, live"""
+    bl_idname, bl_label, bl_options = "hf.retarget", "Follow armature", {"REGISTER", "UNDO"}
+    source: bpy.props.StringProperty(name="Source", description="Empty: the other selected armature")
+
+    @guarded
+    def execute(self, context):
+        target = context.active_object
+        source = bpy.data.objects.get(self.source) if self.source else next((o for o in context.selected_objects
+            if o != target and o.type == "ARMATURE"), None)
+        if source is None or source.type != "ARMATURE" or target is None or target.type != "ARMATURE" or source == target:
+            raise hf.InvalidArgumentError("select the armature that moves, then the armature that follows")
+        info = retarget.start(source, target).retarget.info
+        retarget.play(context.scene, context.evaluated_depsgraph_get())
+        self.report({"INFO"}, f"{info.matched_joint_count} of {info.target_joint_count} bones follow {source.name}")
+
+
 def mesh_and_armature(context):
     """The selected mesh and the selected armature; else the armature that moves the mesh already."""
     obj = next((o for o in [context.active_object, *context.selected_objects] if o and o.type == "MESH"), None)
@@ -379,5 +396,5 @@ class HF_OT_mirror_weights(bpy.types.Operator):
 
 
 OPERATORS = (HF_OT_bind, HF_OT_unbind, HF_OT_add_handle, HF_OT_add_groups, HF_OT_add_bones, HF_OT_propose, HF_OT_remove_handle,
-    HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer, HF_OT_dials, HF_OT_weights_from_bones,
+    HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer, HF_OT_dials, HF_OT_retarget, HF_OT_weights_from_bones,
     HF_OT_pin_weights, HF_OT_carry_weights, HF_OT_mirror_weights)

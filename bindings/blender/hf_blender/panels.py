@@ -10,6 +10,10 @@ from .operators import mesh_of
 
 def next_step(obj, found):
     """The sentence at the top of the tab. found: the session of the mesh, or None while it is not bound."""
+    if obj is not None and obj.type == "ARMATURE":
+        if obj.hf_source:
+            return f"{obj.name} follows {obj.hf_source.name}: play any clip."
+        return "Select the armature that moves, then this one, and press Follow armature."
     if obj is None or obj.type != "MESH":
         return "Select a mesh."
     if not len(obj.data.polygons):
@@ -96,6 +100,12 @@ class HF_PT_pose(Tool, bpy.types.Panel):
         super().draw(context)
         self.layout.prop(context.scene, "hf_live")
         self.layout.prop(context.scene, "hf_lengths")
+        carrier = operators.active_carrier(context)
+        if carrier is not None and not carrier["hf_layer"]:
+            column = self.layout.column(align=True)
+            column.label(text=carrier.name)
+            column.prop(carrier, "hf_following", slider=True)
+            column.prop(carrier, "hf_limb")
 
 
 class HF_PT_field(Tool, bpy.types.Panel):
@@ -124,6 +134,19 @@ class HF_PT_transfer(Tool, bpy.types.Panel):
         for name in operators.DIALS:
             column.prop(context.scene, f"hf_{name}")
         column.operator("hf.dials")
+
+
+class HF_PT_retarget(Tool, bpy.types.Panel):
+    bl_label, bl_idname = "Retarget", "HF_PT_retarget"
+    buttons = (("hf.retarget", ""),)
+
+    @classmethod
+    def poll(cls, context):
+        return context.active_object is not None and context.active_object.type == "ARMATURE"
+
+    def draw(self, context):
+        super().draw(context)
+        self.layout.prop(context.active_object, "hf_source", text="")
 
 
 class HF_PT_quads(Tool, bpy.types.Panel):
@@ -158,4 +181,4 @@ class HF_PT_quads(Tool, bpy.types.Panel):
             say(self.layout, context, f"The quads stay as they were: {state.error}", "ERROR")
 
 
-PANELS = (HF_PT_panel, HF_PT_pose, HF_PT_field, HF_PT_weights, HF_PT_transfer, HF_PT_quads)
+PANELS = (HF_PT_panel, HF_PT_pose, HF_PT_field, HF_PT_weights, HF_PT_transfer, HF_PT_retarget, HF_PT_quads)

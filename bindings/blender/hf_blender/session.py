@@ -83,6 +83,7 @@ class Session:
         self.pose = hf.Pose(self.surface)
         self.numbers = {}  # hf_id -> handle
         self.free = set()  # hf_id of handles whose rotation the pose finds
+        self.limbs = {}  # hf_id -> how much follows, and the steps on the limb, of handles of layer 0
         self.placed = {}  # hf_id -> matrix of the last update
         self.posed = self.rest.copy()
         obj["hf_key"] = obj.get("hf_key") or uuid.uuid4().hex
@@ -102,6 +103,7 @@ class Session:
             self.pose.remove_handles([self.numbers[i] for i in gone])
             for i in gone:
                 del self.numbers[i]
+                self.limbs.pop(i, None)
             self.free.difference_update(gone)
         for layer in sorted({int(found[i].get("hf_layer", 0)) for i in fresh}):
             batch = [i for i in fresh if int(found[i].get("hf_layer", 0)) == layer]
@@ -122,6 +124,17 @@ class Session:
             if changed:
                 self.pose.set_free_rotations([self.numbers[i] for i in sorted(changed)], free)
         self.free = wanted
+
+    def set_limbs(self, found):
+        """Tells the pose how much follows, and whose limbs keep their lengths, where that has changed."""
+        wanted = {i: (c.hf_following, LENGTH_STEPS * c.hf_limb) for i, c in found.items() if not c["hf_layer"]}
+        for k, tell in enumerate((self.pose.set_following, self.pose.set_limb_refine)):
+            for value in sorted({both[k] for both in wanted.values()}):
+                changed = [self.numbers[i] for i, both in wanted.items()
+                    if both[k] == value and self.limbs.get(i, (1.0, 0))[k] != value]
+                if changed:
+                    tell(changed, value)
+        self.limbs = wanted
 
     def remarks_of(self, found):
         """What the pose leaves behind: vertices that no handle reaches, gaps between pieces, handles on light pieces."""
@@ -145,6 +158,7 @@ class Session:
             to_local = obj.matrix_world.inverted()
             motions = [carriers.motion_of(to_local, carrier) for carrier in found.values()]
             self.free_rotations(found, motions)
+            self.set_limbs(found)
             matrices = np.array([carriers.turned(m, carrier) for m, carrier in zip(motions, found.values())])
             self.pose.set_matrices([self.numbers[i] for i in found], matrices)
             steps = LENGTH_STEPS if bpy.context.scene.hf_lengths else 0
@@ -230,6 +244,8 @@ def add_handles(obj, regions, names, layer=0):
         name in zip(regions, names)])
 
 
+# How much follows a tip that is dragged: its limb, and a quarter of what the body would lean. hf_deform_script takes the same.
+TIP_FOLLOWING = 0.25
 REASONS = ("foot", "tip", "end", "joint", "middle")
 
 
@@ -256,6 +272,7 @@ def add_proposals(obj, only_pinned=False):
             made[-1].empty_display_type = "CUBE"
         else:
             carriers.offer(made[-1])
+            made[-1].hf_following = TIP_FOLLOWING
     if not made:
         raise hf.EmptyError(f"{obj.name} has handles at all proposed places")
     return take_up(obj, made)

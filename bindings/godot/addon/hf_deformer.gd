@@ -8,12 +8,13 @@
 #
 # A handle that is moved and was never turned has a free rotation: the pose finds it, as a wrist follows a hand. A node that
 # is turned gives the rotation from then on, from where the handle stands; free_rotation(head) frees it again.
+# set_following(head, 0.25) says how much of the body follows; keep_lengths(head) keeps the lengths of its limb.
 extends MeshInstance3D
 
 
 var surface = null
 # Node3D -> { number, rest, layer, seen: the transform of the last update, free, given: the node was turned, turn: the rotation
-# of the handle where the node has none }
+# of the handle where the node has none, following, limb: the steps that keep its lengths }
 var handles = {}
 var arrays = []
 var last = []
@@ -27,6 +28,11 @@ static func mesh_in(node):
 		if found:
 			return found
 	return null
+
+# How much follows a tip that is dragged: its limb, and a quarter of what the body would lean. hf_deform_script takes the same.
+const TIP_FOLLOWING = 0.25
+# The least steps that hf_pose_set_limb_refine gives for lengths.
+const LENGTH_STEPS = 8
 
 # Makes the surface, which factorises once. Returns true, or false with a warning that says why not.
 func bind(options = {}):
@@ -59,13 +65,31 @@ func add_handle(point, radius, layer = 0, in_place = false):
 	var handle = Node3D.new()
 	handle.transform.origin = Vector3(info.x, info.y, info.z)
 	handles[handle] = { "number": numbers[0], "rest": handle.transform, "layer": layer, "free": false, "given": false,
-		"turn": Quaternion(0, 0, 0, 1) }
+		"turn": Quaternion(0, 0, 0, 1), "following": 1.0, "limb": 0 }
 	if in_place:
 		handle.transform = Transform3D(Basis(rotation_of(info)), handle.transform.origin + Vector3(info.translation_x, info.translation_y,
 			info.translation_z))
 	handles[handle].seen = handle.transform
 	add_child(handle)
 	return handle
+
+# A handle where the library proposes one, a row of surface.propose_handles(): it holds, or it is a tip to drag.
+func add_proposed(row):
+	var handle = add_handle(arrays[Mesh.ARRAY_VERTEX][row.vertex], row.radius)
+	if handle != null and not row.pinned:
+		set_following(handle, TIP_FOLLOWING)
+	return handle
+
+# How much of the surface follows a handle of layer 0: 1 all of it, 0 its limb alone.
+func set_following(handle, following):
+	if said(surface.set_following([handles[handle].number], following)):
+		handles[handle].following = following
+
+# The limb of a handle of layer 0 keeps its lengths and bends like two bones; the rest stays as it is.
+func keep_lengths(handle, keep = true):
+	var steps = LENGTH_STEPS if keep else 0
+	if said(surface.set_limb_refine([handles[handle].number], steps)):
+		handles[handle].limb = steps
 
 func rotation_of(info):
 	return Quaternion(info.rotation_x, info.rotation_y, info.rotation_z, info.rotation_w)

@@ -213,6 +213,8 @@ Argument argument_of(const void* variant) {
   if (argument.null) return argument;
   if (is_number(type)) {
     argument.number = real_in(variant);
+  } else if (type == godot4::string_type) {
+    argument.text = text_in(variant);
   } else if (type == godot4::vector3_type) {
     append_vector(variant, argument.list);
   } else if (type == godot4::quaternion_type) {

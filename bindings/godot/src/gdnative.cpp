@@ -68,6 +68,8 @@ Argument argument_of(const godot_variant* value) {
   if (argument.null) return argument;
   if (is_number(value)) {
     argument.number = api->godot_variant_as_real(value);
+  } else if (type == GODOT_VARIANT_TYPE_STRING) {
+    argument.text = text_of(value);
   } else if (type == GODOT_VARIANT_TYPE_VECTOR3) {
     const godot_vector3 v = api->godot_variant_as_vector3(value);
     for (int c = 0; c < 3; ++c)

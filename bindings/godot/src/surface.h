@@ -14,10 +14,12 @@ using Doubles = std::vector<double>;
 using Numbers = std::vector<uint32_t>;
 struct Surface;
 
-// A script's argument: null, a number, a list of numbers, a list of lists, named numbers, bytes, or another surface.
+// A script's argument: null, a number, text, a list of numbers, a list of lists, named numbers, bytes, or another
+// surface.
 struct Argument {
   bool null = true;
   double number = 0;
+  std::string text;
   Doubles list;
   std::vector<Doubles> lists;
   std::map<std::string, double> named;
@@ -58,6 +60,7 @@ struct Surface {
   hf::Handle<hf_flow, hf_flow_destroy> flow;
   hf::Handle<hf_region, hf_region_destroy> region;
   hf::Handle<hf_detail, hf_detail_destroy> detail;
+  hf::Handle<hf_retarget, hf_retarget_destroy> retarget;  // needs no mesh
   hf::History<decltype(solver)> solver_history;
   hf::History<decltype(direction)> direction_history;
   hf::History<decltype(region)> region_history;
@@ -78,7 +81,9 @@ struct Surface {
   }
   size_t vertex_count = 0;
   size_t target_count = 0;     // vertices of the transfer's target
+  size_t target_joints = 0;    // numbers of the joints of the retarget's target
   std::vector<float> normals;  // of the last deform
+  std::vector<float> joints;   // of the source of the retarget, as the library wants them
   // the last failure, for scripts that have no exceptions
   std::string error_name, error_message;
   double error_index = -1;
@@ -90,12 +95,13 @@ struct Entry {
   int least, most;  // arguments
   Method method;
 };
-const std::vector<Entry>& methods();         // all of them
-const std::vector<Entry>& solver_methods();  // those of surface_solver.cpp
-const std::vector<Entry>& pose_methods();    // those of surface_pose.cpp
-const std::vector<Entry>& field_methods();   // those of surface_fields.cpp
-const std::vector<Entry>& region_methods();  // those of surface_regions.cpp
-const std::vector<Entry>& made_methods();    // those of surface_made.cpp
+const std::vector<Entry>& methods();           // all of them
+const std::vector<Entry>& solver_methods();    // those of surface_solver.cpp
+const std::vector<Entry>& pose_methods();      // those of surface_pose.cpp
+const std::vector<Entry>& field_methods();     // those of surface_fields.cpp
+const std::vector<Entry>& region_methods();    // those of surface_regions.cpp
+const std::vector<Entry>& retarget_methods();  // those of surface_retarget.cpp
+const std::vector<Entry>& made_methods();      // those of surface_made.cpp
 
 hf_solver solver_of(Surface& surface);  // made when there is none
 hf_pose pose_of(Surface& surface);

@@ -101,7 +101,9 @@ Value handle_info(Surface& s, const Arguments& a) {
                 {"translation_y", info.translation[1]},
                 {"translation_z", info.translation[2]},
                 {"layer", info.layer},
-                {"free_rotation", info.free_rotation}});
+                {"free_rotation", info.free_rotation},
+                {"following", info.following},
+                {"limb_refine", info.limb_refine}});
 }
 
 Value handle_field(Surface& s, const Arguments& a) {

@@ -15,14 +15,8 @@ namespace Hf.Unity.Editor
             if (!string.IsNullOrEmpty(deformer.LastError))
                 EditorGUILayout.HelpBox(deformer.LastError, MessageType.Warning);
             EditorGUILayout.LabelField("Handles", deformer.HandleCount.ToString());
-            if (GUILayout.Button("Add handle"))
-            {
-                var made = new GameObject("handle");
-                Undo.RegisterCreatedObjectUndo(made, "Add hf handle");
-                made.transform.SetParent(deformer.transform, false);
-                made.AddComponent<HfHandle>();
-                Selection.activeGameObject = made;
-            }
+            if (GUILayout.Button("Add handle that holds")) Add(deformer, 1);
+            if (GUILayout.Button("Add tip to drag")) Add(deformer, HfHandle.TipFollowing);
             if (GUILayout.Button("Bind again")) deformer.Release();
             if (GUILayout.Button("Save factor"))
             {
@@ -36,6 +30,15 @@ namespace Hf.Unity.Editor
                     deformer.savedFactor = AssetDatabase.LoadAssetAtPath<TextAsset>(path);
                 }
             }
+        }
+
+        static void Add(HfDeformer deformer, float following)
+        {
+            var made = new GameObject("handle");
+            Undo.RegisterCreatedObjectUndo(made, "Add hf handle");
+            made.transform.SetParent(deformer.transform, false);
+            made.AddComponent<HfHandle>().following = following;
+            Selection.activeGameObject = made;
         }
 
         void OnSceneGUI()

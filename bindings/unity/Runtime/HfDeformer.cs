@@ -104,6 +104,8 @@ namespace Hf.Unity
                 double[] middle = pose.Handle(handle.number).Centroid;
                 handle.centroid = new Vector3((float)middle[0], (float)middle[1], (float)middle[2]);
                 handle.free = false;
+                handle.told = 1;
+                handle.steps = 0;
                 handle.seen = Matrix4x4.identity;
                 handle.turn = Quaternion.identity;
                 bound.Add(handle);
@@ -141,6 +143,20 @@ namespace Hf.Unity
             return motion * Matrix4x4.Translate(centre) * Matrix4x4.Rotate(handle.turn) * Matrix4x4.Translate(-centre);
         }
 
+        /// <summary>The least steps that hf_pose_set_limb_refine gives for lengths.</summary>
+        const int LengthSteps = 8;
+
+        /// <summary>How much follows a handle, and whether its limb keeps its lengths, where that has changed.</summary>
+        void SetLimb(HfHandle handle)
+        {
+            if (handle.layer != 0) return;
+            int steps = handle.keepLengths ? LengthSteps : 0;
+            if (handle.told != handle.following) pose.SetFollowing(new uint[] { handle.number }, handle.following);
+            handle.told = handle.following;
+            if (handle.steps != steps) pose.SetLimbRefine(new uint[] { handle.number }, steps);
+            handle.steps = steps;
+        }
+
         /// <summary>Whether entries of two matrices differ by more than single precision rounds.</summary>
         static bool Far(Matrix4x4 a, Matrix4x4 b, int first, int end)
         {
@@ -162,6 +178,7 @@ namespace Hf.Unity
                     Matrix4x4 motion = Rigid(transform.worldToLocalMatrix * bound[i].transform.localToWorldMatrix)
                         * bound[i].restLocal.inverse;
                     motion = Look(bound[i], motion);
+                    SetLimb(bound[i]);
                     for (int k = 0; k < 16; ++k) matrices[16 * i + k] = motion[k]; // column by column in both
                 }
                 pose.SetMatrices(numbers.ToArray(), matrices);

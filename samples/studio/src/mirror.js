@@ -164,7 +164,7 @@ export class Mirror {
       }
       const position = imageOfPlace(handle.position, axis, middle);
       const { vertex, away } = nearestVertex(body, position);
-      if (away < handle.radius) all.push(fresh({ position, radius: handle.radius, vertex }));
+      if (away < handle.radius) all.push(fresh({ ...handle, position, vertex }));
       else this.alone = handle.id;
     }
     return all;

@@ -230,7 +230,7 @@ self.onmessage = ({ data: { id, task, args } }) => {
   last = last.then(async () => {
     asked = performance.now();
     try {
-      if (!early.has(task) || args?.detail || args?.lengths) await rest();
+      if (!early.has(task) || args?.detail || args?.lengths || args?.handles?.some(({ limb }) => limb)) await rest();
       const [answer, buffers] = await tasks[task](args ?? {});
       self.postMessage({ id, answer }, buffers);
       asked = performance.now();

@@ -11,12 +11,26 @@ const REST_ITERATIONS = 100;
 const LENGTH_STEPS = 8;
 const LIVE_VERTICES = 6000;
 
+/** What a handle says beside its place: [name, its value, how the pose is told]. A rotation is given from where it stands. */
+const SETTINGS = [
+  ['free', ({ free }) => Number(Boolean(free)), (pose, numbers, value) => pose.setFreeRotations(numbers, value)],
+  // A handle that stands where it was grabbed moves nothing: what follows it counts from its first move on. It takes as long
+  // as adding the handle, so a drag tells it a frame later.
+  [
+    'following',
+    ({ following = 1, from, translation }, { fresh }) =>
+      fresh || from?.every((x, k) => x === translation[k]) ? 1 : following,
+    (pose, numbers, value) => pose.setFollowing(numbers, value),
+  ],
+  ['limb', ({ limb }) => (limb ? LENGTH_STEPS : 0), (pose, numbers, value) => pose.setLimbRefine(numbers, value)],
+];
+
 const sameRegion = (a, b) => a.id === b.id && a.radius === b.radius && a.position.every((x, k) => x === b.position[k]);
 
 export function poseOf(body) {
   const { hf, surface } = body;
   let pose = null;
-  let held = []; // { id, position, radius, number, free }
+  let held = []; // { id, position, radius, number, and what the pose was told of it (SETTINGS) }
   let told = {};
   let grabbed = false; // since the last deform
 
@@ -36,7 +50,9 @@ export function poseOf(body) {
         radii: added.map(({ radius }) => radius),
         inPlace,
       });
-      added.forEach(({ id, position, radius }, i) => held.push({ id, position, radius, number: numbers[i], free: false }));
+      added.forEach(({ id, position, radius }, i) =>
+        held.push({ id, position, radius, number: numbers[i], fresh: true, free: 0, following: 1, limb: 0 }),
+      );
     }
   };
 
@@ -56,22 +72,26 @@ export function poseOf(body) {
     return { refine: live ? 1 : LENGTH_STEPS, refineFromLast: Number(live) };
   };
 
-  /** Frees rotations, or gives them as the handles stand. */
-  const free = (handles) => {
-    for (const wanted of [true, false]) {
-      const changed = held.filter((one, i) => one.free !== wanted && Boolean(handles[i].free) === wanted);
-      if (!changed.length) continue;
-      pose.setFreeRotations(
-        changed.map(({ number }) => number),
-        Number(wanted),
-      );
-      for (const one of changed) one.free = wanted;
-    }
+  /** Tells the pose the settings that differ. */
+  const set = (handles, way) => {
+    if (way !== 'follow') for (const one of held) one.fresh = false;
+    for (const [name, wanted, tell] of SETTINGS)
+      for (const value of new Set(held.map((one, i) => wanted(handles[i], one)))) {
+        const changed = held.filter((one, i) => one[name] !== value && wanted(handles[i], one) === value);
+        if (!changed.length) continue;
+        tell(
+          pose,
+          changed.map(({ number }) => number),
+          value,
+        );
+        for (const one of changed) one[name] = value;
+      }
+    for (const one of held) one.fresh = false;
   };
 
-  const place = (handles) => {
+  const place = (handles, way) => {
     change(handles);
-    free(handles);
+    set(handles, way);
     pose.setTransforms(
       held.map(({ number }) => number),
       {
@@ -93,8 +113,9 @@ export function poseOf(body) {
       change([...handles, ...added], true);
       grabbed = true;
       return held.slice(handles.length).map(({ number }) => {
-        const { rotation, translation } = pose.handle(number);
-        return { rotation, translation };
+        // plain lists: a link and a session keep them
+        const [rotation, translation] = [pose.handle(number).rotation, pose.handle(number).translation].map((x) => Array.from(x));
+        return { rotation, translation, from: translation };
       });
     },
     /**
@@ -109,7 +130,7 @@ export function poseOf(body) {
         return body.positions.slice();
       }
       const known = new Set(held.map(({ number }) => number));
-      place(handles);
+      place(handles, way);
       const added = grabbed || held.some(({ number }) => !known.has(number));
       grabbed = false;
       const positions = pose.deform(null, {

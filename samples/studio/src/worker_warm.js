@@ -57,7 +57,7 @@ export async function warm(hf, turn) {
   }));
   const site = sitesOf(triangles);
   for (let round = 0; round < ROUNDS; ++round) {
-    const pulled = (x) => [ends[0], { ...ends[1], translation: [0, x, 0] }];
+    const pulled = (x) => [ends[0], { ...ends[1], following: 0.25, free: true, translation: [0, x, 0] }];
     const calls = [
       () => pose.deform(ends.slice(0, 1), 'exact'),
       () => pose.deform(pulled(0.5), 'follow'),

@@ -3,7 +3,9 @@ use bevy::asset::{AssetPlugin, RenderAssetUsages};
 use bevy::mesh::skinning::{SkinnedMesh, SkinnedMeshInverseBindposes};
 use bevy::mesh::{Indices, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::*;
-use hf_bevy::{DeformError, DeformHandle, DeformPlugin, DeformedMesh, Deformer, HandleRotation};
+use hf_bevy::{
+    DeformError, DeformHandle, DeformPlugin, DeformedMesh, Deformer, HandleLimb, HandleRotation, Retarget, RetargetPlugin, Retargeted,
+};
 use std::f32::consts::TAU;
 
 const RINGS: usize = 41;
@@ -11,7 +13,7 @@ const AROUND: usize = 16;
 
 fn app() -> App {
     let mut app = App::new();
-    app.add_plugins((MinimalPlugins, AssetPlugin::default(), TransformPlugin, DeformPlugin));
+    app.add_plugins((MinimalPlugins, AssetPlugin::default(), TransformPlugin, DeformPlugin, RetargetPlugin));
     app.init_asset::<Mesh>().init_asset::<SkinnedMeshInverseBindposes>();
     app.finish();
     app.cleanup();
@@ -529,4 +531,121 @@ fn a_click_hits_the_posed_surface() {
     let pick = |x: f32| deformed(&app, body).pick(Vec3::new(x, 1.9, 5.0), Vec3::NEG_Z).unwrap();
     assert!(pick(2.0).is_some() && pick(0.0).is_none());
     assert!(!deformed(&app, body).propose_handles().unwrap().is_empty());
+}
+
+/// A flat body of squares: a trunk from y = 0 to 12, and an arm to x = 12 at its shoulder.
+fn body_with_arm() -> Mesh {
+    let (mut positions, mut triangles) = (vec![], vec![]);
+    for y in 0..12 {
+        for x in 0..if (8..10).contains(&y) { 12 } else { 4 } {
+            let first = positions.len() as u32; // corners are welded
+            positions.extend([(0, 0), (1, 0), (0, 1), (1, 1)].map(|(u, v)| [(x + u) as f32, (y + v) as f32, 0.0]));
+            triangles.extend([0, 1, 2, 1, 3, 2].map(|corner| first + corner));
+        }
+    }
+    Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::default())
+        .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
+        .with_inserted_indices(Indices::U32(triangles))
+}
+
+#[test]
+fn a_dragged_tip_hardly_moves_the_head() {
+    let mut app = app();
+    let mesh = add(&mut app, body_with_arm());
+    let body = app.world_mut().spawn((Deformer::default(), Mesh3d(mesh))).id();
+    app.world_mut().spawn(DeformHandle::at(body, Vec3::new(2.0, 0.0, 0.0), 1.2));
+    let hand = app.world_mut().spawn(DeformHandle::tip(body, Vec3::new(12.0, 9.0, 0.0), 1.2)).id();
+    app.update();
+    place(&mut app, hand, Transform::from_xyz(9.0, 13.0, 0.0));
+    let mut moves = |limb: HandleLimb, point: [f32; 3]| {
+        *app.world_mut().get_mut::<HandleLimb>(hand).unwrap() = limb;
+        (0..60).for_each(|_| app.update());
+        let deformed = deformed(&app, body);
+        let at = deformed.rest().iter().position(|p| *p == point).unwrap();
+        Vec3::from_array(deformed.posed()[at])
+    };
+    let (head, box_size) = ([2.0, 12.0, 0.0], 288f32.sqrt());
+    let tip = HandleLimb { following: 0.25, ..default() };
+    let [held, all, again] = [tip, default(), tip].map(|limb| moves(limb, head).distance(head.into()) / box_size);
+    assert!(held < 0.03 && held < 0.5 * all, "{held} of the box, {all} where all follows");
+    assert!((held - again).abs() < 1e-3, "{held} {again}");
+    // a limb that keeps its lengths goes elsewhere, and the head stays
+    let kept = HandleLimb { keep_lengths: true, ..tip };
+    let [elbow, top] = [[8.0, 9.0, 0.0], head].map(|point| moves(tip, point).distance(moves(kept, point)));
+    assert!(elbow > 0.01 && top < 1e-3, "{elbow} {top}");
+    moves(HandleLimb { following: 2.0, ..default() }, head);
+    assert_eq!(error(&app, hand), Some("HF_ERROR_INVALID_ARGUMENT"));
+}
+
+const JOINTS: [(&str, usize, [f32; 3]); 9] = [
+    ("hips", 9, [0.0, 1.0, 0.0]),
+    ("spine", 0, [0.0, 0.3, 0.0]),
+    ("head", 1, [0.0, 0.4, 0.0]),
+    ("left_thigh", 0, [0.1, -0.05, 0.0]),
+    ("left_shin", 3, [0.0, -0.45, 0.02]),
+    ("left_foot", 4, [0.0, -0.42, -0.02]),
+    ("right_thigh", 0, [-0.1, -0.05, 0.0]),
+    ("right_shin", 6, [0.0, -0.45, 0.02]),
+    ("right_foot", 7, [0.0, -0.42, -0.02]),
+];
+
+/// A body of joints whose frames are turned by `roll` about x, which moves no joint.
+fn skeleton(app: &mut App, size: f32, roll: f32) -> Vec<Entity> {
+    let mut made: Vec<Entity> = vec![];
+    for (name, parent, place) in JOINTS {
+        let place = size * Vec3::from_array(place);
+        let transform = match parent {
+            9 => Transform::from_translation(place).with_rotation(Quat::from_rotation_x(roll)),
+            _ => Transform::from_translation(Quat::from_rotation_x(-roll) * place),
+        };
+        let joint = app.world_mut().spawn((Name::new(name), transform)).id();
+        if parent < 9 {
+            app.world_mut().entity_mut(joint).insert(ChildOf(made[parent]));
+        }
+        made.push(joint);
+    }
+    made
+}
+
+/// The plain arrays of joints, depth first, as `Retarget` takes them.
+fn plain(app: &App, joints: &[Entity]) -> Vec<f32> {
+    let of = |&joint| *app.world().get::<Transform>(joint).unwrap();
+    joints.iter().map(of).flat_map(|t| [&t.translation.to_array()[..], &t.rotation.to_array(), &t.scale.to_array()].concat()).collect()
+}
+
+#[test]
+fn a_frame_is_what_the_library_makes_of_the_plain_arrays() {
+    let mut app = app();
+    let (man, robot) = (skeleton(&mut app, 1.0, 0.0), skeleton(&mut app, 2.0, 1.2));
+    let parents = JOINTS.map(|(_, parent, _)| if parent == 9 { hf_bevy::hf::raw::HF_NO_INDEX } else { parent as u32 });
+    let known = |app: &App, joints: &[Entity]| {
+        hf_bevy::hf::Skeleton::new(Some(&JOINTS.map(|(name, ..)| name)), &parents, &plain(app, joints), &default()).unwrap()
+    };
+    let mut wanted = hf_bevy::hf::Retarget::new(&known(&app, &man), &known(&app, &robot), &default()).unwrap();
+    let player = app.world_mut().spawn(Retarget { source: man[0], target: robot[0], options: default() }).id();
+    let rest = plain(&app, &robot);
+    app.update();
+    let matched = app.world().get::<Retargeted>(player).unwrap().retarget.info().unwrap().matched_joint_count;
+    assert_eq!(matched as usize, JOINTS.len());
+    wanted.solve(&plain(&app, &man), app.world().resource::<Time>().delta_secs_f64()).unwrap();
+    for frame in 0..20 {
+        app.world_mut().get_mut::<Transform>(man[0]).unwrap().translation.z = 0.05 * frame as f32;
+        app.world_mut().get_mut::<Transform>(man[3]).unwrap().rotation = Quat::from_rotation_x(-0.05 * frame as f32);
+        app.update();
+        let seconds = app.world().resource::<Time>().delta_secs_f64();
+        assert_eq!(plain(&app, &robot), wanted.solve(&plain(&app, &man), seconds).unwrap(), "frame {frame}");
+    }
+    let most = plain(&app, &robot).iter().zip(&rest).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    assert!(most > 1.0, "the robot walks on: {most}");
+    // what is refused changes nothing, and a skeleton of nothing says why
+    let stood = plain(&app, &robot);
+    app.world_mut().get_mut::<Transform>(man[3]).unwrap().rotation.x = f32::NAN;
+    app.update();
+    assert_eq!(plain(&app, &robot), stood);
+    let rock = app.world_mut().spawn((Name::new("rock"), Transform::IDENTITY)).id();
+    app.world_mut().spawn((Name::new("pebble"), Transform::IDENTITY, ChildOf(rock)));
+    app.world_mut().entity_mut(player).insert(Retarget { source: rock, target: robot[0], options: default() });
+    app.update();
+    app.update();
+    assert!(app.world().get::<Retargeted>(player).is_none() && error(&app, player).is_some());
 }

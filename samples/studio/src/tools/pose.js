@@ -13,6 +13,11 @@ const GAP_SAID = 0.005;
 const [NUDGE, TURN_STEP] = [0.02, Math.PI / 18];
 /** Radius of a handle that a click makes, as part of the size of the body: of a leg's width on our own creatures. */
 const RADIUS = 0.035;
+/**
+ * How much follows a tip that is dragged: its limb, and a quarter of what the body would lean. hf_deform_script takes the
+ * same. A handle that holds has 1.
+ */
+const TIP_FOLLOWING = 0.25;
 /** Corners of the circle that shows a radius. */
 const POINTS = 72;
 
@@ -55,6 +60,7 @@ export class PoseTool {
       position,
       radius,
       pinned: Boolean(pinned),
+      following: pinned ? 1 : TIP_FOLLOWING,
       label: `${reasons[reason]} ${i + 1}`,
       vertex,
       ...rest,
@@ -211,9 +217,9 @@ export class PoseTool {
     return this.addAll([offer], 'add a handle');
   }
   /** A handle of the user's own at a place of the body at rest. */
-  fresh({ position, radius, vertex }) {
+  fresh({ position, radius, vertex, following = 1 }) {
     const id = this.app.nextId();
-    return { id: `h${id}`, position, radius, label: `handle ${id}`, vertex, pinned: false, ...rest };
+    return { id: `h${id}`, position, radius, following, label: `handle ${id}`, vertex, pinned: false, ...rest };
   }
   click([x, y]) {
     const hit = this.app.skin.pick(this.app.view.ray(x, y));
@@ -378,6 +384,19 @@ export class PoseTool {
           }),
           button('Back to rest', () => app.commit(this.with(handle.id, rest), 'back to rest'), { id: 'back' }),
           button('Remove', () => this.remove(handle), { id: 'remove' }),
+          button('Keep limb lengths', () => app.commit(this.with(handle.id, { limb: !handle.limb }), 'keep the limb'), {
+            id: 'limb',
+            'aria-pressed': String(Boolean(handle.limb)),
+            title: 'The limb of this handle keeps its lengths and bends like two bones; the body stays as it is',
+          }),
+        ),
+      handle &&
+        slider(
+          'How much follows',
+          { value: handle.following ?? 1, low: 0, high: 1, step: 0.05, id: 'follows' },
+          (following) => app.preview(this.with(handle.id, { following })),
+          // other poses of least energy can be near: the one that an undo and a saved session show
+          () => app.commitPreview('how much follows').then(() => app.again()),
         ),
       make(
         'div',
