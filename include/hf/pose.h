@@ -154,10 +154,11 @@ HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count,
  * Below 1, soft pins hold the surface where it would be without these handles. So a body does not lean after a dragged
  * hand. The nearer to 1 the field of the handle is, the weaker the pins are: the limb stays free. Keep 1 for the
  * handles that hold the body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb
- * that is too short gets longer. The next hf_deform shows a change at once. Full-mesh steps (refine) ignore the pins.
- * Repeated steps (refine_from_last) let the body lean again. Cost: at this call, and when handles are added or removed,
- * one field solve for the other handles, and as many solves of the reduced system as in a few frames. While other
- * handles move, a frame takes up to twice the time of the pose solve. No factor is recomputed. Errors:
+ * that is too short gets longer. The next hf_deform shows a change at once, but a handle that
+ * was just added in place leaves the surface where it stands until a handle moves. Full-mesh steps (refine) ignore the
+ * pins. Repeated steps (refine_from_last) let the body lean again. Cost: at this call, and when handles are added or
+ * removed, one field solve for the other handles, and as many solves of the reduced system as in a few frames. While
+ * other handles move, a frame takes up to twice the time of the pose solve. No factor is recomputed. Errors:
  * HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (following), HF_ERROR_UNSUPPORTED (a handle of
  * a higher layer). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_following(hf_pose pose, uint32_t handle_count, const uint32_t* handles, double following);

@@ -33,6 +33,7 @@ void Pose::fit_new_handles(const Layout& layout, State& state) const {
 // also fades as the handles go back to rest.
 void Pose::keep_in_place(const Layout& layout, State& state, bool fades_at_rest) {
   if (!layout.smooth) return;
+  ensure_surface();
   place_handles(layout, state);
   Vector<Vec3> turns(&memory());
   for (const HandleState& handle : state.handles) turns.push_back(handle.turn);

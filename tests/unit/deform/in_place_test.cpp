@@ -89,6 +89,21 @@ TEST(InPlace, TheSurfaceStaysAndTheHandleStandsWhereItsRegionDoes) {
   }
 }
 
+TEST(InPlace, HowMuchFollowsIsSetWhereTheSurfaceStands) {
+  Plant plant;
+  for (int f = 0; f < 20; ++f) plant.frame();
+  const std::uint32_t arm = plant.add_arm();
+  const Surface before = plant.frame();
+  plant.pose->set_following({&arm, 1}, 0.25);
+  EXPECT_LT(largest_distance(plant.frame(), before), 1e-6 * plant.box);
+  HandleTransform to = plant.pose->placed(arm);
+  to.translation.z += 0.1 * plant.box;  // beyond the reach of what is left of the old surface
+  plant.put(arm, to);
+  const Surface moved = plant.frame();
+  plant.pose->set_following({&arm, 1}, 1);
+  EXPECT_GT(largest_distance(plant.frame(), moved), 1e-3 * plant.box);
+}
+
 TEST(InPlace, TheSurfaceGoesOverToTheNewPoseAsAHandleMoves) {
   Plant plant;
   for (int f = 0; f < 20; ++f) plant.frame();
