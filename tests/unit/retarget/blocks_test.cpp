@@ -230,7 +230,7 @@ struct Walker {
   void add_heel(const std::string& foot) {
     const auto j = static_cast<std::size_t>(rig.find(foot));
     const int heel = rig.add(foot.substr(0, foot.find('_')) + "_foot heel", rig.joints[j].parent,
-                             rig.joints[j].pivot + Vec3{0, 1e-9, 0}, Role::leg, rig.joints[j].side);
+                             rig.joints[j].pivot + Vec3{0, 0, 1e-9}, Role::leg, rig.joints[j].side);
     rig.joints[j].parent = heel;
     rig.add_block(heel, rig.joints[j].pivot - Vec3{0.02, 0.02, 0.02}, rig.joints[j].pivot + Vec3{0.02, 0.02, 0.02});
     rig.joints[static_cast<std::size_t>(heel)].name =
