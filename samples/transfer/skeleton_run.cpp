@@ -207,9 +207,10 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
     // Limbs that nothing leads are as wrong when the surface carries the motion.
     if (models.pair.understood()) faults.unmatched = models.pair.fit({}, {}).unmatched;
     report.fits.push_back(fit);
-    const double acceleration =
-        acceleration_of(source, target, scale, played[c].source_frames, played[c].target_frames);
-    if (has_source && acceleration > 0) faults.acceleration = acceleration;
+    if (has_source && models.pair.understood()) {
+      const double parts = acceleration_of(source, target, scale, played[c].source_frames, played[c].target_frames);
+      if (parts > 0) faults.acceleration = parts;
+    }
     faults.slide =
         slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
     report.depths.push_back(
