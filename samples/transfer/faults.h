@@ -23,7 +23,7 @@ struct ClipFaults {
   // Of the joints, where both skeletons are known. Degrees that arms and legs, and the trunk, are off; below 0:
   // unknown.
   double limbs = -1, trunk = -1;
-  double unmatched = 0;   // share of the arms and legs without a partner, of the body that has more
+  double unmatched = 0;   // see PoseFit
   double slide = -1;      // of soles that stand on the source, in boxes a second; below 0: unknown
   double confidence = 1;  // 0 to 1
 };

@@ -250,11 +250,12 @@ int transfer_joints(const JointModels& models, const std::string& why, const Tra
 int transfer(TransferCommand command, nlohmann::json& json) {
   ProgressBar bar(command.quiet);
   PairsFile pairs;
-  if (!command.pairs.empty()) pairs = read_pairs(command.pairs);
+  if (!command.pairs.empty()) pairs = read_pairs(command.pairs, !command.shapes && command.edits.empty());
   const EditsFile edits = command.edits.empty() ? EditsFile() : read_edits(command.edits);
   bar.begin("reading models");
-  Model own_source = read_model(command.source);
-  const Model own_target = read_model(command.target);
+  Model own_source = read_model(command.source), own_target = read_model(command.target);
+  say_chains(pairs.chains, own_source, own_target);
+  if (pairs.pairs.empty()) command.pairs.clear();  // chains name no places of the surfaces
   const std::optional<Pose> source_rest = pose_of(own_source, command.source_rest, "--source-rest"),
                             target_rest = pose_of(own_target, command.target_rest, "--target-rest");
   bar.end();

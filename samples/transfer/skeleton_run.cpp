@@ -204,13 +204,13 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
       if (models.pair.two_legged()) faults.limbs = fit.degrees;  // legs of animals bend each in a way of their own
       faults.trunk = fit.trunk_degrees;
     }
-    // Limbs that nothing leads are as wrong when the surface carries the motion. So are limbs of the source that nothing
-    // follows: arms whose joints were not found stay in the T pose.
-    if (const PoseFit plain = models.pair.fit({}, {}); models.pair.understood()) {
-      const size_t most = std::max(plain.source_limbs, plain.target_limbs);
-      if (most > 0) faults.unmatched = 1 - static_cast<double>(plain.limbs.size()) / static_cast<double>(most);
-    }
+    // Limbs that nothing leads are as wrong when the surface carries the motion.
+    if (models.pair.understood()) faults.unmatched = models.pair.fit({}, {}).unmatched;
     report.fits.push_back(fit);
+    if (has_source && models.pair.understood()) {
+      const double parts = acceleration_of(source, target, scale, played[c].source_frames, played[c].target_frames);
+      if (parts > 0) faults.acceleration = parts;
+    }
     faults.slide =
         slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
     report.depths.push_back(

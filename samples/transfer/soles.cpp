@@ -2,6 +2,7 @@
 #include "transfer/soles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -191,6 +192,51 @@ double slide_of(const StandingBody& source, const StandingBody& target, double s
     count += 1;
   }
   return count > 0 ? sum / count / SurfaceBox(target.mesh).diagonal() : -1;
+}
+
+namespace {
+
+// Mean squares of second differences, by part and side of the body.
+std::map<std::pair<BodyPart, int>, double> squares_of(const StandingBody& body,
+                                                      const std::vector<std::vector<double>>& frames) {
+  std::map<std::pair<BodyPart, int>, double> sums, counts;
+  const std::vector<uint8_t> out = beside_body(body);
+  const std::vector<int> owners = owners_of(body.model, body.mesh);
+  for (size_t v = 0; v < owners.size(); ++v) {
+    if (out[v] || owners[v] < 0 || body.known.nodes.empty()) continue;
+    const KnownNode& node = body.known.nodes[static_cast<size_t>(owners[v])];
+    const bool arm = node.part == BodyPart::hand || node.part == BodyPart::finger;
+    const std::pair<BodyPart, int> part(arm ? BodyPart::arm : node.part, node.side);
+    if (part.first == BodyPart::other) continue;
+    for (size_t f = 1; f + 1 < frames.size(); ++f) {
+      for (size_t c = 3 * v; c < 3 * v + 3; ++c) {
+        const double d = frames[f + 1][c] - 2 * frames[f][c] + frames[f - 1][c];
+        sums[part] += d * d;
+      }
+      counts[part] += 1;
+    }
+  }
+  for (auto& [part, sum] : sums) sum /= counts[part];
+  return sums;
+}
+
+}  // namespace
+
+double acceleration_of(const StandingBody& source, const StandingBody& target, double scale,
+                       const std::vector<std::vector<double>>& source_frames,
+                       const std::vector<std::vector<double>>& target_frames) {
+  constexpr double still = 1e-10;  // in squares of the box: as motion_faults has it
+  const auto from = squares_of(source, source_frames), to = squares_of(target, target_frames);
+  const double box = SurfaceBox(target.mesh).diagonal();
+  if (!source.mesh.triangles.empty()) scale = std::max(scale, box / SurfaceBox(source.mesh).diagonal());
+  double a = 0, b = 0;
+  for (const auto& [part, square] : from) {
+    const auto found = to.find(part);
+    if (found == to.end()) continue;
+    a += scale * scale * square / (box * box);
+    b += found->second / (box * box);
+  }
+  return a > still ? std::sqrt(b / a) : 0;
 }
 
 double depth_of(const StandingBody& source, const StandingBody& target, double scale,

@@ -1,5 +1,5 @@
-// Feet on the ground, measured on posed surfaces: what slides and what sinks. Vertices belong to the joints that move
-// them most.
+// Measured on posed surfaces, part by part: what slides, what sinks, and how much it accelerates. Vertices belong to
+// the joints that move them most.
 #ifndef HF_SAMPLES_TRANSFER_SOLES_H
 #define HF_SAMPLES_TRANSFER_SOLES_H
 
@@ -30,6 +30,14 @@ std::vector<uint8_t> beside_flesh(const StandingBody& body);
 double slide_of(const StandingBody& source, const StandingBody& target, double scale, const std::vector<double>& times,
                 const std::vector<std::vector<double>>& source_frames,
                 const std::vector<std::vector<double>>& target_frames);
+
+// How much the target accelerates over the source: root mean squares of second differences, where trunk, head, arms
+// and legs of each side count the same. So neither the sizes of parts nor how finely they are meshed matter. Lengths of
+// the source count times the larger of `scale` and that of the boxes. 0: the source does not move, or no part is
+// common.
+double acceleration_of(const StandingBody& source, const StandingBody& target, double scale,
+                       const std::vector<std::vector<double>>& source_frames,
+                       const std::vector<std::vector<double>>& target_frames);
 
 // How deep the deepest vertex goes, deeper than the source's scaled, in boxes of the target.
 double depth_of(const StandingBody& source, const StandingBody& target, double scale,

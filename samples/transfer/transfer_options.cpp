@@ -80,7 +80,7 @@ const char* usage() {
          "target keeps its own shape. OUT.glb is TARGET as it was, with the new clips before its own; a TARGET "
          "without\n"
          "a skin gets a new one. Models are .glb, .gltf or .vrm, and .fbx, .dae or .bvh in builds with assimp.\n"
-         "  --pairs FILE    which places correspond (format in samples/transfer/README.md); without\n"
+         "  --pairs FILE    which places correspond, or what joints are (samples/transfer/README.md); without\n"
          "                  it pairs are proposed from shapes and joint names, and said\n"
          "  --suggest-pairs FILE  write the proposal, to be edited, and stop\n"
          "  -o FILE         the result, .glb or .gltf\n"

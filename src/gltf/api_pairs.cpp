@@ -16,6 +16,9 @@ std::shared_ptr<PairsObject> pairs_of(const ModelObject& source, const ModelObje
                                       const char* what) {
   auto out = std::make_shared<PairsObject>();
   out->pairs = parse_pairs(json, what);
+  if (!out->pairs.chains.empty())
+    throw Failure(HF_ERROR_INVALID_ARGUMENT,
+                  std::string(what) + ": chains: they name joints, and surfaces have none; take them away");
   const RegionFinder source_finder(source.model, source.mesh, out->pairs.source_axes),
       target_finder(target.model, target.mesh, out->pairs.target_axes);
   add_regions(out->pairs.pairs, source_finder, target_finder, out->source, out->target);

@@ -47,6 +47,7 @@ CharacterArrays::CharacterArrays(const Model& model, const FlatMesh& mesh, const
   add_nodes(model, pose);
   add_surface(model, mesh);
   add_declared(model);
+  add_said(model);
   add_travels(model);
 }
 
@@ -135,11 +136,22 @@ void CharacterArrays::add_declared(const Model& model) {
     if (bone.is_object() && bone.contains("bone") && bone["bone"].is_string())
       declare(bone["bone"].get<std::string>(), node_of(bone));
   }
+  faces = declared;
   if (declared) forward[2] = -1;
   const nlohmann::json newer = bones_of("VRMC_vrm");
   for (const auto& bone : newer.items()) {
     declare(bone.key(), node_of(bone.value()));
+    faces = declared;
     forward[2] = 1;
+  }
+}
+
+void CharacterArrays::add_said(const Model& model) {
+  for (const SaidJoint& joint : model.said) {
+    for (std::int32_t r = 0; r < hf_inner::role_count; ++r)
+      if (joint.part == role_name(static_cast<Role>(r))) roles[static_cast<size_t>(joint.node)] = r;
+    sides[static_cast<size_t>(joint.node)] = joint.side;
+    declared = true;
   }
 }
 

@@ -20,7 +20,8 @@ struct CharacterArrays {
   std::vector<std::uint32_t> triangles, starts, joints;
   double up[3] = {0, 1, 0};
   double forward[3] = {0, 0, 1};
-  bool declared = false;  // the file says which node is which bone of a humanoid, and where forward is
+  bool declared = false;  // the file or the caller says what some joints are
+  bool faces = false;     // the file says where forward is
 
   // Vertices that are loose in the mesh are left out. pose: the pose of the mesh's positions.
   CharacterArrays(const Model& model, const FlatMesh& mesh, const Pose& pose);
@@ -52,8 +53,8 @@ struct CharacterArrays {
     if (declared) {
       in.roles = roles.data();
       in.sides = sides.data();
-      in.forward = forward;
     }
+    if (faces) in.forward = forward;
     return in;
   }
 
@@ -61,6 +62,7 @@ struct CharacterArrays {
   void add_nodes(const Model& model, const Pose& pose);
   void add_surface(const Model& model, const FlatMesh& mesh);
   void add_declared(const Model& model);
+  void add_said(const Model& model);
   void add_travels(const Model& model);
   void declare(const std::string& bone, int node);
 };

@@ -155,6 +155,14 @@ struct Material {
 // Materials, textures, images and samplers as the file has them; defined in gltf_appearance.h for reader and writer.
 struct Appearance;
 
+// What a caller says of a joint: it is of a chain with this part and side.
+struct SaidJoint {
+  int node = -1;
+  std::string part;  // as role_name of skeleton/character.h
+  int side = 0;      // 1: left, 2: right
+  std::string chain;
+};
+
 struct Model {
   std::string name;  // the file's name, for messages
   std::vector<Node> nodes;
@@ -172,6 +180,7 @@ struct Model {
   std::string asset;                             // JSON of the asset without version and generator: copyright, extras
   std::vector<std::string> cameras;              // JSON of each
   std::vector<std::string> required_extensions;  // written as required where they are still in use
+  std::vector<SaidJoint> said;                   // no part of the file
   std::vector<std::string> notes;                // about the file, one sentence each; nothing is wrong
   std::vector<std::string> warnings;             // what was skipped, repaired or not kept; one sentence each
 };

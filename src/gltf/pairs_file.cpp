@@ -113,9 +113,18 @@ uint32_t PairEntry::flags() const {
 
 namespace {
 
-PairsFile pairs_from(const JsonReader& root, const std::filesystem::path& file) {
-  root.expect_only({"about", "source_axes", "target_axes", "settings", "dials", "pairs"});
+PairsFile pairs_from(const JsonReader& root, const std::filesystem::path& file, bool chains_do) {
+  root.expect_only({"about", "source_axes", "target_axes", "settings", "dials", "pairs", "chains"});
   PairsFile out;
+  if (root.has("chains")) {
+    out.chains = read_chains(root.at("chains"));
+    for (NamedChain& chain : out.chains) chain.where = file.filename().string() + ": " + chain.where;
+    if (chains_do && !root.has("pairs")) {
+      root.expect_only({"about", "chains"});
+      if (out.chains.empty()) root.at("chains").fail("at least one chain is needed");
+      return out;
+    }
+  }
   if (root.has("source_axes")) out.source_axes = read_axes(root.at("source_axes"));
   if (root.has("target_axes")) out.target_axes = read_axes(root.at("target_axes"));
   if (root.has("settings")) {
@@ -141,13 +150,13 @@ PairsFile pairs_from(const JsonReader& root, const std::filesystem::path& file) 
 
 }  // namespace
 
-PairsFile read_pairs(const std::filesystem::path& file) {
+PairsFile read_pairs(const std::filesystem::path& file, bool chains_do) {
   const JsonFile json(file);
-  return pairs_from(json.root(), file);
+  return pairs_from(json.root(), file, chains_do);
 }
 
 PairsFile parse_pairs(const nlohmann::json& value, const std::string& what) {
-  return pairs_from(JsonReader(value, what, ""), what);
+  return pairs_from(JsonReader(value, what, ""), what, false);
 }
 
 void add_regions(const std::vector<PairEntry>& pairs, const RegionFinder& source_finder,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gltf/named_chains.h"
 #include "gltf/regions.h"
 
 namespace hf_gltf {
@@ -35,14 +36,15 @@ struct PairsFile {
   TransferSettings settings;
   TransferDials dials;
   std::vector<PairEntry> pairs;
+  std::vector<NamedChain> chains;
 };
 
 // The limb of a pair that names none, from the name of the pair: neck for nose, head, ear, neck, horn or antler; tail;
 // arm for hand or arm. Empty: no limb.
 std::string limb_of(const std::string& pair_name);
 
-// Throws std::runtime_error "file: key path: what is wrong".
-PairsFile read_pairs(const std::filesystem::path& file);
+// Throws std::runtime_error "file: key path: what is wrong". chains_do: chains without pairs are enough.
+PairsFile read_pairs(const std::filesystem::path& file, bool chains_do = false);
 // Reads the pairs from a JSON value. `what` names it in messages.
 PairsFile parse_pairs(const nlohmann::json& value, const std::string& what);
 

@@ -25,7 +25,8 @@ SkeletonBody::SkeletonBody(const JointSide& given, hf_inner::Memory& memory)
 
 void SkeletonBody::look() {
   const Character& c = *character;
-  if (!is_understood(c)) doubt = "the skeleton of " + side.model.name + " is not understood";
+  // A caller who says what joints are knows the body.
+  if (!is_understood(c) && side.model.said.empty()) doubt = "the skeleton of " + side.model.name + " is not understood";
   size_t left = 0, right = 0;
   const std::vector<glm::dmat4> globals = global_matrices(side.model, rest_of());
   for (const Chain& chain : c.chains) {

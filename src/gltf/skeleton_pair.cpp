@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "gltf/clip_binding.h"
 #include "gltf/skeleton_body.h"
@@ -25,6 +26,35 @@ int middle_of(const BodyLimb& limb, const BodyLimb& partner) {
 }
 
 const char* side_word(Side side) { return side == Side::left ? "left " : side == Side::right ? "right " : ""; }
+
+// The chain of a joint as role, side and place among its like; null: it is of none.
+const Chain* chain_of(const SkeletonBody& body, int node) {
+  const std::int32_t chain = body.character->joint_chains[static_cast<size_t>(node)];
+  return chain < 0 ? nullptr : &body.character->chains[static_cast<size_t>(chain)];
+}
+
+std::string chain_text(const Chain* chain) {
+  if (!chain) return "no part of the body";
+  return std::string(side_word(chain->side)) + role_name(chain->role) + " " + std::to_string(chain->number + 1);
+}
+
+// A chain that is named on both bodies must be one that pairs: the same part, side and place among its like.
+void check_named(const SkeletonBody& a, const SkeletonBody& b) {
+  if (!a.character || !b.character) return;
+  const std::vector<SaidJoint>& others = b.side.model.said;
+  for (const SaidJoint& from : a.side.model.said) {
+    const auto to =
+        std::find_if(others.begin(), others.end(), [&](const SaidJoint& j) { return j.chain == from.chain; });
+    if (to == others.end() || from.part == role_name(Role::other)) continue;
+    const Chain *one = chain_of(a, from.node), *two = chain_of(b, to->node);
+    if (one && two && one->role == two->role && one->side == two->side && one->number == two->number) continue;
+    throw std::runtime_error(
+        "chain \"" + from.chain + "\": on " + a.side.model.name + " it is " + chain_text(one) + ", on " +
+        b.side.model.name + " " + chain_text(two) +
+        ". Legs count from the front, other parts in the order of their joints: name all chains of this part, and what "
+        "is none of them as \"other\"");
+  }
+}
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / degree;
@@ -49,6 +79,15 @@ struct SkeletonPair::Inside {
   bool understood() const {
     return source.character && target.character && source.doubt.empty() && target.doubt.empty();
   }
+  // Limbs aside of the trunk that are of no known part. They may be arms; a body without them has none to move.
+  size_t unknown_limbs() const {
+    const Character& c = *target.character;
+    return static_cast<size_t>(std::count_if(c.chains.begin(), c.chains.end(), [&](const Chain& chain) {
+      if (chain.role != Role::other || chain.side == Side::middle || chain.parent < 0) return false;
+      const Role on = c.chains[static_cast<size_t>(chain.parent)].role;
+      return on == Role::spine || on == Role::neck;
+    }));
+  }
   size_t matched() const {
     size_t out = 0;
     for (const BodyLimb& b : target.limbs) out += partner(b) != nullptr;
@@ -64,6 +103,7 @@ struct SkeletonPair::Inside {
 SkeletonPair::SkeletonPair(const JointSide& source, const JointSide& target)
     : in_(std::make_unique<Inside>(source, target)) {
   const SkeletonBody &a = in_->source, &b = in_->target;
+  check_named(a, b);
   if (!in_->understood())
     in_->refusal = a.doubt.empty() ? b.doubt : a.doubt;
   else if (a.leg_pairs != b.leg_pairs)
@@ -188,6 +228,9 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
   const SkeletonBody &a = in_->source, &b = in_->target;
   out.source_limbs = a.limbs.size();
   out.target_limbs = b.limbs.size();
+  const size_t matched = in_->matched(), most = std::max(out.source_limbs, out.target_limbs);
+  const size_t lost = out.target_limbs - matched + std::min(out.source_limbs - matched, in_->unknown_limbs());
+  if (most > 0) out.unmatched = std::min(1.0, static_cast<double>(lost) / static_cast<double>(most));
   const glm::dmat3 across = b.axes() * glm::transpose(a.axes());
   const std::vector<glm::dmat4> a_rest = global_matrices(a.side.model, a.rest_of()),
                                 b_rest = global_matrices(b.side.model, b.rest_of());

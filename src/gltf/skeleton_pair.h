@@ -57,10 +57,14 @@ struct PoseFit {
   double degrees = -1, worst = 0;             // mean over them, below 0: unknown; worst frame of the worst limb
   double trunk_degrees = 0, trunk_worst = 0;  // hips to neck, since rest
   size_t source_limbs = 0, target_limbs = 0;  // arms and legs
+  // Of these, as a share of the body that has more: those of the target that nothing leads, and those of the source for
+  // which the target has a limb whose part is not known.
+  double unmatched = 0;
 };
 
 class SkeletonPair {
  public:
+  // Throws std::runtime_error if a chain that the caller named on both is another part on each.
   SkeletonPair(const JointSide& source, const JointSide& target);
   ~SkeletonPair();
   // Why joints cannot lead, a sentence; empty: they can.

@@ -13,14 +13,23 @@ namespace {
 // A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half would
 // refuse bodies that shift their weight to one leg; double would take a stride for a stance.
 constexpr double even = 0.08;
+// A leg whose lowest vertex is higher than this is in the air, a share of the height: twice what counts as standing.
+constexpr double lifted = 0.12;
 // A file may hold hundreds of clips, and thousands of loose joints. Clips of one body begin alike, and joints of one
 // skin are bound alike. More cost time.
 constexpr size_t most_clips = 8, most_roots = 8;
+constexpr std::ptrdiff_t most_legs = 1 << 16;  // more than any body has
 
 struct Look {
   bool understood = false;
   double uneven = 1e300;
+  std::ptrdiff_t lifted = 0;  // legs in the air
 };
+
+std::ptrdiff_t lifted_legs(const Character& c) {
+  return std::count_if(c.chains.begin(), c.chains.end(),
+                       [&](const Chain& chain) { return chain.role == Role::leg && chain.low > lifted * c.height; });
+}
 
 // How far arms and legs are from mirroring each other: the mean over their joints, a share of the height.
 double unevenness(const Character& c) {
@@ -70,6 +79,7 @@ Look look_at(const Model& model, const FlatMesh& mesh, const Pose& pose, const A
     const Character c = know_character(input, memory);
     out.understood = is_understood(c) && (of_file || !input.forward || faces_as_said(input, memory));
     out.uneven = unevenness(c);
+    out.lifted = lifted_legs(c);
   } catch (const hf_inner::Error&) {  // more joints than any character has
   }
   return out;
@@ -180,20 +190,25 @@ std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, cons
   if (model.skins.empty()) return {};
   const Pose rest = rest_pose(model);
   const Look own = look_at(model, mesh, rest, axes, true);
-  if (own.understood && own.uneven <= even) return {};
+  if (own.understood && own.uneven <= even && own.lifted == 0) return {};
   std::optional<Stance> best;
-  // A pose that is understood and more than twice as even is better; so is any that is understood where none was.
+  // A pose that is understood and more than twice as even is better. So is any that is understood where none was, or
+  // that has more legs on the ground: a body that rears does not stand.
   double uneven = own.understood ? 0.5 * own.uneven : 1e300;
+  std::ptrdiff_t lifted_in_best = own.understood ? own.lifted : most_legs;
+  const auto is_even = [&] { return best && uneven <= even; };
   const auto offer = [&](const Pose& pose, const std::string& from) {
     const Look look = look_at(model, standing(mesh, model, pose), pose, axes, false);
-    if (!look.understood || !(look.uneven < uneven)) return;
+    const bool more = look.lifted < lifted_in_best;
+    if (!look.understood || look.lifted > lifted_in_best || !(more || (look.uneven < uneven && !is_even()))) return;
     uneven = look.uneven;
-    best = Stance{pose, !own.understood, from};
+    lifted_in_best = look.lifted;
+    best = Stance{pose, !own.understood || look.lifted < own.lifted, from};
   };
   if (const std::optional<Pose> bound = bound_pose(model, rest)) offer(*bound, "as bound");
   // A clip that gets up ends standing.
   const size_t clips = std::min(model.animations.size(), most_clips);
-  for (size_t k = 0; k < 2 * clips && !(best && uneven <= even); ++k) {
+  for (size_t k = 0; k < 2 * clips && !(is_even() && lifted_in_best == 0); ++k) {
     const Animation& clip = model.animations[k % clips];
     const bool end = k >= clips;
     offer(sample(model, clip, end ? clip_duration(clip) : 0),

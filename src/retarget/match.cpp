@@ -40,15 +40,38 @@ std::size_t segment_end(const Segments& chain, std::size_t k) {
   return k + 1 < chain.count() ? at(chain.starts[k + 1]) : chain.joints.size();
 }
 
-// Pieces of one bone: each follows the piece of the source in which its middle lies.
+// Where the joints of a segment stand along it, and its end, as shares of its length. A last piece whose end is not
+// known counts as long as the one before.
+Vector<double> piece_places(const Rig& rig, const Segments& chain, std::size_t k, Memory& memory) {
+  const std::size_t first = at(chain.starts[k]), end = segment_end(chain, k), joints = chain.joints.size();
+  const auto place = [&](std::size_t i) {
+    return i < joints ? rig.rest.place[at(chain.joints[i])] : rig.tip_place(chain.tip, rig.rest);
+  };
+  Vector<double> places(1, 0.0, &memory);
+  double length = 1;
+  for (std::size_t i = first; i < end; ++i) {
+    if (i + 1 < joints || chain.tip.joint >= 0) length = norm(place(i + 1) - place(i));
+    places.push_back(places.back() + length);
+  }
+  const double whole = places.back();
+  for (double& p : places) p = whole > 0 ? p / whole : 0;
+  return places;
+}
+
+// Pieces of one bone: each follows the piece of the source in which its middle lies. A joint in the place where the
+// bone ends, such as a control of the heel, is a piece of no length: nothing follows it.
 void follow_pieces(Matcher& m, const ChainPair& pair, std::size_t k) {
-  const std::size_t sa = at(pair.source.starts[k]), se = segment_end(pair.source, k);
-  const std::size_t ta = at(pair.target.starts[k]), te = segment_end(pair.target, k);
-  for (std::size_t i = ta; i < te; ++i) {
-    const double middle = (static_cast<double>(i - ta) + 0.5) / static_cast<double>(te - ta);
-    const std::size_t piece = sa + static_cast<std::size_t>(middle * static_cast<double>(se - sa));
-    const Index by = pair.source.joints[std::min(piece, se - 1)];
-    m.follow(pair.target.joints[i], by, by, 0, pair.align[k]);
+  const Vector<double> from = piece_places(m.r.source, pair.source, k, m.memory),
+                       to = piece_places(m.r.target, pair.target, k, m.memory);
+  const std::size_t sa = at(pair.source.starts[k]), ta = at(pair.target.starts[k]);
+  for (std::size_t i = 0; i + 1 < to.size(); ++i) {
+    const double middle = 0.5 * (to[i] + to[i + 1]);
+    std::size_t piece = 0;
+    for (std::size_t p = 1; p + 1 < from.size(); ++p) {
+      if (from[p] < from[p + 1] && from[p] <= middle) piece = p;
+    }
+    const Index by = pair.source.joints[sa + piece];
+    m.follow(pair.target.joints[ta + i], by, by, 0, pair.align[k]);
   }
 }
 

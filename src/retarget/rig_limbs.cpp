@@ -56,13 +56,18 @@ void cut_limb(const Rig& rig, Segments& limb) {
   const Vec3 end = limb.tip.joint >= 0 ? rig.tip_place(limb.tip, rig.rest) : rig.rest.place[at(limb.joints[n - 1])];
   const auto place = [&](std::size_t k) { return k < n ? rig.rest.place[at(limb.joints[k])] : end; };
   const std::size_t last = limb.tip.joint >= 0 ? n : n - 1;  // the place where the last segment ends
+  // Two joints in one place, such as an ankle and the control of its heel, have no bone between them.
+  const auto bone = [&](std::size_t k) {
+    const Vec3 way = place(k + 1) - place(k);
+    return norm(way) > same_rest * rig.height ? unit_vector(way) : Vec3{};
+  };
   double length = 0;
   for (std::size_t k = 0; k < last; ++k) length += norm(place(k + 1) - place(k));
   std::size_t middle = 0;
   double nearest = 1e300, along = 0;
   for (std::size_t k = 1; k < last; ++k) {
     along += norm(place(k) - place(k - 1));
-    const Vec3 a = unit_vector(place(k) - place(k - 1)), b = unit_vector(place(k + 1) - place(k));
+    const Vec3 a = bone(k - 1), b = bone(k);
     if (norm(a) > 0 && norm(b) > 0 && dot(a, b) < segment_bend) limb.starts.push_back(static_cast<Index>(k));
     if (std::fabs(along - 0.5 * length) < nearest) {
       nearest = std::fabs(along - 0.5 * length);

@@ -119,22 +119,54 @@ void find_soles(Rig& rig, const RetargetSide& side, Memory& memory) {
   }
 }
 
-void find_ends(Rig& rig, const RetargetSide& side, Memory& memory) {
-  const CharacterInput& in = side.input;
-  rig.ends.assign(at(rig.count), {});
-  Vector<double> counts(at(rig.count), 0, &memory);
+namespace {
+
+// Visits each vertex with the joint that moves it most, as seen from that joint.
+template <class Visit>
+void each_from_joint(const Rig& rig, const CharacterInput& in, Visit visit) {
   for (std::uint32_t v = 0; in.positions && v < in.vertex_count; ++v) {
     const Vec3 p = vertex(in, v);
     const Index j = influences_of(in, v).joints[0];
-    if (j < 0 || !std::isfinite(p.x + p.y + p.z)) continue;
-    rig.ends[at(j)] = rig.ends[at(j)] + (p - rig.file_rest.place[at(j)]);
-    counts[at(j)] += 1;
+    if (j >= 0 && std::isfinite(p.x + p.y + p.z)) visit(at(j), p - rig.file_rest.place[at(j)]);
   }
+}
+
+// How far forward of each joint its sole begins: its lowest vertices.
+Vector<double> find_heels(const Rig& rig, const CharacterInput& in, Memory& memory) {
+  Vector<double> lows(at(rig.count), 1e300, &memory), heels(at(rig.count), 1e300, &memory);
+  each_from_joint(rig, in, [&](std::size_t j, Vec3 p) { lows[j] = std::min(lows[j], dot(p, rig.up)); });
+  each_from_joint(rig, in, [&](std::size_t j, Vec3 p) {
+    if (dot(p, rig.up) <= lows[j] + low_share * rig.leg_length) heels[j] = std::min(heels[j], dot(p, rig.forward));
+  });
+  return heels;
+}
+
+}  // namespace
+
+void find_ends(Rig& rig, const RetargetSide& side, Memory& memory) {
+  rig.ends.assign(at(rig.count), {});
+  Vector<double> counts(at(rig.count), 0, &memory);
+  each_from_joint(rig, side.input, [&](std::size_t j, Vec3 p) {
+    rig.ends[j] = rig.ends[j] + p;
+    counts[j] += 1;
+  });
   for (std::size_t j = 0; j < at(rig.count); ++j) {
-    if (!(counts[j] > 0)) continue;
-    const Turn turn = rig.rest.turn[j] * inverse(rig.file_rest.turn[j]);
-    rig.ends[j] = turn * ((2 / counts[j]) * rig.ends[j]);
+    if (counts[j] > 0) rig.ends[j] = (2 / counts[j]) * rig.ends[j];
   }
+  // A body stands over its ankles, but the middle of a boot lies toward the toes. A leg without a foot ends at the
+  // place of its sole that is nearest to the one under the hip.
+  const Vector<double> heels = find_heels(rig, side.input, memory);
+  for (const Chain& chain : side.character.chains) {
+    if (chain.role != Role::leg) continue;
+    const std::size_t hip = side.character.chain_joints[chain.first],
+                      last = side.character.chain_joints[chain.first + chain.count - 1];
+    const double ahead = dot(rig.ends[last], rig.forward),
+                 under = dot(rig.file_rest.place[hip] - rig.file_rest.place[last], rig.forward);
+    const double nearest = std::max(under, heels[last]);
+    if (nearest < ahead) rig.ends[last] = rig.ends[last] - (ahead - nearest) * rig.forward;
+  }
+  for (std::size_t j = 0; j < at(rig.count); ++j)
+    rig.ends[j] = rig.rest.turn[j] * inverse(rig.file_rest.turn[j]) * rig.ends[j];
 }
 
 Vector<SkinPoint> outer_points(const Rig& rig, const RetargetSide& side, const Vector<std::uint8_t>& part,

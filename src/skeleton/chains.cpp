@@ -81,15 +81,22 @@ void number_chains(const Body& body, Character& out) {
         counts[static_cast<std::size_t>(out.chains[c].role)][static_cast<std::size_t>(out.chains[c].side)]++;
 }
 
-// Returns the middle of the lowest vertices of a joint: a leg without a foot ends there, not at the toes of a boot.
-Vec3 sole_of(const Body& body, Index joint) {
+// Where a leg without a foot ends: on its sole, as near as that comes to the place under the hip. A body stands over
+// its ankles; the middle of a boot lies toward the toes.
+Vec3 ankle_of_sole(const Body& body, Index joint, Vec3 hip) {
   const double low = body.lowest_below(joint, body.up);
-  Box box;
+  double back = 1e300, front = -1e300, left = -1e300, right = 1e300;
   for (const std::uint32_t v : body.owned_by(joint)) {
-    const double over = dot(body.points[v], body.up) - low;
-    if (over <= 0.5 * standing * body.height) box.add(body.points[v] - over * body.up);
+    const Vec3 p = body.points[v];
+    if (dot(p, body.up) - low > 0.5 * standing * body.height) continue;
+    back = std::min(back, dot(p, body.forward));
+    front = std::max(front, dot(p, body.forward));
+    left = std::max(left, dot(p, body.left));
+    right = std::min(right, dot(p, body.left));
   }
-  return box.empty() ? body.pivots[at(joint)] : box.middle();
+  if (!(front >= back)) return body.pivots[at(joint)];
+  const double ahead = std::clamp(dot(hip, body.forward), back, front);
+  return low * body.up + ahead * body.forward + 0.5 * (left + right) * cross(body.up, body.forward);
 }
 
 // Along the joints, and on to the chain that goes on from the tip.
@@ -107,8 +114,11 @@ void measure_chains(const Body& body, Character& out) {
         on = norm(body.pivots[at(child)] - pivot(chain.count - 1));
     }
     if (on == 0 && body.children_of(tip).empty())
-      on = chain.role == Role::leg ? norm(sole_of(body, tip) - body.pivots[at(tip)]) : body.reaches[at(tip)];
+      on = chain.role == Role::leg ? norm(ankle_of_sole(body, tip, pivot(0)) - body.pivots[at(tip)])
+                                   : body.reaches[at(tip)];
     chain.length = body.scale * (chain.length + on);
+    chain.low =
+        body.scale * (body.lowest_below(static_cast<Index>(out.chain_joints[chain.first]), body.up) - body.ground);
   }
 }
 

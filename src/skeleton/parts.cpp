@@ -51,13 +51,17 @@ bool has_collar(const Body& body, const Limb& limb, const Vector<Index>& path, s
 // The hand: the first with its name, else the last joint before fingers; the length of the path: the arm ends without,
 // as one of two joints does.
 std::size_t find_hand(const Body& body, const Limb& limb, const Vector<Index>& path) {
+  const std::size_t collars = leads_out(body, limb) ? 1 : 0;
   for (std::size_t k = 0; k < path.size() && body.named; ++k) {
-    if (body.names[at(path[k])].hand) return k;
+    if (!body.names[at(path[k])].hand) continue;
+    // A hand that is longer than the arm above it is a forearm: the second of two bones was named by its end.
+    const bool forearm =
+        k == collars + 1 && k + 1 == path.size() && body.reaches[at(path[k])] > bone(body, path, k - 1);
+    return forearm ? path.size() : k;
   }
   const Index last = path.back();
   const auto fingers = body.children_of(last);
   if (body.named && body.names[at(last)].lower) return path.size();
-  const std::size_t collars = leads_out(body, limb) ? 1 : 0;
   if (fingers.empty() && path.size() <= collars + 2) return path.size();
   // Fingers that start far from the last joint start at a wrist without a joint.
   if (!fingers.empty() && path.size() > 1) {
@@ -73,8 +77,10 @@ std::size_t find_hand(const Body& body, const Limb& limb, const Vector<Index>& p
 void assign_leg(Body& body, const Limb& limb, int side) {
   const auto& path = limb.paths[side];
   const JointName& first_name = body.names[at(path[0])];
-  // A joint of the pelvis or a shoulder blade above the leg.
-  const bool named = path.size() > 2 && (first_name.named == NameClass::trunk || (first_name.collar && body.named));
+  // A joint of the pelvis or a shoulder blade above the leg. Where the whole leg has the name of the trunk, the name
+  // tells them apart no more.
+  const bool pelvis = first_name.named == NameClass::trunk && limb.named != NameClass::trunk;
+  const bool named = path.size() > 2 && (pelvis || (first_name.collar && body.named));
   const std::size_t first = named || leads_out(body, limb) ? 1 : 0;
   const std::size_t foot = find_foot(body, path, first);
   set_digits(body, limb, side, Role::toe);

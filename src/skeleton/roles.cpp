@@ -54,6 +54,12 @@ Role role_on_head(const Limb& limb) {
   }
 }
 
+bool ends_in_foot(const Body& body, const Limb& limb) {
+  return std::all_of(std::begin(limb.paths), std::end(limb.paths), [&](const Vector<Index>& path) {
+    return std::any_of(path.begin(), path.end(), [&](Index j) { return body.named && body.names[at(j)].foot; });
+  });
+}
+
 Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count) {
   if (body.head >= 0 && body.head != body.root && is_below(body, limb.carrier, body.head))
     return is_leg_on_head(body, limb) ? Role::leg : role_on_head(limb);
@@ -71,9 +77,14 @@ Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count
       return Role::antenna;
     case NameClass::leg:
       return Role::leg;
-    // On four legs what stands is a leg, whatever its name: the front legs of a fox have hands.
+    // On four legs what stands is a leg, whatever its name: the front legs of a fox have hands. What ends in a foot is
+    // one, too, while the body rears.
     case NameClass::arm:
+      if (ends_in_foot(body, limb)) return Role::leg;
       return limb.stands && !upright && standing_count > 1 ? Role::leg : Role::arm;
+    // No trunk reaches the ground: bones that were drawn out of the back have its name.
+    case NameClass::trunk:
+      return limb.stands ? Role::leg : Role::other;
     case NameClass::none:
     case NameClass::digit:
       break;

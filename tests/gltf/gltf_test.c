@@ -289,6 +289,11 @@ static void pairs_give_regions_and_come_back(void** state) {
   assert_int_equal(hf_gltf_pairs_propose(model, model, NULL, &none), HF_ERROR_EMPTY);
   assert_null(none);
   assert_int_equal(hf_gltf_pairs_read(model, model, "{\"pears\": 1}", 12, &none), HF_ERROR_INVALID_ARGUMENT);
+  /* chains name joints, which pairs of surfaces do not have */
+  static const char chains[] =
+      "{\"pairs\": [{\"name\": \"a\", \"both\": {\"vertices\": [0]}}],"
+      " \"chains\": [{\"name\": \"tail\", \"both\": [\"Tail\"]}]}";
+  assert_int_equal(hf_gltf_pairs_read(model, model, chains, sizeof chains - 1, &none), HF_ERROR_INVALID_ARGUMENT);
   free(text);
   hf_gltf_pairs_destroy(pairs);
   hf_gltf_pairs_destroy(again);

@@ -20,6 +20,32 @@ using hf_inner::Turn;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
+// Each vertex in a pose; the bodies are placed with turns of joints only at the pose.
+std::vector<Vec3> posed_points(const Rig& rig, const PlacedRig& placed, const hf_inner::CharacterInput& input,
+                               const std::vector<double>& pose) {
+  const auto rest = world_of(placed.parents, rest_trs(input).data()), world = world_of(placed.parents, pose.data());
+  const auto linear = [](const std::vector<double>& w, std::size_t j) {
+    const double* p = &w[12 * j];
+    return hf_inner::Linear{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}};
+  };
+  const auto place = [](const std::vector<double>& w, std::size_t j) {
+    return Vec3{w[12 * j + 9], w[12 * j + 10], w[12 * j + 11]};
+  };
+  std::vector<Vec3> out;
+  for (std::size_t v = 0; v < rig.points.size(); ++v) {
+    const auto j = static_cast<std::size_t>(rig.owners[v]);
+    out.push_back(linear(world, j) * hf_inner::solve(linear(rest, j), rig.points[v] - place(rest, j)) +
+                  place(world, j));
+  }
+  return out;
+}
+
+double lowest_of(const std::vector<Vec3>& points) {
+  double low = 1e300;
+  for (const Vec3& p : points) low = std::min(low, p.y);
+  return low;
+}
+
 // A box with a head, two arms and two legs. The arms hang by so many degrees; reach: how far the legs
 // reach forward and back. spread: of legs of two bones without feet; 0 and below: legs are one bone.
 struct Blocks {
@@ -29,7 +55,7 @@ struct Blocks {
   Memory memory;
   std::unique_ptr<hf_inner::Character> character;
 
-  enum class More { none, elbows, heels };  // heels: helpers at the ends of the shins
+  enum class More { none, elbows };
   explicit Blocks(double hang, double reach = 0.1, double spread = 0, More more = More::none) {
     const int body = rig.add("body", -1, {0, 0.4, 0}, Role::spine);
     rig.add_block(body, {-0.3, 0.4, -0.2}, {0.3, 1, 0.2});
@@ -49,7 +75,6 @@ struct Blocks {
         rig.add_block(leg, {side * 0.15 - 0.08, 0.2, -reach}, {side * 0.15 + 0.08, 0.4, reach});
         const int shin = rig.add(std::string("shin") + end, leg, {side * 0.15, 0.2, 0}, Role::leg, s);
         rig.add_block(shin, {side * 0.15 - 0.08, 0, -reach}, {side * 0.15 + 0.08, 0.2, reach});
-        if (more == More::heels) rig.add_helper(std::string("heel") + end, shin, {side * 0.15, 0, 0});
         rig.turn(leg, {0, 0, 1}, side * spread);
       } else {
         rig.add_block(leg, {side * 0.15 - 0.08, 0, -reach}, {side * 0.15 + 0.08, 0.4, reach});
@@ -63,24 +88,7 @@ struct Blocks {
   }
   hf_inner::RetargetSide side() const { return {input, *character, nullptr}; }
 
-  // Each vertex in a pose; the bodies are placed with turns of joints only at the pose.
-  std::vector<Vec3> posed(const std::vector<double>& pose) const {
-    const auto rest = world_of(placed->parents, rest_trs(input).data()), world = world_of(placed->parents, pose.data());
-    const auto linear = [](const std::vector<double>& w, std::size_t j) {
-      const double* p = &w[12 * j];
-      return hf_inner::Linear{{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}};
-    };
-    const auto place = [](const std::vector<double>& w, std::size_t j) {
-      return Vec3{w[12 * j + 9], w[12 * j + 10], w[12 * j + 11]};
-    };
-    std::vector<Vec3> out;
-    for (std::size_t v = 0; v < rig.points.size(); ++v) {
-      const auto j = static_cast<std::size_t>(rig.owners[v]);
-      out.push_back(linear(world, j) * hf_inner::solve(linear(rest, j), rig.points[v] - place(rest, j)) +
-                    place(world, j));
-    }
-    return out;
-  }
+  std::vector<Vec3> posed(const std::vector<double>& pose) const { return posed_points(rig, *placed, input, pose); }
   // From the joint to the middle of its vertices.
   Vec3 bone(const std::string& name, const std::vector<double>& pose) const {
     const int j = rig.find(name);
@@ -141,7 +149,8 @@ TEST(Blocks, LegsOfOneBoneMeetByTheirVertices) {
 }
 
 // Turns a joint of a pose in the space of the model, from where it is.
-void turn_joint(const Blocks& body, const std::string& name, Turn turn, std::vector<double>& pose) {
+template <class Body>
+void turn_joint(const Body& body, const std::string& name, Turn turn, std::vector<double>& pose) {
   const auto j = static_cast<std::size_t>(body.rig.find(name));
   const auto world = world_of(body.placed->parents, pose.data());
   const auto turn_at = [&](std::size_t k) {
@@ -191,40 +200,115 @@ TEST(Blocks, AnArmOfOneBonePointsToTheEndOfTheArmItFollows) {
   EXPECT_LT(std::atan2(norm(cross(is, wanted)), dot(is, wanted)) / degree, 1);
 }
 
-// A shin without a foot stands: its end stays where it is while the body passes over it, at any scale of the travel.
-class Standing : public testing::TestWithParam<Blocks::More> {};
-TEST_P(Standing, ALegWithoutAFootStaysWhereItStands) {
-  const Blocks body(0, 0.02, 1e-9, GetParam());
+// The body of the family; with_feet: else shins own the skin of the feet.
+struct Walker {
+  Rig rig;
+  std::unique_ptr<PlacedRig> placed;
+  hf_inner::CharacterInput input;
   Memory memory;
-  hf_inner::RetargetOptions options;
-  options.scale = 0.5;
-  const auto slide = [&](bool goals) {
-    options.goals = goals;
-    Retarget retarget(body.side(), body.side(), options, memory);
-    std::vector<double> out(10 * body.placed->parents.size());
-    double least = 1e300, most = -1e300;
-    for (int f = 0; f <= 8; ++f) {
-      std::vector<double> pose = rest_trs(body.input);
-      const double angle = (f - 4) * 5 * degree;
-      turn_joint(body, "leg.l", hf_inner::turn_about({1, 0, 0}, angle), pose);
-      pose[1] += 0.4 * (std::cos(angle) - 1);
-      pose[2] += 0.4 * std::sin(angle);
-      retarget.frame(pose.data(), f == 0 ? 0 : 0.1, out.data());
-      const std::vector<Vec3> points = body.posed(out);
-      double end = 0;
-      for (std::size_t v = 0; v < points.size(); ++v) {
-        if (body.rig.owners[v] == body.rig.find("shin.l") && body.rig.points[v].y < 0.1) end += points[v].z / 4;
+  std::unique_ptr<hf_inner::Character> character;
+
+  Walker(bool with_feet, const BodyShape& shape) {
+    const Rig whole = make_biped("words", shape);
+    std::vector<int> number;  // of the joint that stands for each
+    for (const RigJoint& joint : whole.joints) {
+      const int parent = joint.parent < 0 ? -1 : number[static_cast<std::size_t>(joint.parent)];
+      if (joint.role == Role::foot && !with_feet) {
+        number.push_back(parent);
+        continue;
       }
-      least = std::min(least, end);
-      most = std::max(most, end);
+      number.push_back(static_cast<int>(rig.joints.size()));
+      rig.joints.push_back(joint);
+      rig.joints.back().parent = parent;
     }
-    return most - least;
-  };
-  EXPECT_GT(slide(false), 0.1);
-  EXPECT_LT(slide(true), 0.1);  // its offset stays below a share of the leg
+    rig.points = whole.points;
+    rig.triangles = whole.triangles;
+    for (const int owner : whole.owners) rig.owners.push_back(number[static_cast<std::size_t>(owner)]);
+    place();
+  }
+  // A joint between the shin and the foot, with a vertex of its own.
+  void add_heel(const std::string& foot) {
+    const auto j = static_cast<std::size_t>(rig.find(foot));
+    const int heel = rig.add(foot.substr(0, foot.find('_')) + "_foot heel", rig.joints[j].parent,
+                             rig.joints[j].pivot + Vec3{0, 0, 1e-9}, Role::leg, rig.joints[j].side);
+    rig.joints[j].parent = heel;
+    rig.add_block(heel, rig.joints[j].pivot - Vec3{0.02, 0.02, 0.02}, rig.joints[j].pivot + Vec3{0.02, 0.02, 0.02});
+    rig.joints[static_cast<std::size_t>(heel)].name =
+        (rig.joints[j].side == Side::left ? "left" : "right") + std::string("_leg heel");
+  }
+  void place() {
+    placed = std::make_unique<PlacedRig>(rig, Placing{});
+    input = placed->input();
+    character = std::make_unique<hf_inner::Character>(know_character(input, memory));
+  }
+  hf_inner::RetargetSide side() const { return {input, *character, nullptr}; }
+  Turn turn_of(const std::string& name, const std::vector<double>& pose) const {
+    const auto world = world_of(placed->parents, pose.data());
+    const double* p = &world[12 * static_cast<std::size_t>(rig.find(name))];
+    return hf_inner::turn_of({{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, {p[6], p[7], p[8]}});
+  }
+};
+
+// Both stand on flat soles, whichever of them has feet.
+TEST(Walkers, AShinWithoutAFootStandsLikeOneWithAFoot) {
+  for (const bool from : {true, false}) {
+    const Walker source(from, {}), target(!from, {});
+    Memory memory;
+    Retarget retarget(source.side(), target.side(), {}, memory);
+    const std::vector<double> rest = rest_trs(target.input);
+    std::vector<double> out(rest.size());
+    retarget.frame(rest_trs(source.input).data(), 0, out.data());
+    for (const char* bone : {"left_leg", "left_knee", "right_leg", "right_knee"}) {
+      const Turn since = target.turn_of(bone, out) * inverse(target.turn_of(bone, rest));
+      const double angle = 2 * std::acos(std::min(1.0, std::fabs(since.w))) / degree;
+      EXPECT_LT(angle, 4) << bone << (from ? " of the one without" : " of the one with");
+    }
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(Blocks, Standing, testing::Values(Blocks::More::none, Blocks::More::heels));
+// A boot tilts with its shin. The leg still points as that of the source does, and boots that dip lift the body.
+TEST(Walkers, ALegWithoutAFootTurnsAsTheSourceAndLiftsTheBody) {
+  const Walker source(true, {}), target(false, {0.8, 1, 1, 3, Rest::t});
+  Memory memory;
+  Retarget retarget(source.side(), target.side(), {}, memory);
+  std::vector<double> out(10 * target.placed->parents.size());
+  for (int f = 0; f <= 8; ++f) {
+    const double angle = (f - 4) * 5 * degree;
+    std::vector<double> pose = rest_trs(source.input);
+    turn_joint(source, "left_leg", hf_inner::turn_about({1, 0, 0}, angle), pose);
+    turn_joint(source, "right_leg", hf_inner::turn_about({1, 0, 0}, -angle), pose);
+    pose[1] -= lowest_of(posed_points(source.rig, *source.placed, source.input, pose));
+    retarget.frame(pose.data(), f == 0 ? 0 : 0.1, out.data());
+    EXPECT_GT(lowest_of(posed_points(target.rig, *target.placed, target.input, out)), -1e-6) << f;
+  }
+  for (const auto& chain : retarget.report().chains) {
+    if (chain.role == Role::leg) {
+      EXPECT_LT(chain.worst_degrees, 0.01);
+    }
+  }
+}
+
+// A joint in the place of the ankle carries the foot, a hair away: controls of heels stand so. It is no bone of the
+// leg, and it turns as the foot does.
+TEST(Walkers, AControlInThePlaceOfTheAnkleIsNoBoneOfTheLeg) {
+  Walker source(true, {}), target(true, {});
+  for (const char* side : {"left", "right"}) source.add_heel(std::string(side) + "_foot");
+  source.place();
+  Memory memory;
+  hf_inner::RetargetOptions options;
+  options.goals = false;
+  Retarget retarget(source.side(), target.side(), options, memory);
+  std::vector<double> pose = rest_trs(source.input), out(10 * target.placed->parents.size());
+  turn_joint(source, "left_leg", hf_inner::turn_about({1, 0, 0}, -40 * degree), pose);
+  turn_joint(source, "left_knee", hf_inner::turn_about({1, 0, 0}, 70 * degree), pose);
+  turn_joint(source, "left_leg heel", hf_inner::turn_about({1, 0, 0}, -60 * degree), pose);
+  retarget.frame(pose.data(), 0, out.data());
+  for (const auto& chain : retarget.report().chains) {
+    if (chain.role == Role::leg) {
+      EXPECT_LT(chain.worst_degrees, 0.01);
+    }
+  }
+}
 
 TEST(Blocks, LegsOfOneBoneLiftTheBodyOverTheGround) {
   const Blocks source(0), target(70, 0.4);
@@ -245,18 +329,13 @@ TEST(Blocks, LegsOfOneBoneLiftTheBodyOverTheGround) {
     std::copy(numbers, numbers + 4, &pose[10 * static_cast<std::size_t>(source.rig.find(leg)) + 3]);
   }
   pose[1] += 0.05;  // the source stays over the ground
-  const auto lowest = [](const std::vector<Vec3>& points) {
-    double low = 1e300;
-    for (const Vec3& p : points) low = std::min(low, p.y);
-    return low;
-  };
-  ASSERT_GE(lowest(source.posed(pose)), 0);
+  ASSERT_GE(lowest_of(source.posed(pose)), 0);
   retarget.frame(pose.data(), 0, out.data());
-  EXPECT_GT(lowest(target.posed(out)), -1e-6);
+  EXPECT_GT(lowest_of(target.posed(out)), -1e-6);
   options.goals = false;
   Retarget without(source.side(), target.side(), options, memory);
   without.frame(pose.data(), 0, out.data());
-  EXPECT_LT(lowest(target.posed(out)), -0.01);
+  EXPECT_LT(lowest_of(target.posed(out)), -0.01);
 }
 
 }  // namespace

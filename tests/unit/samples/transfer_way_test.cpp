@@ -73,6 +73,28 @@ TEST(TransferWay, ArmsThatNothingFollowsLowerTheConfidence) {
   EXPECT_TRUE(has(figures["said"], "of the arms and legs of one body have no partner")) << figures["said"];
 }
 
+// A body without arms has none to move.
+TEST(TransferWay, ArmsThatTheTargetDoesNotHaveAreNoFault) {
+  hf_gltf::Model bare = rigged("biped_tall");
+  const std::vector<int>& joints = bare.skins[0].joints;
+  const auto is_arm = [&](uint16_t joint) {
+    const std::string& name = bare.nodes[static_cast<size_t>(joints[joint])].name;
+    return has(name, "Arm") || has(name, "Hand") || has(name, "Shoulder");
+  };
+  const auto chest = std::find_if(joints.begin(), joints.end(),
+                                  [&](int node) { return has(bare.nodes[static_cast<size_t>(node)].name, "Spine2"); });
+  ASSERT_NE(chest, joints.end());
+  for (hf_gltf::MeshData& mesh : bare.meshes)
+    for (hf_gltf::Primitive& primitive : mesh.primitives)
+      for (hf_gltf::Influences& influences : primitive.influences)
+        for (size_t k = 0; k < 8; ++k)
+          if (is_arm(influences.joints[k])) influences.joints[k] = static_cast<uint16_t>(chest - joints.begin());
+  const json figures = walked(written(bare, "armless.glb"), "armless_walk", "");
+  EXPECT_EQ(figures["way"], "skeleton");
+  EXPECT_EQ(figures["clips"][0]["limbs"]["partners"], 2);
+  EXPECT_GT(figures["clips"][0]["confidence"], 0.8);
+}
+
 TEST(TransferWay, ASwordInTheGroundIsSaidAndTheBodyIsNot) {
   const fs::path source = data() / "q_KnightCharacter.glb", target = data() / "kk_Knight.glb";
   if (!fs::exists(source) || !fs::exists(target))

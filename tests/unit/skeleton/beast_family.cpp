@@ -3,7 +3,8 @@
 
 namespace hf_test {
 
-const std::vector<std::string> beasts = {"horse", "fox with hands", "bird", "spider", "fish", "snake", "tyrannosaur"};
+const std::vector<std::string> beasts = {"horse",  "fox with hands", "horse of backs", "bird",
+                                         "spider", "fish",           "snake",          "tyrannosaur"};
 
 namespace {
 
@@ -39,7 +40,8 @@ struct Beast {
     }
   }
 
-  void four_legs(bool hands) {
+  // backs: legs have the name of the back on which they hang, as where a rig was grown by extruding bones.
+  void four_legs(bool hands, bool backs = false) {
     const int root = rig.add_helper(text("root"), -1, {0, 0, 0});
     const int hips = central("Hips", root, {0, 1.2, -0.5}, {0, 1.2, -0.2}, Role::spine, 0.17);
     const int spine = central("Spine1", hips, {0, 1.22, -0.2}, {0, 1.2, 0.2}, Role::spine, 0.18);
@@ -49,6 +51,20 @@ struct Beast {
     limb(head, {{"Ear", Role::ear, {0.07, 1.85, 0.8}}}, {0.09, 2.0, 0.8}, 0.02);
     const int tail = central("Tail1", hips, {0, 1.25, -0.62}, {0, 1.0, -0.85}, Role::tail, 0.04);
     central("Tail2", tail, {0, 1.0, -0.85}, {0, 0.7, -0.95}, Role::tail, 0.03);
+    if (backs) {
+      limb(chest,
+           {{"Back.001", Role::leg, {0.15, 1.0, 0.4}},
+            {"Back.002", Role::leg, {0.15, 0.55, 0.35}},
+            {"f_hoof", Role::foot, {0.15, 0.12, 0.4}}},
+           {0.15, 0, 0.5}, 0.05, true);
+      limb(hips,
+           {{"Back", Role::leg, {0.15, 1.05, -0.5}},
+            {"Back.011", Role::leg, {0.15, 0.75, -0.4}},
+            {"Back.012", Role::leg, {0.15, 0.45, -0.62}},
+            {"b_hoof", Role::foot, {0.15, 0.12, -0.55}}},
+           {0.15, 0, -0.5}, 0.05, true);
+      return;
+    }
     if (hands) {
       limb(chest,
            {{"UpperArm", Role::leg, {0.15, 1.0, 0.4}},
@@ -134,6 +150,7 @@ Rig make_beast(const std::string& kind, bool named) {
   Beast beast{named, {}};
   if (kind == "horse") beast.four_legs(false);
   if (kind == "fox with hands") beast.four_legs(true);
+  if (kind == "horse of backs") beast.four_legs(false, true);
   if (kind == "bird") beast.two_legs(true);
   if (kind == "tyrannosaur") beast.two_legs(false);
   if (kind == "spider") beast.spider();

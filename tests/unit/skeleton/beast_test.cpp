@@ -43,7 +43,7 @@ TEST_P(Beasts, WithoutNamesAxesAreRightOrUnsure) {
     if (found.forward_confidence > 0.6) {
       EXPECT_EQ(placed.faults(found, false), "") << why(found);
     }
-    const bool stands = GetParam() == "horse" || GetParam() == "fox with hands" || GetParam() == "tyrannosaur";
+    const bool stands = GetParam().find("horse") == 0 || GetParam() == "fox with hands" || GetParam() == "tyrannosaur";
     EXPECT_TRUE(!stands || found.forward_confidence > 0.6) << why(found);
   }
 }

@@ -301,5 +301,29 @@ TEST(Chains, HoldEveryJointOnceFromRootToTip) {
   }
 }
 
+// The second of two bones of an arm has the name of the hand at its end. A hand that is no longer than its arm is one.
+TEST(Arms, AHandThatIsLongerThanItsArmIsAForearm) {
+  for (const bool longer : {true, false}) {
+    Rig rig = make_biped("words", {});
+    for (const char* side : {"left", "right"}) {
+      const int elbow = rig.find(std::string(side) + "_elbow"), hand = rig.find(std::string(side) + "_hand");
+      const int arm = rig.find(std::string(side) + "_arm");
+      for (int& owner : rig.owners)
+        if (owner == hand || (!longer && owner == elbow)) owner = longer ? elbow : owner == hand ? hand : arm;
+      rig.joints[static_cast<std::size_t>(longer ? hand : elbow)].helper = true;
+      rig.joints[static_cast<std::size_t>(longer ? hand : elbow)].judged = false;
+      rig.joints[static_cast<std::size_t>(hand)].parent = longer ? elbow : arm;
+      if (longer) {
+        rig.joints[static_cast<std::size_t>(elbow)].name = std::string(side) + "_hand";
+        rig.joints[static_cast<std::size_t>(hand)].name = "tip";
+      }
+    }
+    Memory memory;
+    const PlacedRig placed(rig, {});
+    const Character found = know_character(placed.input(), memory);
+    EXPECT_EQ(placed.faults(found), "") << longer;
+  }
+}
+
 }  // namespace
 }  // namespace hf_test

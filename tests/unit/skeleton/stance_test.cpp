@@ -143,10 +143,8 @@ TEST(Stance, ABodyStoredInMidStrideStandsAsItsSkinWasBound) {
   }
 }
 
-// In the stride, and bound in it: only a clip can say how the body stands.
-Model bound_in_stride(const Model& even, double share = 1) {
-  Model model = even;
-  stride(model, share);
+// Binds the skin in the pose of the nodes.
+void bind(Model& model) {
   const std::vector<glm::dvec3> placed = flatten(model).positions;
   auto& stored = model.meshes[0].primitives[0].positions;
   for (size_t v = 0; v < placed.size(); ++v) stored[v] = glm::vec3(placed[v]);
@@ -156,6 +154,13 @@ Model bound_in_stride(const Model& even, double share = 1) {
   for (auto& node : model.nodes)
     if (node.matrix) hf_gltf::split_matrix(node);
   EXPECT_LT(apart(flatten(model).positions, placed), 1e-4);
+}
+
+// In the stride, and bound in it: only a clip can say how the body stands.
+Model bound_in_stride(const Model& even, double share = 1) {
+  Model model = even;
+  stride(model, share);
+  bind(model);
   return model;
 }
 
@@ -268,6 +273,24 @@ TEST(Stance, MotionCountsFromTheStanceNotFromThePoseOfTheFile) {
   EXPECT_LT(apart(hf_gltf::posed_positions(stored, stored_mesh, played.target[0]),
                   hf_gltf::posed_positions(source, source_mesh, played.source[0])),
             2e-3);
+}
+
+// The rest is even, with the front legs in the air: the body stands where a clip has all legs on the ground.
+TEST(Stance, ABodyThatRearsStandsAsInAClip) {
+  Rig rig = make_beast("fox with hands", true);
+  for (RigJoint& joint : rig.joints)  // in the air, arms that end in feet are legs
+    if (joint.name.find("Hand") == 0) joint.name.replace(0, 4, "FrontFoot");
+  const Model even = make_rig_model(PlacedRig(rig, {}), "fox.glb");
+  ASSERT_FALSE(find_stance(even, flatten(even), nullptr));
+  Model model = even;
+  for (const char* name : {"UpperArm.L", "UpperArm.R"}) turn_node(model, name, {1, 0, 0}, -100);
+  bind(model);
+  EXPECT_FALSE(find_stance(model, flatten(model), nullptr)) << "there is no other pose";
+  model.animations.push_back(hf_gltf::clip_of_poses(model, "walk", {0}, {parts_of(even)}));
+  const auto found = find_stance(model, flatten(model), nullptr);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->needed);
+  EXPECT_EQ(found->from, "as at the start of the clip \"walk\"");
 }
 
 }  // namespace
