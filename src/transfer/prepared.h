@@ -84,7 +84,8 @@ struct Transfer::Prepared {
         needs(&memory),
         forces(&memory),
         block_needs(&memory),
-        hold_forces(&memory) {}
+        hold_forces(&memory),
+        rigid_motions(&memory) {}
   struct Anchor {
     std::uint32_t number = 0, flags = 0;
     bool is_foot = false;
@@ -149,6 +150,7 @@ struct Transfer::Prepared {
   Vector<double> needs, forces;  // per vertex: how far it must rise, and the force that raises it
   Vector<double> block_needs;    // the largest need of some adjacent vertices
   Vector<double> hold_forces;    // per constraint of the frame: the force that keeps it in place
+  Vector<RigidMotion> rigid_motions;  // of rigid pieces in the last frame, in the caller's units
 };
 
 }  // namespace hf_inner

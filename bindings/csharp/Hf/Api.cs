@@ -134,7 +134,8 @@ namespace Hf
         Tip = Constants.HF_HANDLE_REASON_TIP,
         /// <summary>one of the two ends of a component without feet or tips</summary>
         End = Constants.HF_HANDLE_REASON_END,
-        /// <summary>a joint of the given skeleton: an end, or where it branches</summary>
+        /// <summary>a joint of the given skeleton: an end, or where it branches; a head or a hand that is no tip of the
+        /// surface</summary>
         Joint = Constants.HF_HANDLE_REASON_JOINT,
         /// <summary>the trunk of the largest component: the chest of a biped; pinned, inside the surface</summary>
         Middle = Constants.HF_HANDLE_REASON_MIDDLE,
@@ -1154,7 +1155,9 @@ namespace Hf
         }
     }
 
-    /// <summary>One proposed handle. position and radius are as in HandlesDesc: the regions of all proposals are disjoint.</summary>
+    /// <summary>One proposed handle. position and radius are as in HandlesDesc: the regions of all proposals are disjoint.
+    /// With a skeleton whose roles are known, the region in regions is all that a head, a hand or a foot moves. The
+    /// region of position and radius is then a part of that.</summary>
     public sealed unsafe partial class HandleProposal
     {
         /// <summary>nearest to the position; as given, of welded copies the first</summary>
@@ -1164,14 +1167,22 @@ namespace Hf
         public HandleReason Reason;
         /// <summary>1: add it at once, it holds the body; 0: offer it, and add it when it is dragged</summary>
         public bool Pinned;
-        /// <summary>the end joint nearby, or the joint proposed, by position in the list; uint.MaxValue = none</summary>
+        /// <summary>with a skin: the first joint of a whole head, hand or foot, else the lowest joint that moves most of the
+        /// region, together with the joints below it. Without a skin: the end joint nearby, or the joint proposed.
+        /// uint.MaxValue = none</summary>
         public uint Joint;
+        /// <summary>Role that has most of the weights in the region. A sword has the role of the hand</summary>
+        public Role Role;
+        /// <summary>BodySide of the same joints</summary>
+        public Side Side;
         /// <summary>at rest, in the unit and frame of the mesh; inside the surface for a joint and the trunk</summary>
         public double[] Position = new double[3];
         /// <summary>in the unit of the mesh</summary>
         public double Radius;
         /// <summary>how far the part protrudes, in the unit of the mesh</summary>
         public double Length;
+        /// <summary>for Pose.SetFollowing while the handle is dragged: 1 if it is pinned, else 0.25</summary>
+        public double Following;
 
         internal HandleProposal(hf_handle_proposal* raw)
         {
@@ -1180,9 +1191,12 @@ namespace Hf
             Reason = (HandleReason)raw->reason;
             Pinned = raw->pinned != 0;
             Joint = raw->joint;
+            Role = (Role)raw->role;
+            Side = (Side)raw->side;
             for (int i = 0; i < 3; ++i) Position[i] = raw->position[i];
             Radius = raw->radius;
             Length = raw->length;
+            Following = raw->following;
         }
 
         public HandleProposal() { }
@@ -1194,9 +1208,12 @@ namespace Hf
             raw->reason = (int)Reason;
             raw->pinned = Pinned ? 1 : 0;
             raw->joint = Joint;
+            raw->role = (int)Role;
+            raw->side = (int)Side;
             Call.Fill(Position, "Position", 3, raw->position);
             raw->radius = Radius;
             raw->length = Length;
+            raw->following = Following;
         }
     }
 
@@ -2763,18 +2780,26 @@ namespace Hf
 
         /// <summary>Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned
         /// proposals come first, then the others, each group by length, the longest first. The places do not depend
-        /// on the order of the vertices. They follow translation and scale.
+        /// on the order of the vertices. They follow translation and scale. A skeleton gives each proposal the
+        /// joint that moves it, and a role and a side. If its roles are known, feet and the trunk hold. Hands,
+        /// heads and tails do not hold, nor does what hangs on them. Each head, hand, foot, tail, ear and wing gets
+        /// one proposal. A part that no joint of the skin moves, such as the box of a control, gets none.
         ///
         /// joints: [jointCount x 3] their places at rest, in the unit and frame of the mesh
         /// parents: [jointCount] position of each joint's parent in the list; uint.MaxValue for a root
-        /// up: direction away from the ground, of any length; 0 0 0 = 0 1 0
+        /// skeleton: the character of the mesh, instead of joints and parents: it rests in the unit and frame of
+        ///     the mesh. Its skin, if it has one, has the vertices of the mesh
+        /// up: direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0
         /// leastLengthShare: as in ExtremitiesDesc; 0 = 0.05
         /// limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
         /// progress: an object to poll and cancel through
+        /// regions: [vertexCount]: for each vertex the number of the proposal whose region it is in, uint.MaxValue
+        ///     for a vertex in none
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.</summary>
-        public HandleProposal[] ProposeHandles(double[] joints = null, uint[] parents = null, double[] up = null,
-                double leastLengthShare = 0, uint limit = 0, Progress progress = null)
+        public HandleProposal[] ProposeHandles(double[] joints = null, uint[] parents = null, Skeleton skeleton = null,
+                double[] up = null, double leastLengthShare = 0, uint limit = 0, Progress progress = null,
+                Span<uint> regions = default(Span<uint>))
         {
             using (var c = new Call(this))
             {
@@ -2784,24 +2809,31 @@ namespace Hf
                 desc->joints = (IntPtr)c.Array(joints, "joints", "joint_count", "3");
                 desc->parents = (IntPtr)c.Array(parents, "parents", "joint_count");
                 c.Fixed(up, "up", 3, desc->up);
+                desc->skeleton = c.Handle(skeleton);
                 desc->progress = c.Handle(progress);
                 desc->joint_count = (uint)c.Count("joint_count", 0);
-                uint count = 0;
-                var found = new Growth(c, this, "hf_surface_propose_handles");
-                found.Room("capacity", null);
-                found.Rows("proposals", sizeof(hf_handle_proposal), "capacity");
-                do
+                if (!regions.IsEmpty)
+                    c.Need(regions.Length, "regions", "vertex_count");
+                fixed (uint* regionsPlace = &MemoryMarshal.GetReference(regions))
                 {
-                        found.Begin();
-                        found.Result = Functions.hf_surface_propose_handles(RawHandle, desc, (uint)found["capacity"],
-                            found.Place("proposals"), &count);
-                        found.Told("capacity", count);
+                    desc->out_regions = (IntPtr)regionsPlace;
+                    uint count = 0;
+                    var found = new Growth(c, this, "hf_surface_propose_handles");
+                    found.Room("capacity", null);
+                    found.Rows("proposals", sizeof(hf_handle_proposal), "capacity");
+                    do
+                    {
+                            found.Begin();
+                            found.Result = Functions.hf_surface_propose_handles(RawHandle, desc,
+                                (uint)found["capacity"], found.Place("proposals"), &count);
+                            found.Told("capacity", count);
+                    }
+                    while (found.Again());
+                    var proposals = new HandleProposal[found.Length("proposals")];
+                    for (int i = 0; i < proposals.Length; ++i)
+                        proposals[i] = new HandleProposal((hf_handle_proposal*)found.Place("proposals") + i);
+                    return proposals;
                 }
-                while (found.Again());
-                var proposals = new HandleProposal[found.Length("proposals")];
-                for (int i = 0; i < proposals.Length; ++i)
-                    proposals[i] = new HandleProposal((hf_handle_proposal*)found.Place("proposals") + i);
-                return proposals;
             }
         }
 
@@ -5871,6 +5903,25 @@ namespace Hf
             }
         }
 
+        /// <summary>Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh.
+        ///
+        /// vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid.
+        ///     The list replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits
+        ///     the piece best, as Pose.SetRigidPieces does. This comes last in a frame: a hold on a part of a rigid
+        ///     piece may miss its place, and a rigid piece may sink into the ground. Does not factorise.
+        ///
+        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        public void SetRigidPieces(uint[] vertices)
+        {
+            using (var c = new Call(this))
+            {
+                c.Forget("vertex_count");  // of the list given here
+                void* vertices_ = c.Array(vertices, "vertices", "vertex_count");
+                HfException.Check(Functions.hf_transfer_set_rigid_pieces(RawHandle, (uint)c.Count("vertex_count", 1),
+                    vertices_));
+            }
+        }
+
         /// <summary>Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest
         /// directions differ much on the two surfaces (PairInfo), it takes the direction of the source's limb
         /// instead, by a share.
@@ -6018,7 +6069,8 @@ namespace Hf
         }
 
         /// <summary>Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the
-        /// skin replays Transfer.Apply exactly, because that function also uses the four largest weights.
+        /// skin replays Transfer.Apply exactly, because that function also uses the four largest weights. A rigid
+        /// piece is one joint; these joints come last.
         ///
         /// influenceCount: joints per vertex, 4 or 8; 0 = 4
         /// scales: [jointCapacity x 3] along the axes in the last frame; null = joints are rigid
