@@ -89,7 +89,8 @@ JointList joint_list(const Core& core, const KnownSkeleton& known, const MovedPa
     out.parents.push_back(carrier < 0 ? no_joint : place[at(carrier)]);
     const Role role = parts.knows_roles() ? character.roles[j] : Role::other;
     const bool inside = role == Role::leg || role == Role::arm || role == Role::shoulder || role == Role::neck;
-    out.left_out.push_back(inside || parts.part_of_joint(j) >= 0);
+    const std::int32_t part = parts.part_of_joint(j);
+    out.left_out.push_back(inside || (part >= 0 && parts.vertices_of(at(part)).size() >= least_part));
   }
   return out;
 }

@@ -197,9 +197,13 @@ class Proposer {
   // inside the body is the nearest.
   void add_trunk(const Trunk& trunk) {
     if (!trunk.found) return;
+    add_trunk_at(trunk, nearest_vertex(core_, trunk.middle));
+  }
+
+  void add_trunk_at(const Trunk& trunk, Index nearest) {
     Candidate out;
     out.position = trunk.middle;
-    out.vertex = nearest_vertex(core_, out.position);
+    out.vertex = nearest;
     double depth = distance(mesh_.positions[at(out.vertex)], out.position);
     if (depth > most_depth) {
       out.position = mesh_.positions[at(out.vertex)];
@@ -221,14 +225,19 @@ class Proposer {
     if (middle == found_.end()) return;
     if (parts.role_of(region_near(core_, middle->position, middle->radius, memory_)).role == Role::spine) return;
     Vector<std::uint8_t> spine(mesh_.positions.size(), 0, &memory_);
+    Vector<Index> list(&memory_);
     for (std::size_t v = 0; v < spine.size(); ++v) {
       const Index own = static_cast<Index>(v);
       spine[v] = parts.role_of(Span<const Index>(&own, 1)).role == Role::spine;
+      if (spine[v]) list.push_back(own);
     }
-    const Trunk trunk = trunk_of(core_, spine, height_);
+    Trunk trunk = trunk_of(core_, spine, height_);
     if (!trunk.found) return;
+    // the shoulder of an arm may be inside the chest
+    const Index nearest = nearest_of(list, trunk.middle);
+    if (!spine[at(nearest_vertex(core_, trunk.middle))]) trunk.middle = mesh_.positions[at(nearest)];
     found_.erase(middle);
-    add_trunk(trunk);
+    add_trunk_at(trunk, nearest);
   }
 
   // ---- the list ----

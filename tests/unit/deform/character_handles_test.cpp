@@ -156,9 +156,11 @@ TEST(CharacterHandles, TheLowestJointThatMovesMostOfARegionNamesItAndAPartHasIts
       EXPECT_EQ(proposal.following, proposal.pinned ? 1.0 : 0.25);
       ASSERT_NE(proposal.joint, HF_NO_INDEX);
       const hf_joint_info& info = found.joints[proposal.joint];
-      if (info.role == HF_ROLE_HEAD || info.role == HF_ROLE_HAND || info.role == HF_ROLE_FOOT) {
+      if (proposal.role == HF_ROLE_HEAD || proposal.role == HF_ROLE_HAND || proposal.role == HF_ROLE_FOOT) {
         EXPECT_EQ(proposal.role, info.role);
         EXPECT_EQ(proposal.side, info.side);
+        const uint32_t above = host.parents[proposal.joint];
+        EXPECT_NE(found.joints[above].role, info.role) << "not the first of the part";
         ++parts;
         continue;
       }

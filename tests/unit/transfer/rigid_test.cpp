@@ -15,7 +15,10 @@ using Points = std::vector<double>;
 hf_test::PlainMesh beam() { return hf_test::box(16, {3, 0.4, 0.4}, {0, 0, 0}); }
 
 // The first vertex of the blade that lies on the beam.
-uint32_t blade_start() { return static_cast<uint32_t>(beam().positions.size() / 3); }
+uint32_t blade_start() {
+  static const uint32_t count = beam().vertex_count();
+  return count;
+}
 
 hf_test::PlainMesh beam_and_blade() {
   hf_test::PlainMesh mesh = beam();
