@@ -142,8 +142,8 @@ HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_t
  * free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move, as with
  * in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at the next
  * frame. A handle alone in its component keeps its rotation. The first frame of a pose, and a frame with restart, take
- * free handles to their places in 8 steps, as a drag does; such a frame costs about 8 more. refine keeps the rotation of
- * the smooth pose. Cost: one iteration of a solve for each free handle, at this call and when handles are added or
+ * free handles to their places in 8 steps, as a drag does; such a frame costs about 8 more. refine keeps the rotation
+ * of the smooth pose. Cost: one iteration of a solve for each free handle, at this call and when handles are added or
  * removed; little in a frame. Errors: HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (free_rotation). Thread safety:
  * changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
@@ -377,11 +377,12 @@ typedef struct hf_handle_proposal {
  * hf_handle_proposal[capacity]. out_count: NULL, or receives the number of proposals.
  *
  * A skeleton gives each proposal the joint that moves it, and a role and a side. If its roles are known, feet and the
- * trunk hold. Hands, heads and tails do not hold, nor does what hangs on them. Each head, hand, foot, tail, ear and wing
- * gets one proposal. A part that no joint of the skin moves, such as the box of a control, gets none. Cost: as hf_surface_find_extremities, and some passes over the mesh. Errors:
- * HF_ERROR_INVALID_ARGUMENT (least_length_share, limit, joints without parents, joints and a skeleton, a skin of
- * another mesh), HF_ERROR_NON_FINITE (up; index = joint), HF_ERROR_OUT_OF_RANGE (a parent; index = joint),
- * HF_ERROR_CANCELLED. Thread safety: reads `surface` and the skeleton. Since 0.1. */
+ * trunk hold. Hands, heads and tails do not hold, nor does what hangs on them. Each head, hand, foot, tail, ear and
+ * wing gets one proposal. A part that no joint of the skin moves, such as the box of a control, gets none. Cost: as
+ * hf_surface_find_extremities, and some passes over the mesh. Errors: HF_ERROR_INVALID_ARGUMENT (least_length_share,
+ * limit, joints without parents, joints and a skeleton, a skin of another mesh), HF_ERROR_NON_FINITE (up; index =
+ * joint), HF_ERROR_OUT_OF_RANGE (a parent; index = joint), HF_ERROR_CANCELLED. Thread safety: reads `surface` and the
+ * skeleton. Since 0.1. */
 HF_API hf_result hf_surface_propose_handles(hf_surface surface, const hf_handle_proposals_desc* desc, uint32_t capacity,
                                             hf_handle_proposal* out_proposals, uint32_t* out_count);
 

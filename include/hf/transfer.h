@@ -222,10 +222,9 @@ HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame
 HF_API hf_result hf_transfer_get_sinking(hf_transfer transfer, uint8_t* out_sinking);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin replays
- * hf_transfer_apply exactly, because that function also uses the four largest weights. A rigid piece is one joint; these
- * joints come last. Errors:
- * HF_ERROR_INVALID_ARGUMENT (influence_count), HF_ERROR_EMPTY (no pair), HF_ERROR_UNSUPPORTED (HF_TRANSFER_STRETCH).
- * Thread safety: reads `transfer`. Since 0.1. */
+ * hf_transfer_apply exactly, because that function also uses the four largest weights. A rigid piece is one joint;
+ * these joints come last. Errors: HF_ERROR_INVALID_ARGUMENT (influence_count), HF_ERROR_EMPTY (no pair),
+ * HF_ERROR_UNSUPPORTED (HF_TRANSFER_STRETCH). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
 
 #ifdef __cplusplus

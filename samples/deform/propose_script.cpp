@@ -28,8 +28,9 @@ const char* reason_name(int32_t reason) {
 
 // "hand left"; empty where no role is known.
 std::string role_name(const hf_handle_proposal& proposal) {
-  static constexpr const char* roles[] = {"",     "spine", "neck", "head", "jaw",  "shoulder", "arm", "hand",    "finger",
-                                          "leg",  "foot",  "toe",  "tail", "wing", "ear",      "eye", "antenna", "fin"};
+  static constexpr const char* roles[] = {"",     "spine", "neck",   "head", "jaw",     "shoulder",
+                                          "arm",  "hand",  "finger", "leg",  "foot",    "toe",
+                                          "tail", "wing",  "ear",    "eye",  "antenna", "fin"};
   static constexpr const char* sides[] = {"", " left", " right"};
   return std::string(roles[proposal.role]) + sides[proposal.side];
 }

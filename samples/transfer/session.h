@@ -120,7 +120,7 @@ class Session {
   // By flat vertex of the target: 1 if it may sink into the ground, as loose ones may.
   const std::vector<uint8_t>& sinking() const { return sinking_; }
   uint32_t cluster_count() const { return info().cluster_count; }
-  uint32_t joint_count() const;      // of the skin: clusters and rigid pieces
+  uint32_t joint_count() const;  // of the skin: clusters and rigid pieces
   size_t rigid_count() const { return rigid_count_; }
   bool stretches() const { return file_.settings.stretch; }  // no skin, no ground, no dials
 

@@ -321,7 +321,10 @@ constexpr double part_share = 0.5;
 // A trunk that rises by this cosine is upright: 53 degrees. Its hands do not stand.
 constexpr double upright_trunk = 0.6;
 // A larger part of the surface is no head, hand or foot, but a body that has one joint.
-constexpr double most_part_share = 0.5;
+constexpr double most_part_share = 0.8;
+// Edges between a head and the trunk that holds. With none a head without a neck leaves its body; more leave small
+// trunks nothing to hold.
+constexpr int free_rings = 2;
 // Vertices: a smaller part is too coarse for a region of its own.
 constexpr std::size_t least_part = 3;
 // A radius grows or shrinks by this factor, up to most_radius and most_attempts times, until its region fits.

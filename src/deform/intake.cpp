@@ -42,13 +42,12 @@ void check_skeleton(const hf_handle_proposals_desc& desc) {
 }
 
 void check_character(const hf_handle_proposals_desc& desc, const Mesh& mesh, const KnownSkeleton& skeleton) {
-  if (desc.joint_count > 0)
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joints and a skeleton are both set; set one");
+  if (desc.joint_count > 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joints and a skeleton are both set; set one");
   const std::uint32_t skinned = skeleton.input.vertex_count;
   if (skinned > 0 && skinned != mesh.report.vertex_count)
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "the skin of the skeleton has %u vertices and the mesh %u; make the skeleton with the skin of this mesh", skinned,
-         mesh.report.vertex_count);
+         "the skin of the skeleton has %u vertices and the mesh %u; make the skeleton with the skin of this mesh",
+         skinned, mesh.report.vertex_count);
 }
 
 }  // namespace

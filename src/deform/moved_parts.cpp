@@ -64,6 +64,7 @@ MovedParts::MovedParts(const Core& core, const KnownSkeleton& known)
       has_foot_(&memory_),
       unmoved_(&memory_),
       vertex_part_(&memory_),
+      beside_(&memory_),
       start_(&memory_),
       vertex_(&memory_),
       moved_(&memory_) {
@@ -71,6 +72,7 @@ MovedParts::MovedParts(const Core& core, const KnownSkeleton& known)
   read_chains();
   find_unmoved();
   find_vertices();
+  find_beside();
 }
 
 template <class Visit>
@@ -203,6 +205,28 @@ void MovedParts::find_vertices() {
   }
 }
 
+void MovedParts::find_beside() {
+  const std::size_t size = at(core_.size());
+  beside_.assign(size, 0);
+  for (std::size_t v = 0; v < size; ++v) beside_[v] = vertex_part_[v] >= 0;
+  if (core_.geometry->links) {
+    for (const Link& link : core_.geometry->links->links) {
+      std::int32_t ends[4] = {link.vertex, link.corner[0], link.corner[1], link.corner[2]};
+      const bool held = std::any_of(ends, ends + 4, [&](std::int32_t v) { return v >= 0 && vertex_part_[at(v)] >= 0; });
+      for (const std::int32_t v : ends) {
+        if (held && v >= 0) beside_[at(v)] = 1;
+      }
+    }
+  }
+  for (int ring = 0; ring < free_rings; ++ring) {
+    const Vector<std::uint8_t> inside(beside_, &memory_);
+    for (std::size_t v = 0; v < size; ++v) {
+      for (Index k = core_.topology.neighbour_start[v]; k < core_.topology.neighbour_start[v + 1]; ++k)
+        beside_[v] |= inside[at(core_.topology.neighbour[at(k)])];
+    }
+  }
+}
+
 std::uint32_t MovedParts::joint_of(Span<const std::int32_t> region) {
   if (known_.input.vertex_count == 0) return no_joint;
   moved_.assign(order_.size(), 0.0);
@@ -222,6 +246,17 @@ std::uint32_t MovedParts::joint_of(Span<const std::int32_t> region) {
     if (moved_[j] > 0.5 * all) lowest = j;
   }
   return lowest;
+}
+
+std::int32_t MovedParts::add_trunk(Span<const std::int32_t> vertices) {
+  const std::int32_t part = static_cast<std::int32_t>(part_count());
+  const std::uint32_t joint = joint_of(vertices);
+  part_joint_.push_back(joint == no_joint ? order_.front() : joint);
+  part_role_.push_back(Role::spine);
+  for (const std::int32_t v : vertices) vertex_part_[at(v)] = part;
+  vertex_.insert(vertex_.end(), vertices.begin(), vertices.end());
+  start_.push_back(static_cast<std::int32_t>(vertex_.size()));
+  return part;
 }
 
 BodyRole MovedParts::role_of(Span<const std::int32_t> region) const noexcept {
@@ -275,7 +310,8 @@ std::int32_t MovedParts::part_of(Span<const std::int32_t> region) const {
     if (lead == 0) part = vertex_part_[at(v)];
     lead = vertex_part_[at(v)] == part ? lead + 1 : lead - 1;
   }
-  const auto count = std::count_if(region.begin(), region.end(), [&](std::int32_t v) { return vertex_part_[at(v)] == part; });
+  const auto count =
+      std::count_if(region.begin(), region.end(), [&](std::int32_t v) { return vertex_part_[at(v)] == part; });
   return 2 * static_cast<std::size_t>(count) > region.size() ? part : -1;
 }
 

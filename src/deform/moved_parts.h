@@ -6,7 +6,8 @@
 // its weights. A joint without a role has that of the limb it hangs on.
 //
 // A part is a head with jaw and eyes, a hand with its fingers, or a foot with its toes. A vertex belongs to the part
-// that has more than half of its weight. Cost: a pass over the weights; a pass over the joints for each region.
+// that has more than half of its weight. The trunk that holds becomes a part too. Cost: a pass over the weights; a pass
+// over the joints for each region.
 #pragma once
 #include <cstdint>
 
@@ -55,6 +56,13 @@ class MovedParts {
   BodyRole role_of_part(std::size_t part) const noexcept { return {part_role_[part], side_[part_joint_[part]]}; }
   // The joint that the part begins with.
   std::uint32_t joint_of_part(std::size_t part) const noexcept { return part_joint_[part]; }
+  // Makes a part of ascending vertices that are of no part, and returns its number.
+  std::int32_t add_trunk(Span<const std::int32_t> vertices);
+  // Whether the spine moves a vertex that is not beside a part: between a trunk that holds and a head, a neck stays
+  // free.
+  bool is_of_spine(std::int32_t vertex) const noexcept {
+    return beside_[static_cast<std::size_t>(vertex)] == 0 && role_of({&vertex, 1}).role == Role::spine;
+  }
   // The part of a joint, or -1.
   std::int32_t part_of_joint(std::uint32_t joint) const noexcept { return joint_part_[joint]; }
 
@@ -63,6 +71,7 @@ class MovedParts {
   void read_chains();
   void find_unmoved();
   void find_vertices();
+  void find_beside();
   // Calls visit(joint, weight) for the joints of an inner vertex.
   template <class Visit>
   void for_joints(std::int32_t v, Visit&& visit) const;
@@ -74,13 +83,14 @@ class MovedParts {
   Vector<Role> role_;            // by joint, inherited where a joint has none
   Vector<Side> side_;
   Vector<std::int32_t> chain_, joint_part_;
-  Vector<Role> part_role_;              // head, hand or foot
+  Vector<Role> part_role_;  // head, hand, foot or spine
   Vector<std::uint32_t> part_joint_;
-  Vector<std::uint8_t> has_foot_;       // by chain
-  Vector<std::uint8_t> unmoved_;        // by inner vertex
-  Vector<std::int32_t> vertex_part_;    // by inner vertex, or -1
+  Vector<std::uint8_t> has_foot_;        // by chain
+  Vector<std::uint8_t> unmoved_;         // by inner vertex
+  Vector<std::int32_t> vertex_part_;     // by inner vertex, or -1
+  Vector<std::uint8_t> beside_;          // by inner vertex: 1 in a part, and free_rings edges or a link around it
   Vector<std::int32_t> start_, vertex_;  // vertices of part p: vertex_[start_[p] .. start_[p + 1])
-  Vector<double> moved_;                // by joint, of the region at hand
+  Vector<double> moved_;                 // by joint, of the region at hand
 };
 
 }  // namespace hf_inner

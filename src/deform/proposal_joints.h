@@ -28,10 +28,10 @@ bool comes_first(const Candidate& a, const Candidate& b) noexcept;
 // The joints that may become candidates.
 struct JointList {
   explicit JointList(Memory* memory) : places(memory), parents(memory), numbers(memory), left_out(memory) {}
-  Vector<Vec3> places;                    // in the unit of the inner mesh
-  Vector<std::uint32_t> parents;          // by position in the list, or no_joint
-  Vector<std::uint32_t> numbers;          // as the caller counts them
-  Vector<std::uint8_t> left_out;          // 1: it is the parent of others, but no candidate
+  Vector<Vec3> places;            // in the unit of the inner mesh
+  Vector<std::uint32_t> parents;  // by position in the list, or no_joint
+  Vector<std::uint32_t> numbers;  // as the caller counts them
+  Vector<std::uint8_t> left_out;  // 1: it is the parent of others, but no candidate
 };
 // The joints as given.
 JointList joint_list(const Core& core, Span<const double> joints, Span<const std::uint32_t> parents);

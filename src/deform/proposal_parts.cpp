@@ -90,7 +90,7 @@ class Chooser {
     const bool whole = candidate.part >= 0;
     const std::uint32_t joint = whole ? parts_->joint_of_part(at(candidate.part)) : parts_->joint_of(region);
     if (joint != no_joint) out.joint = joint;
-    const BodyRole own = whole              ? parts_->role_of_part(at(candidate.part))
+    const BodyRole own = whole               ? parts_->role_of_part(at(candidate.part))
                          : joint != no_joint ? parts_->role_of(region)
                                              : parts_->role_of(out.joint);
     out.role = own.role;
@@ -108,7 +108,8 @@ class Chooser {
       proposal.radius = mesh_.scale * radius;
       const double own = proposal.radius / mesh_.scale;
       const Vector<std::int32_t> region = region_near(core_, place, own, memory_);
-      const bool overlaps = std::any_of(region.begin(), region.end(), [&](std::int32_t v) { return owner_[at(v)] >= 0; });
+      const bool overlaps =
+          std::any_of(region.begin(), region.end(), [&](std::int32_t v) { return owner_[at(v)] >= 0; });
       if (shrunk && is_spike(region, own)) return false;
       if (!overlaps && (shrunk || region.size() >= least_region || radius * radius_growth > most_radius)) {
         for (const std::int32_t v : region) owner_[at(v)] = static_cast<std::int32_t>(k);
@@ -162,7 +163,8 @@ void let_free(const Core& core, const MovedParts& parts, Vector<Candidate>& foun
   Vector<Role> role(found.size(), Role::other, core.memory.get());
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k].pinned) continue;
-    role[k] = parts.role_of(region_of(core, found[k])).role;
+    role[k] =
+        found[k].part < 0 ? parts.role_of(region_of(core, found[k])).role : parts.role_of_part(at(found[k].part)).role;
     legs = legs || (found[k].reason == HandleReason::foot && is_leg(role[k]));
   }
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -189,7 +191,8 @@ void take_parts(const Core& core, MovedParts& parts, Span<const double> height, 
     const Span<const std::int32_t> vertices = parts.vertices_of(at(part));
     candidate.part = part;
     taken[at(part)] = 1;
-    const bool is_low = std::any_of(vertices.begin(), vertices.end(), [&](std::int32_t v) { return height[at(v)] <= low; });
+    const bool is_low =
+        std::any_of(vertices.begin(), vertices.end(), [&](std::int32_t v) { return height[at(v)] <= low; });
     if (parts.role_of_part(at(part)).role == Role::foot && is_low) {
       candidate.pinned = true;
       candidate.reason = HandleReason::foot;
@@ -198,6 +201,7 @@ void take_parts(const Core& core, MovedParts& parts, Span<const double> height, 
   };
   for (const Candidate& candidate : found) {
     if (candidate.reason == HandleReason::middle) {
+      if (candidate.part >= 0) taken[at(candidate.part)] = 1;
       out.push_back(candidate);
       continue;
     }
@@ -217,8 +221,7 @@ void take_parts(const Core& core, MovedParts& parts, Span<const double> height, 
   }
   for (std::size_t p = 0; p < taken.size(); ++p) {
     const Span<const std::int32_t> vertices = parts.vertices_of(p);
-    if (!taken[p] && vertices.size() >= least_part)
-      take(part_candidate(core, vertices), static_cast<std::int32_t>(p));
+    if (!taken[p] && vertices.size() >= least_part) take(part_candidate(core, vertices), static_cast<std::int32_t>(p));
   }
   found = std::move(out);
 }

@@ -197,13 +197,9 @@ class Proposer {
   // inside the body is the nearest.
   void add_trunk(const Trunk& trunk) {
     if (!trunk.found) return;
-    add_trunk_at(trunk, nearest_vertex(core_, trunk.middle));
-  }
-
-  void add_trunk_at(const Trunk& trunk, Index nearest) {
     Candidate out;
     out.position = trunk.middle;
-    out.vertex = nearest;
+    out.vertex = nearest_vertex(core_, out.position);
     double depth = distance(mesh_.positions[at(out.vertex)], out.position);
     if (depth > most_depth) {
       out.position = mesh_.positions[at(out.vertex)];
@@ -218,26 +214,32 @@ class Proposer {
     found_.push_back(out);
   }
 
-  // A trunk on a thigh or a neck goes to where the spine moves the surface.
-  void place_trunk(const MovedParts& parts) {
+  // What holds of the trunk is what the spine moves near its middle. A middle on a thigh or a neck goes to that of what
+  // the spine moves.
+  void place_trunk(MovedParts& parts) {
     const auto middle = std::find_if(found_.begin(), found_.end(),
                                      [](const Candidate& other) { return other.reason == HandleReason::middle; });
     if (middle == found_.end()) return;
-    if (parts.role_of(region_near(core_, middle->position, middle->radius, memory_)).role == Role::spine) return;
     Vector<std::uint8_t> spine(mesh_.positions.size(), 0, &memory_);
-    Vector<Index> list(&memory_);
-    for (std::size_t v = 0; v < spine.size(); ++v) {
-      const Index own = static_cast<Index>(v);
-      spine[v] = parts.role_of(Span<const Index>(&own, 1)).role == Role::spine;
-      if (spine[v]) list.push_back(own);
+    for (std::size_t v = 0; v < spine.size(); ++v) spine[v] = parts.is_of_spine(static_cast<Index>(v));
+    const auto near_middle = [&] {
+      Vector<Index> out(&memory_);
+      for (std::size_t v = 0; v < spine.size(); ++v) {
+        if (spine[v] && distance(mesh_.positions[v], middle->position) <= middle->radius)
+          out.push_back(static_cast<Index>(v));
+      }
+      return out;
+    };
+    Vector<Index> held = near_middle();
+    const Vector<Index> around = region_near(core_, middle->position, middle->radius, memory_);
+    if (parts.role_of(around).role != Role::spine || held.size() < least_region) {
+      const Trunk trunk = trunk_of(core_, spine, height_);
+      if (!trunk.found) return;
+      middle->position = trunk.middle;
+      middle->radius = most_radius;
+      held = near_middle();
     }
-    Trunk trunk = trunk_of(core_, spine, height_);
-    if (!trunk.found) return;
-    // the shoulder of an arm may be inside the chest
-    const Index nearest = nearest_of(list, trunk.middle);
-    if (!spine[at(nearest_vertex(core_, trunk.middle))]) trunk.middle = mesh_.positions[at(nearest)];
-    found_.erase(middle);
-    add_trunk_at(trunk, nearest);
+    if (held.size() >= least_region) middle->part = parts.add_trunk(held);
   }
 
   // ---- the list ----
@@ -273,8 +275,6 @@ class Proposer {
 
 }  // namespace
 
-Proposals propose_handles(const Core& core, const ProposalOptions& options) {
-  return Proposer(core, options).run();
-}
+Proposals propose_handles(const Core& core, const ProposalOptions& options) { return Proposer(core, options).run(); }
 
 }  // namespace hf_inner

@@ -1,5 +1,5 @@
-// Rigid pieces of the target (deform/rigid_pieces.h): a sword moves as one. They come last in a frame, after the ground,
-// and are joints of their own in the skin.
+// Rigid pieces of the target (deform/rigid_pieces.h): a sword moves as one. They come last in a frame, after the
+// ground, and are joints of their own in the skin.
 #include "base/index.h"
 #include "transfer/constants.h"
 #include "transfer/prepared.h"

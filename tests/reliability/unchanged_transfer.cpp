@@ -270,8 +270,9 @@ struct TransferCalls {
 const std::vector<Command>& Transfers::commands() const {
   static const std::vector<Command> table = {
       {"hf_transfer_add_pairs", 8, TransferCalls::add},   {"hf_transfer_remove_pairs", 3, TransferCalls::remove},
-      {"hf_transfer_set_dials", 3, TransferCalls::dials}, {"hf_transfer_set_rigid_pieces", 2, TransferCalls::rigid}, {"hf_transfer_apply", 10, TransferCalls::frame},
-      {"hf_transfer_create", 2, TransferCalls::make},     {"reading a transfer", 4, TransferCalls::read},
+      {"hf_transfer_set_dials", 3, TransferCalls::dials}, {"hf_transfer_set_rigid_pieces", 2, TransferCalls::rigid},
+      {"hf_transfer_apply", 10, TransferCalls::frame},    {"hf_transfer_create", 2, TransferCalls::make},
+      {"reading a transfer", 4, TransferCalls::read},
   };
   return table;
 }

@@ -59,7 +59,8 @@ struct Host {
       joints.insert(joints.end(), {joint_number, 0, 0, 0});
       weights.insert(weights.end(), {1, 0, 0, 0});
     }
-    constexpr uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    constexpr uint32_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                      {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     for (const auto& f : faces) {
       for (const uint32_t k : {f[0], f[1], f[2], f[0], f[2], f[3]}) triangles.push_back(first + k);
     }
@@ -73,7 +74,8 @@ struct Host {
   // The weight that the joints of a set have at a vertex.
   double weight(uint32_t v, const std::set<uint32_t>& of) const {
     double sum = 0;
-    for (size_t k = slots * v; k < slots * (v + 1); ++k) sum += of.count(joints[k]) ? static_cast<double>(weights[k]) : 0;
+    for (size_t k = slots * v; k < slots * (v + 1); ++k)
+      sum += of.count(joints[k]) ? static_cast<double>(weights[k]) : 0;
     return sum;
   }
   bool is_below(uint32_t joint_number, uint32_t other) const {
@@ -132,7 +134,8 @@ Found propose(const Host& host, const hf::Surface& surface, bool with_skeleton =
   out.joints.resize(host.names.size());
   const hf_skeleton skeleton = skeleton_of(host);
   uint32_t count = 0;
-  EXPECT_EQ(hf_skeleton_get_joints(skeleton, static_cast<uint32_t>(out.joints.size()), out.joints.data(), &count), HF_OK);
+  EXPECT_EQ(hf_skeleton_get_joints(skeleton, static_cast<uint32_t>(out.joints.size()), out.joints.data(), &count),
+            HF_OK);
   hf_handle_proposals_desc desc = HF_INIT(hf_handle_proposals_desc);
   if (with_skeleton) desc.skeleton = skeleton;
   desc.out_regions = out.regions.data();
@@ -211,9 +214,8 @@ TEST(CharacterHandles, AHandOnTheGroundDoesNotHold) {
   const hf::Surface surface = host.surface();
   const Found plain = propose(host, surface, false), found = propose(host, surface);
   const auto holds_hand = [&](const Found& in) {
-    return std::any_of(in.list.begin(), in.list.end(), [&](const hf_handle_proposal& p) {
-      return p.pinned && host.weight(p.vertex, hand) > 0.5;
-    });
+    return std::any_of(in.list.begin(), in.list.end(),
+                       [&](const hf_handle_proposal& p) { return p.pinned && host.weight(p.vertex, hand) > 0.5; });
   };
   EXPECT_TRUE(holds_hand(plain));
   EXPECT_FALSE(holds_hand(found));
@@ -294,6 +296,47 @@ TEST(CharacterHandles, RegionsAreDisjointAndThoseOfPlacesAndRadiiCanAllBeAdded) 
   }
 }
 
+TEST(CharacterHandles, TheTrunkIsWhatTheSpineMovesAndANeckIsFreeBesideAHead) {
+  for (const char* name : {"biped", "horse", "bull"}) {
+    SCOPED_TRACE(name);
+    const Host host(name);
+    const Found found = propose(host);
+    std::set<uint32_t> spine, parts;
+    for (uint32_t j = 0; j < host.names.size(); ++j) {
+      if (found.joints[j].role == HF_ROLE_SPINE) spine.insert(j);
+    }
+    uint32_t trunk = HF_NO_INDEX;
+    for (uint32_t i = 0; i < found.list.size(); ++i) {
+      const int32_t role = found.list[i].role;
+      if (role == HF_ROLE_HEAD || role == HF_ROLE_HAND || role == HF_ROLE_FOOT) parts.insert(i);
+      if (found.list[i].reason == HF_HANDLE_REASON_MIDDLE) trunk = i;
+    }
+    ASSERT_NE(trunk, HF_NO_INDEX);
+    EXPECT_EQ(found.list[trunk].pinned, 1);
+    EXPECT_EQ(found.list[trunk].role, HF_ROLE_SPINE);
+    for (const uint32_t v : found.region(trunk)) EXPECT_GT(host.weight(v, spine), 0.2) << v;
+    for (size_t t = 0; t < host.triangles.size(); t += 3) {
+      bool in_trunk = false, in_part = false;
+      for (size_t c = 0; c < 3; ++c) {
+        const uint32_t own = found.regions[host.triangles[t + c]];
+        in_trunk = in_trunk || own == trunk;
+        in_part = in_part || parts.count(own) > 0;
+      }
+      EXPECT_FALSE(in_trunk && in_part);
+    }
+  }
+}
+
+TEST(CharacterHandles, ATailHasOneHandleAtItsEnd) {
+  const Host host("horse");
+  const Found found = propose(host);
+  const auto tails = std::count_if(found.list.begin(), found.list.end(),
+                                   [](const hf_handle_proposal& p) { return p.role == HF_ROLE_TAIL; });
+  ASSERT_EQ(tails, 1);
+  const uint32_t joint = found.list[found.of_role(HF_ROLE_TAIL, HF_SIDE_MIDDLE)].joint;
+  EXPECT_EQ(std::count(host.parents.begin(), host.parents.end(), joint), 0) << host.names[joint];
+}
+
 TEST(CharacterHandles, TheBoxOfAControlGetsNoProposalAndAHeldBoxDoes) {
   Host host("biped");
   const uint32_t control = host.add_joint("Z_Cube", HF_NO_INDEX, {0, 2.4, 0});
@@ -303,7 +346,8 @@ TEST(CharacterHandles, TheBoxOfAControlGetsNoProposalAndAHeldBoxDoes) {
   host.add_box({1.5f, 1, 0}, 0.25f, host.joint("hand_L"));
   const hf::Surface surface = host.surface();
   const auto count_on = [&](const Found& in, uint32_t from, uint32_t to) {
-    return std::count_if(in.regions.begin() + from, in.regions.begin() + to, [](uint32_t r) { return r != HF_NO_INDEX; });
+    return std::count_if(in.regions.begin() + from, in.regions.begin() + to,
+                         [](uint32_t r) { return r != HF_NO_INDEX; });
   };
   const Found plain = propose(host, surface, false), found = propose(host, surface);
   EXPECT_GT(count_on(plain, first, second), 0);

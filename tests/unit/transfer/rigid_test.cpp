@@ -156,7 +156,8 @@ TEST(RigidTargets, TheSkinReplaysAFrameWithAJointForThePiece) {
                               {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
                               {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
       for (size_t c = 0; c < 3; ++c)
-        sum[c] += static_cast<double>(weights[k]) * (r[c][0] * d[0] + r[c][1] * d[1] + r[c][2] * d[2] + places[3 * j + c]);
+        sum[c] +=
+            static_cast<double>(weights[k]) * (r[c][0] * d[0] + r[c][1] * d[1] + r[c][2] * d[2] + places[3 * j + c]);
     }
     if (v >= blade_start()) {
       EXPECT_EQ(vertex_joints[4 * v], joints - 1);
