@@ -327,13 +327,23 @@ TEST(CharacterHandles, TheTrunkIsWhatTheSpineMovesAndANeckIsFreeBesideAHead) {
   }
 }
 
+// A knot of the tail is a piece of its own, with two ends.
 TEST(CharacterHandles, ATailHasOneHandleAtItsEnd) {
-  const Host host("horse");
-  const Found found = propose(host);
-  const auto tails = std::count_if(found.list.begin(), found.list.end(),
-                                   [](const hf_handle_proposal& p) { return p.role == HF_ROLE_TAIL; });
-  ASSERT_EQ(tails, 1);
-  const uint32_t joint = found.list[found.of_role(HF_ROLE_TAIL, HF_SIDE_MIDDLE)].joint;
+  Host host("horse");
+  host.add_box({0, 0.9f, -1.4f}, 0.2f, host.joint("tail_2"));
+  const hf::Surface surface = host.surface();
+  const Found plain = propose(host, surface, false), found = propose(host, surface);
+  const auto on_tail = [&](const hf_handle_proposal& p) {
+    for (uint32_t j = p.pinned ? HF_NO_INDEX : host.joints[slots * p.vertex]; j != HF_NO_INDEX; j = host.parents[j]) {
+      if (host.names[j].rfind("tail", 0) == 0) return true;
+    }
+    return false;
+  };
+  EXPECT_GE(std::count_if(plain.list.begin(), plain.list.end(), on_tail), 2);
+  EXPECT_EQ(std::count_if(found.list.begin(), found.list.end(), on_tail), 1);
+  const uint32_t tail = found.of_role(HF_ROLE_TAIL, HF_SIDE_MIDDLE);
+  ASSERT_NE(tail, HF_NO_INDEX);
+  const uint32_t joint = found.list[tail].joint;
   EXPECT_EQ(std::count(host.parents.begin(), host.parents.end(), joint), 0) << host.names[joint];
 }
 
