@@ -50,10 +50,17 @@ Points bent(const hf_test::PlainMesh& mesh, double angle) {
 struct Scene {
   hf_test::PlainMesh from = beam(), to = beam_and_blade();
   hf::Surface source = surface_of(from), target = surface_of(to);
+  Points rest;  // of the target
   hf_transfer transfer = nullptr;
 
-  explicit Scene(int32_t mode = HF_TRANSFER_FIELDS) {
+  // angle: how far source and target are bent at rest.
+  explicit Scene(int32_t mode = HF_TRANSFER_FIELDS, double angle = 0) : rest(bent(to, angle)) {
+    const Points source_rest = bent(from, angle);
     hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
+    if (angle != 0) {
+      desc.source_rest = HF_ARRAY(source_rest.data(), source_rest.size() / 3);
+      desc.target_rest = HF_ARRAY(rest.data(), rest.size() / 3);
+    }
     desc.mode = mode;
     desc.ground = HF_GROUND_OFF;
     EXPECT_EQ(hf_transfer_create(source.get(), target.get(), &desc, &transfer), HF_OK);
@@ -96,7 +103,7 @@ struct Scene {
       const auto length = [&](const Points& at) {
         return std::hypot(at[3 * a] - at[3 * b], at[3 * a + 1] - at[3 * b + 1], at[3 * a + 2] - at[3 * b + 2]);
       };
-      most = std::max(most, std::abs(length(x) / length(Points(to.positions.begin(), to.positions.end())) - 1));
+      most = std::max(most, std::abs(length(x) / length(rest) - 1));
     }
     return most;
   }
@@ -122,6 +129,14 @@ TEST(RigidTargets, EdgesOfABladeKeepTheirLengthsAndOtherVerticesTheirBits) {
     const Points again = scene.frame(1.2);
     EXPECT_EQ(std::memcmp(before.data(), again.data(), before.size() * sizeof(double)), 0);
   }
+}
+
+TEST(RigidTargets, APieceHasTheShapeOfTheRestPose) {
+  Scene scene(HF_TRANSFER_FIELDS, 0.8);
+  scene.rigid({blade_start()});
+  EXPECT_LT(scene.stretch(scene.frame(-0.5)), 1e-6);
+  const Points rest = scene.frame(0.8);
+  for (size_t i = 0; i < rest.size(); ++i) EXPECT_NEAR(rest[i], scene.rest[i], 1e-9);
 }
 
 TEST(RigidTargets, TheSkinReplaysAFrameWithAJointForThePiece) {
