@@ -324,7 +324,10 @@ struct HandleProposalsOptions {
   std::vector<double> joints{};
   // `[joint_count]` position of each joint's parent in the list; HF_NO_INDEX for a root
   std::vector<uint32_t> parents{};
-  // direction away from the ground, of any length; 0 0 0 = 0 1 0
+  // none, or the character of the mesh, instead of joints and parents: it rests in the unit and frame of the mesh. Its
+  // skin, if it has one, has the vertices of the mesh
+  const Skeleton* skeleton = nullptr;
+  // direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0
   std::optional<std::array<double, 3>> up{};
   // as in ExtremitiesOptions; 0 = 0.05
   double least_length_share = 0;
@@ -1179,12 +1182,22 @@ class Surface {
 
   // Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals come
   // first, then the others, each group by length, the longest first. The places do not depend on the order of the
-  // vertices. They follow translation and scale.
+  // vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, and a role and
+  // a side. If its roles are known, feet and the trunk hold. Hands, heads and tails do not hold, nor does what hangs on
+  // them. Each head, hand, foot, tail, ear and wing gets one proposal. A part that no joint of the skin moves, such as
+  // the box of a control, gets none.
+  //
+  // regions: `[vertex_count]`: for each vertex the number of the proposal whose region it is in, HF_NO_INDEX for a
+  // vertex in none
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
-  std::vector<hf_handle_proposal> propose_handles(const HandleProposalsOptions& options = {}) const {
+  std::vector<hf_handle_proposal> propose_handles(const HandleProposalsOptions& options = {},
+      std::vector<uint32_t>* regions = nullptr) const {
     Call c(counts_);
-    const hf_handle_proposals_desc desc = options.fill(c, "");
+    hf_handle_proposals_desc desc = options.fill(c, "");
+    if (regions) regions->resize(c.product({"vertex_count"}));
+    uint32_t* regions_at = regions ? regions->data() : nullptr;
+    desc.out_regions = regions_at;
     uint32_t count = 0;
     c.sizes["capacity"] = Call::kFirst;
     std::vector<hf_handle_proposal> proposals;
@@ -2126,8 +2139,8 @@ class Pose {
   // without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field of the handle is,
   // the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the body, and set less for a handle
   // that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next Pose.deform
-  // shows a change at once. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let the body
-  // lean again.
+  // shows a change at once, but a handle that was just added in place leaves the surface where it stands until a handle
+  // moves. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let the body lean again.
   //
   // handles: `[handle_count]`.
   // following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the handle
@@ -3219,6 +3232,21 @@ class Transfer {
     return dials;
   }
 
+  // Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh.
+  //
+  // vertices: `[vertex_count]`, one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
+  // replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best, as
+  // Pose::set_rigid_pieces does. This comes last in a frame: a hold on a part of a rigid piece may miss its place,
+  // and a rigid piece may sink into the ground. Does not factorise.
+  //
+  // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+  void set_rigid_pieces(const std::vector<uint32_t>& vertices) {
+    Call c(counts_);
+    c.sizes.erase("vertex_count");  // of the list given here
+    const uint32_t* vertices_ = c.array(vertices, true, "vertices", {"vertex_count"});
+    check(hf_transfer_set_rigid_pieces(get(), c.count("vertex_count", 1), vertices_));
+  }
+
   // Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions differ
   // much on the two surfaces (hf_pair_info), it takes the direction of the source's limb instead, by a share.
   //
@@ -3293,7 +3321,8 @@ class Transfer {
   }
 
   // Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
-  // replays Transfer::apply exactly, because that function also uses the four largest weights.
+  // replays Transfer::apply exactly, because that function also uses the four largest weights. A rigid piece is one
+  // joint; these joints come last.
   //
   // influence_count: joints per vertex, 4 or 8; 0 = 4
   // scales: `[joint_capacity x 3]` along the axes in the last frame; none = joints are rigid
@@ -3801,6 +3830,7 @@ inline hf_handle_proposals_desc HandleProposalsOptions::fill([[maybe_unused]] Ca
   desc.joints = c.array(joints, false, "joints", {prefix + "joint_count", "3"});
   desc.parents = c.array(parents, false, "parents", {prefix + "joint_count"});
   if (up) std::copy(up->begin(), up->end(), desc.up);
+  desc.skeleton = skeleton ? skeleton->get() : nullptr;
   desc.progress = progress ? progress->get() : nullptr;
   desc.joint_count = c.count(prefix + "joint_count", 0);
   return desc;

@@ -12,6 +12,7 @@
 #ifndef HF_POSE_H
 #define HF_POSE_H
 
+#include "hf/skeleton.h"
 #include "hf/surface.h"
 
 #ifdef __cplusplus
@@ -388,7 +389,8 @@ enum hf_handle_reason {
   HF_HANDLE_REASON_FOOT = 0,  /* stands on the ground: the surface rises from it along a leg */
   HF_HANDLE_REASON_TIP = 1,   /* a protruding part ends there: head, tail, hand, horn (hf_surface_find_extremities) */
   HF_HANDLE_REASON_END = 2,   /* one of the two ends of a component without feet or tips */
-  HF_HANDLE_REASON_JOINT = 3, /* a joint of the given skeleton: an end, or where it branches */
+  HF_HANDLE_REASON_JOINT = 3, /* a joint of the given skeleton: an end, or where it branches; a head or a hand that is
+                                 no tip of the surface */
   HF_HANDLE_REASON_MIDDLE = 4 /* the trunk of the largest component: the chest of a biped; pinned, inside the surface */
 };
 
@@ -397,33 +399,49 @@ typedef struct hf_handle_proposals_desc {
   uint32_t joint_count;      /* joints of a skeleton that the mesh has already, up to 65,536; 0 = none */
   const double* joints;      /* [joint_count][3] their places at rest, in the unit and frame of the mesh */
   const uint32_t* parents;   /* [joint_count] position of each joint's parent in the list; HF_NO_INDEX for a root */
-  double up[3];              /* direction away from the ground, of any length; 0 0 0 = 0 1 0 */
+  hf_skeleton skeleton;      /* NULL, or the character of the mesh, instead of joints and parents: it rests in the unit
+                                and frame of the mesh. Its skin, if it has one, has the vertices of the mesh */
+  double up[3];              /* direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0 */
   double least_length_share; /* as in hf_extremities_desc; 0 = 0.05 */
   uint32_t limit;            /* most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32 */
   uint32_t reserved;         /* 0 */
   hf_progress progress;      /* NULL, or an object to poll and cancel through */
+  uint32_t* out_regions;     /* NULL, or [vertex_count]: for each vertex the number of the proposal whose region it is
+                                in, HF_NO_INDEX for a vertex in none */
 } hf_handle_proposals_desc;
 
-/* One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint. */
+/* One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint. With a
+ * skeleton whose roles are known, the region in out_regions is all that a head, a hand or a foot moves. The region of
+ * position and radius is then a part of that. */
 typedef struct hf_handle_proposal {
   uint32_t vertex;    /* nearest to the position; as given, of welded copies the first */
   uint32_t component; /* as hf_surface_get_components */
   int32_t reason;     /* HF_HANDLE_REASON_* */
   int32_t pinned;     /* 1: add it at once, it holds the body; 0: offer it, and add it when it is dragged */
-  uint32_t joint;     /* the end joint nearby, or the joint proposed, by position in the list; HF_NO_INDEX = none */
+  uint32_t joint;     /* with a skin: the first joint of a whole head, hand or foot, else the lowest joint that moves
+                         most of the region, together with the joints below it. Without a skin: the end joint nearby, or
+                         the joint proposed. HF_NO_INDEX = none */
+  int32_t role;       /* HF_ROLE_* that has most of the weights in the region. A sword has the role of the hand */
+  int32_t side;       /* HF_SIDE_* of the same joints */
   uint32_t reserved;  /* 0 */
   double position[3]; /* at rest, in the unit and frame of the mesh; inside the surface for a joint and the trunk */
   double radius;      /* in the unit of the mesh */
   double length;      /* how far the part protrudes, in the unit of the mesh */
+  double following;   /* for hf_pose_set_following while the handle is dragged: 1 if it is pinned, else 0.25 */
 } hf_handle_proposal;
 
 /* Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals come
  * first, then the others, each group by length, the longest first. The places do not depend on the order of the
  * vertices. They follow translation and scale. desc: NULL for defaults. out_proposals: NULL, or
- * hf_handle_proposal[capacity]. out_count: NULL, or receives the number of proposals. Cost: as
+ * hf_handle_proposal[capacity]. out_count: NULL, or receives the number of proposals.
+ *
+ * A skeleton gives each proposal the joint that moves it, and a role and a side. If its roles are known, feet and the
+ * trunk hold. Hands, heads and tails do not hold, nor does what hangs on them. Each head, hand, foot, tail, ear and
+ * wing gets one proposal. A part that no joint of the skin moves, such as the box of a control, gets none. Cost: as
  * hf_surface_find_extremities, and some passes over the mesh. Errors: HF_ERROR_INVALID_ARGUMENT (least_length_share,
- * limit, joints without parents), HF_ERROR_NON_FINITE (up; index = joint), HF_ERROR_OUT_OF_RANGE (a parent; index =
- * joint), HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+ * limit, joints without parents, joints and a skeleton, a skin of another mesh), HF_ERROR_NON_FINITE (up; index =
+ * joint), HF_ERROR_OUT_OF_RANGE (a parent; index = joint), HF_ERROR_CANCELLED. Thread safety: reads `surface` and the
+ * skeleton. Since 0.1. */
 HF_API hf_result hf_surface_propose_handles(hf_surface surface, const hf_handle_proposals_desc* desc, uint32_t capacity,
                                             hf_handle_proposal* out_proposals, uint32_t* out_count);
 

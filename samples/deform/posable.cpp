@@ -10,7 +10,7 @@
 #include "common/limits.h"
 #include "common/links.h"
 #include "common/peers.h"
-#include "deform/rigid_parts.h"
+#include "common/rigid_parts.h"
 #include "gltf/file_kind.h"
 #include "gltf/gltf_read.h"
 
@@ -74,13 +74,7 @@ Posable::Posable(const FlatMesh& mesh, const Options& options) : mesh_(mesh) {
 void Posable::keep_rigid(const FlatMesh& mesh, const Model* model) {
   if (!model) return;
   rigid_ = rigid_parts(mesh, *model, ModelLinks(model, mesh));
-  const std::set<uint32_t> used(mesh.triangles.begin(), mesh.triangles.end());
-  std::map<uint32_t, uint32_t> vertex_of;
-  for (const uint32_t v : used) {
-    if (rigid_[v] != HF_NO_INDEX) vertex_of.try_emplace(rigid_[v], v);
-  }
-  std::vector<uint32_t> vertices;
-  for (const auto& [part, v] : vertex_of) vertices.push_back(v);
+  const std::vector<uint32_t> vertices = rigid_vertices(mesh, rigid_);
   const hf_result result = hf_pose_set_rigid_pieces(pose_, static_cast<uint32_t>(vertices.size()), vertices.data());
   std::printf("%zu rigid pieces\n", vertices.size());
   if (result == HF_OK) return;
@@ -134,8 +128,8 @@ void Posable::add(const std::vector<HandleEntry>& handles) {
     hf_handles_desc desc = HF_INIT(hf_handles_desc);
     desc.handle_count = 1;
     desc.layer = entry.layer;
-    const glm::dvec3 point = entry.absolute ? entry.point : at(entry.point);
-    const double xyz[3] = {point.x, point.y, point.z}, radius = entry.radius * (entry.absolute ? 1 : diagonal_);
+    const glm::dvec3 point = at(entry.point);
+    const double xyz[3] = {point.x, point.y, point.z}, radius = entry.radius * diagonal_;
     uint32_t count = 0;
     if (entry.has_point) {
       desc.points = xyz;
@@ -195,7 +189,7 @@ void Posable::begin(const Step& step) {
     found->from_place = false;
     if (!found->dragged && found->entry.layer == 0) {
       const std::string what = "dragging \"" + name + "\"";
-      const double following = following_.value_or(found->entry.offered ? tip_following : 1);
+      const double following = following_.value_or(found->entry.following);
       if (following < 1) expect_ok(hf_pose_set_following(pose_, 1, &found->number, following), what);
       if (limb_refine_ > 0)
         expect_ok(hf_pose_set_limb_refine(pose_, 1, &found->number, static_cast<int32_t>(limb_refine_)), what);

@@ -38,16 +38,12 @@ struct HandlePlace {
 
 enum class Refine { none, one_step, from_last };  // full-mesh steps of a frame: hf_deform_desc
 
-// How much of the surface follows a proposed tip that is dragged, if the options do not say it. A hand pulled up by a
-// quarter of the box moves the head of 15 bipeds that stand on their feet by at most 0.02 of it; with 1 by up to 0.43.
-constexpr double tip_following = 0.25;
-
 class Posable {
  public:
   struct Options {
     bool paper = false, links = true;
     bool given_rotations = false;  // a drag without a turn keeps the rotation of its handle
-    // Of dragged handles: how much of the surface follows; none: tip_following for proposed tips, 1 for others.
+    // Of dragged handles: how much of the surface follows; none: as the entry says.
     std::optional<double> following;
     uint32_t limb_refine = 0;  // of dragged handles: full-mesh steps on their limbs
     bool rigid = false;        // pieces that are alone on a joint stay rigid

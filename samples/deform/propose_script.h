@@ -10,10 +10,9 @@
 namespace samples {
 
 struct ProposedHandle {
-  // Named after the joint that moves most of it, else "foot 1", "tip 2", ...; its place is in the unit of the mesh.
+  // Named after the joint that moves most of it, else "foot 1", "tip 2", ...; the region is a list of vertices.
   HandleEntry entry;
-  bool pinned = false;
-  std::string joint;  // name of the joint nearby, or empty
+  glm::dvec3 place{0};  // in the unit of the mesh
   hf_handle_proposal proposal;
 };
 

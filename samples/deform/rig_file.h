@@ -22,9 +22,9 @@ struct HandleEntry {
   double radius = 0;
   bool has_box = false;
   glm::dvec3 lower{0}, upper{1};
-  bool outside = false;   // of the box
-  bool absolute = false;  // point and radius are in the unit of the mesh
-  bool offered = false;   // proposed to be dragged, not to hold; drawn in a colour of its own
+  bool outside = false;  // of the box
+  bool offered = false;  // proposed to be dragged, not to hold; drawn in a colour of its own
+  double following = 1;  // how much of the surface follows while it is dragged
 };
 
 // Where a handle should move, from its rest place (layer 0) or from where the layers below carry it. Either it turns

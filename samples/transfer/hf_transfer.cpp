@@ -304,13 +304,14 @@ int transfer(TransferCommand command, nlohmann::json& json) {
   for (PairEntry& pair : pairs.pairs)
     pair.sinks =
         pair.sinks || std::find(command.sinking.begin(), command.sinking.end(), pair.name) != command.sinking.end();
-  Session session(source, target, pairs, command.threads, command.links, bar, command.ground);
+  Session session(source, target, pairs, command.threads, command.links, bar, command.ground, command.rigid);
   session.set_proposed(command.pairs.empty());
   for (const auto& [model, surface] :
        {std::pair<const Model*, hf_surface>{&source, session.source_surface()}, {&target, session.target_surface()}}) {
     if (const std::string sentence = links_sentence(surface); !sentence.empty())
       std::printf("%s: %s\n", model->name.c_str(), sentence.c_str());
   }
+  if (session.rigid_count() > 0) std::printf("%zu rigid pieces\n", session.rigid_count());
   const auto with_axes = [&](RunReport report) {
     if (!source_axes.empty()) report.source.said = source_axes;
     if (!target_axes.empty()) report.target.said = target_axes;

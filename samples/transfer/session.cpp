@@ -8,8 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "common/links.h"
 #include "common/peers.h"
+#include "common/rigid_parts.h"
 #include "gltf/animate.h"
 #include "gltf/landmarks.h"
 #include "transfer/posed_region.h"
@@ -48,7 +48,7 @@ glm::dvec3 take_travel(const std::vector<double>& times, const glm::dvec3& up, c
 }
 
 Session::Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, bool links,
-                 ProgressBar& bar, bool ground)
+                 ProgressBar& bar, bool ground, bool rigid)
     : source_(source),
       target_(target),
       file_(pairs),
@@ -58,7 +58,8 @@ Session::Session(const Model& source, const Model& target, const PairsFile& pair
       target_finder_(target, target_flat_, pairs.target_axes),
       source_known_(know_body(source, source_flat_)),
       target_known_(know_body(target, target_flat_)),
-      ground_(ground) {
+      ground_(ground),
+      rigid_(rigid) {
   try {
     create(threads, links, bar);
   } catch (...) {
@@ -97,11 +98,25 @@ void Session::create(uint32_t threads, bool links, ProgressBar& bar) {
   copy_axes(file_.target_axes, desc.target_axes);
   check(create_transfer(settings.paper, source_surface_->get(), target_surface_->get(), desc, &transfer_),
         "the transfer");
+  if (rigid_) keep_rigid(target_links);
   set_dials(file_.dials);
   bar.begin("pairs, fields and clusters");
   add(file_.pairs);
   prepare();
   bar.end(std::to_string(live_.size()) + " pairs, " + std::to_string(cluster_count()) + " clusters");
+}
+
+void Session::keep_rigid(const ModelLinks& skin) {
+  const std::vector<uint32_t> vertices = rigid_vertices(target_flat_, rigid_parts(target_flat_, target_, skin));
+  check(hf_transfer_set_rigid_pieces(transfer_, static_cast<uint32_t>(vertices.size()), vertices.data()),
+        "the rigid pieces");
+  rigid_count_ = vertices.size();
+}
+
+uint32_t Session::joint_count() const {
+  hf_skin_info info = HF_INIT(hf_skin_info);
+  check(hf_transfer_get_skin(transfer_, &info), "the skin");
+  return info.joint_count;
 }
 
 void Session::set_dials(const TransferDials& dials) {
@@ -311,7 +326,7 @@ PlayedClip Session::play(const std::string& name, const std::vector<double>& tim
     const glm::dvec3 travel = take_travel(times, file_.source_axes.up, source_flat_.loose, poses);
     out.travel = file_.dials.stride * scale_ * (target * glm::transpose(source) * travel);
   }
-  const uint32_t joints = stretches() ? 0 : cluster_count();
+  const uint32_t joints = stretches() ? 0 : joint_count();
   std::vector<double> pivots(3 * joints), rotations(4 * joints), places(3 * joints), target;
   hf_skin_info info = HF_INIT(hf_skin_info);
   info.joint_capacity = joints;
@@ -393,7 +408,7 @@ double Session::largest_gap(const std::vector<std::vector<double>>& frames) cons
 }
 
 SkinDescription Session::skin() {
-  const uint32_t joints = cluster_count();
+  const uint32_t joints = joint_count();
   SkinDescription out;
   std::vector<double> pivots(3 * joints);
   out.vertex_joints.resize(size_t{4} * target_flat_.vertex_count());

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "common/links.h"
 #include "common/progress_bar.h"
 #include "gltf/known_body.h"
 #include "gltf/pairs_file.h"
@@ -67,9 +68,9 @@ glm::dvec3 take_travel(const std::vector<double>& times, const glm::dvec3& up, c
 
 class Session {
  public:
-  // ground: false switches the rules of the ground off.
+  // ground: false switches the rules of the ground off. rigid: false lets what the skin of the target calls rigid bend.
   Session(const Model& source, const Model& target, const PairsFile& pairs, uint32_t threads, bool links,
-          ProgressBar& bar, bool ground = true);
+          ProgressBar& bar, bool ground = true, bool rigid = true);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -119,6 +120,8 @@ class Session {
   // By flat vertex of the target: 1 if it may sink into the ground, as loose ones may.
   const std::vector<uint8_t>& sinking() const { return sinking_; }
   uint32_t cluster_count() const { return info().cluster_count; }
+  uint32_t joint_count() const;  // of the skin: clusters and rigid pieces
+  size_t rigid_count() const { return rigid_count_; }
   bool stretches() const { return file_.settings.stretch; }  // no skin, no ground, no dials
 
   // Of the surfaces and the transfer.
@@ -145,6 +148,7 @@ class Session {
   };
   void create(uint32_t threads, bool links, ProgressBar& bar);
   void add(const std::vector<PairEntry>& entries);
+  void keep_rigid(const ModelLinks& skin);
   void prepare();
   void change_flags(const std::vector<PairEntry>& entries);
   std::vector<std::string> other_axes() const;
@@ -165,7 +169,8 @@ class Session {
   std::vector<Live> live_;
   std::vector<uint8_t> sinking_;
   bool in_place_ = false, proposed_ = false;
-  bool ground_ = true;
+  bool ground_ = true, rigid_ = true;
+  size_t rigid_count_ = 0;
   double scale_ = 1, setup_ms_ = 0, prepare_ms_ = 0, edit_ms_ = 0;
 };
 

@@ -108,6 +108,7 @@ const char* usage() {
          "  --root-motion   that travel goes to the topmost node over the target's joints, and the body stays in place "
          "under it\n"
          "  --no-ground     no feet stand and nothing is kept above the ground\n"
+         "  --no-rigid      pieces alone on a joint of the target's skin may bend; otherwise a sword stays rigid\n"
          "  --source-rest CLIP@TIME, --target-rest CLIP@TIME  a pose of a clip, in seconds, is the rest pose\n"
          "  --up AXIS, --forward AXIS  for proposals: +y, -z, ...; --source-up, --target-up, --source-forward and\n"
          "                  --target-forward say it for one model (else the skeleton says it, and the report why)\n"
@@ -208,6 +209,8 @@ TransferCommand parse_command(int count, char** arguments) {
       out.root_motion = true;
     } else if (word == "--no-ground") {
       out.ground = false;
+    } else if (word == "--no-rigid") {
+      out.rigid = false;
     } else if (word == "--source-rest") {
       out.source_rest = value();
     } else if (word == "--target-rest") {

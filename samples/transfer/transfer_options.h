@@ -37,6 +37,7 @@ struct TransferCommand {
   std::vector<std::string> sinking;              // pairs whose limb may sink into the ground
   std::vector<std::pair<std::string, double>> dials;  // name and value, over those of PAIRS.json
   bool ground = true;
+  bool rigid = true;         // what the skin of the target calls rigid stays rigid
   bool in_place = false;     // clips lose their travel along the ground
   bool root_motion = false;  // it goes to the topmost node over the joints
   bool shapes = false;       // morph targets instead of clips

@@ -1,5 +1,5 @@
 // Implements hf_surface_propose_handles of hf/pose.h.
-#include "capi/objects.h"
+#include "capi/skeleton_object.h"
 #include "capi/vertex_writer.h"
 #include "deform/intake.h"
 #include "hf/pose.h"
@@ -13,10 +13,12 @@ extern "C" hf_result hf_surface_propose_handles(hf_surface handle, const hf_hand
   return guarded("hf_surface_propose_handles", [&] {
     const std::shared_ptr<const Core> shared = harmonic_core(handle, "proposed handles");
     const hf_handle_proposals_desc desc = read_optional(given, "desc");
-    const ProposalOptions options = read_proposal_options(desc);
-    require_either(out_proposals, out_count, "out_proposals and out_count");
+    const auto object = desc.skeleton ? get<SkeletonObject>(desc.skeleton, "desc->skeleton") : nullptr;
     const Core& core = *shared;
-    const Vector<HandleProposal> found = with_progress(desc.progress, [&] { return propose_handles(core, options); });
+    const ProposalOptions options = read_proposal_options(desc, core.mesh, object ? object->skeleton.get() : nullptr);
+    require_either(out_proposals, out_count, "out_proposals and out_count");
+    const Proposals proposals = with_progress(desc.progress, [&] { return propose_handles(core, options); });
+    const Vector<HandleProposal>& found = proposals.list;
     const std::uint32_t count = static_cast<std::uint32_t>(found.size());
     write_count(out_count, count);
     check_capacity(out_proposals, capacity, count, "capacity");
@@ -28,10 +30,18 @@ extern "C" hf_result hf_surface_propose_handles(hf_surface handle, const hf_hand
       out.reason = static_cast<std::int32_t>(from.reason);
       out.pinned = from.pinned ? 1 : 0;
       out.joint = from.joint;
+      out.role = static_cast<std::int32_t>(from.role);
+      out.side = static_cast<std::int32_t>(from.side);
       out.radius = from.radius;
       out.length = from.length;
+      out.following = from.following;
       put(from.position, out.position);
       out_proposals[i] = out;
+    }
+    for (std::size_t v = 0; desc.out_regions && v < core.mesh.inner_of_given.size(); ++v) {
+      const std::int32_t inner = core.mesh.inner_of_given[v];
+      const std::int32_t own = inner == Mesh::none ? -1 : proposals.region[static_cast<std::size_t>(inner)];
+      desc.out_regions[v] = own < 0 ? HF_NO_INDEX : static_cast<std::uint32_t>(own);
     }
   });
 }

@@ -3,6 +3,7 @@
 #include "capi/objects.h"
 #include "capi/skin_out.h"
 #include "capi/vertex_writer.h"
+#include "deform/intake.h"
 #include "deform/normals.h"
 #include "hf/transfer.h"
 #include "transfer/intake.h"
@@ -141,6 +142,15 @@ hf_result hf_transfer_get_statistics(hf_transfer handle, hf_transfer_statistics*
                        });
 }
 
+hf_result hf_transfer_set_rigid_pieces(hf_transfer handle, uint32_t vertex_count, const uint32_t* vertices) {
+  return guarded("hf_transfer_set_rigid_pieces", [&] {
+    const auto object = get<TransferObject>(handle, "transfer");
+    const Changing changing(*object);
+    object->transfer.set_rigid_pieces(
+        read_rigid_pieces(object->transfer.target(), vertex_count, vertices, *object->memory));
+  });
+}
+
 hf_result hf_transfer_set_dials(hf_transfer handle, const hf_transfer_dials* dials) {
   return guarded("hf_transfer_set_dials", [&] {
     const auto object = get<TransferObject>(handle, "transfer");
@@ -223,7 +233,7 @@ hf_result hf_transfer_get_skin(hf_transfer handle, hf_skin_info* inout_skin) {
     object->transfer.skin_motion(nullptr, nullptr, nullptr);  // refuses modes without a skin before anything is written
     Memory* memory = object->memory.get();
     const Mesh& mesh = object->transfer.target().mesh;
-    const std::size_t joints = static_cast<std::size_t>(object->transfer.cluster_count());
+    const std::size_t joints = object->transfer.joint_count();
     out.write_counts(joints, mesh.report.vertex_count);
     Vector<Vec3> pivots(joints, memory), places(joints, memory);
     Vector<Quaternion> rotations(joints, memory);

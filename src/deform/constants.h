@@ -310,6 +310,23 @@ constexpr double joint_reach = 0.1;
 constexpr double around_joint = 1.3;
 // Vertices: a smaller region of a coarse mesh grows, because one vertex holds no rotation. Double drops one tip.
 constexpr std::size_t least_region = 6;
+// How much follows a proposed handle that is dragged. A hand pulled up by a quarter of the box moves the head of 15
+// bipeds that stand on their feet by at most 0.02 of it; with 1 by up to 0.43.
+constexpr double tip_following = 0.25;
+// Roles are known with this confidence; below, they are guesses.
+constexpr double sure_roles = 0.5;
+// A vertex is of a head, a hand or a foot that has more than this share of its weight. More leaves horns out whose
+// weights are smooth, less takes in the neck.
+constexpr double part_share = 0.5;
+// A trunk that rises by this cosine is upright: 53 degrees. Its hands do not stand.
+constexpr double upright_trunk = 0.6;
+// A larger part of the surface is no head, hand or foot, but a body that has one joint.
+constexpr double most_part_share = 0.8;
+// Edges between a head and the trunk that holds. With none a head without a neck leaves its body; more leave small
+// trunks nothing to hold.
+constexpr int free_rings = 2;
+// Vertices: a smaller part is too coarse for a region of its own.
+constexpr std::size_t least_part = 3;
 // A radius grows or shrinks by this factor, up to most_radius and most_attempts times, until its region fits.
 constexpr double radius_growth = 1.4, most_radius = 0.15;
 constexpr int most_attempts = 12;

@@ -17,11 +17,12 @@ static_assert(static_cast<int>(HandleReason::foot) == HF_HANDLE_REASON_FOOT &&
                   static_cast<int>(HandleReason::middle) == HF_HANDLE_REASON_MIDDLE,
               "hf/pose.h states other reasons");
 
-// The unit vector away from the ground; 0 0 0 is y.
-Vec3 read_up(const double* up) {
+// The unit vector away from the ground; 0 0 0 is that of the skeleton where it is known, else y.
+Vec3 read_up(const double* up, const KnownSkeleton* skeleton) {
   if (!is_finite_point(up)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "up is not finite");
   const Vec3 unit = unit_vector({up[0], up[1], up[2]});
-  return unit.x == 0 && unit.y == 0 && unit.z == 0 ? Vec3{0, 1, 0} : unit;
+  if (unit.x != 0 || unit.y != 0 || unit.z != 0) return unit;
+  return skeleton && skeleton->character.up_confidence >= sure_roles ? skeleton->character.up : Vec3{0, 1, 0};
 }
 
 void check_skeleton(const hf_handle_proposals_desc& desc) {
@@ -38,6 +39,15 @@ void check_skeleton(const hf_handle_proposals_desc& desc) {
       fail(HF_ERROR_OUT_OF_RANGE, j, "the parent of joint %u is %u; there are %u joints", j, desc.parents[j],
            desc.joint_count);
   }
+}
+
+void check_character(const hf_handle_proposals_desc& desc, const Mesh& mesh, const KnownSkeleton& skeleton) {
+  if (desc.joint_count > 0) fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "joints and a skeleton are both set; set one");
+  const std::uint32_t skinned = skeleton.input.vertex_count;
+  if (skinned > 0 && skinned != mesh.report.vertex_count)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "the skin of the skeleton has %u vertices and the mesh %u; make the skeleton with the skin of this mesh",
+         skinned, mesh.report.vertex_count);
 }
 
 }  // namespace
@@ -139,9 +149,12 @@ DeformRequest read_request(const hf_deform_desc& desc) {
   return request;
 }
 
-ProposalOptions read_proposal_options(const hf_handle_proposals_desc& desc) {
+ProposalOptions read_proposal_options(const hf_handle_proposals_desc& desc, const Mesh& mesh,
+                                      const KnownSkeleton* skeleton) {
   ProposalOptions options;
-  options.up = read_up(desc.up);
+  options.skeleton = skeleton;
+  if (skeleton) check_character(desc, mesh, *skeleton);
+  options.up = read_up(desc.up, skeleton);
   options.least_length_share = read_least_length(desc.least_length_share);
   options.limit = count_of(desc.limit, default_proposals, 1, HF_HANDLE_LIMIT, "limit");
   require_zero(desc.reserved);

@@ -8,25 +8,14 @@
 #include "base/progress.h"
 #include "deform/constants.h"
 #include "deform/handles.h"
+#include "deform/proposal_joints.h"
+#include "deform/proposal_parts.h"
 #include "deform/trunk.h"
 #include "field/extremities.h"
 #include "field/peaks.h"
 
 namespace hf_inner {
 namespace {
-
-constexpr std::uint32_t no_joint = 0xffffffffu;
-
-// A place that may become a proposal. All lengths are in the unit of the inner mesh, whose box diagonal is 1.
-struct Candidate {
-  Index vertex = 0;
-  HandleReason reason = HandleReason::tip;
-  bool pinned = false;
-  bool second = false;  // the end of a component that is nearer to its middle; both ends have one length
-  std::uint32_t joint = no_joint;
-  Vec3 position;
-  double radius = 0, length = 0;
-};
 
 double distance(Vec3 a, Vec3 b) noexcept { return norm(a - b); }
 
@@ -35,7 +24,7 @@ class Proposer {
   Proposer(const Core& core, const ProposalOptions& options)
       : core_(core), mesh_(core.mesh), options_(options), memory_(*core.memory), found_(&memory_), height_(&memory_) {}
 
-  Vector<HandleProposal> run() {
+  Proposals run() {
     constexpr float tips_found = 0.8f;  // reported progress, by the usual share of time
     Extremities tips = [&] {
       const ProgressRange range(0.0f, tips_found);
@@ -44,9 +33,8 @@ class Proposer {
     find_feet();
     add_tips(tips);
     add_ends();
-    add_trunk(tips);
-    add_joints();
-    Vector<HandleProposal> out = choose();
+    add_trunk(find_trunk(core_, tips, height_));
+    Proposals out = options_.skeleton ? follow(*options_.skeleton) : choose_plain();
     report(1.0f);
     return out;
   }
@@ -199,101 +187,6 @@ class Proposer {
     }
   }
 
-  // End joints name the proposals near them, and the first joint in the trunk names the trunk. Those without one, and
-  // joints where the skeleton branches, are proposed.
-  // Their place is the joint itself, so that the region goes around the limb.
-  void add_joints() {
-    const std::size_t count = options_.parents.size();
-    if (count == 0) return;
-    Vector<std::uint32_t> children(count, 0, &memory_);
-    for (const std::uint32_t parent : options_.parents) {
-      if (parent != no_joint) ++children[parent];
-    }
-    for (const std::uint32_t joint : joint_order()) {
-      const std::size_t j = at(joint);
-      if (children[j] == 1) continue;
-      const Vec3 place = joint_place(joint);
-      const bool end = children[j] == 0;
-      Candidate* near = nullptr;
-      double least = end ? joint_reach : least_radius;
-      for (Candidate& candidate : found_) {
-        const double d = distance(candidate.position, place);
-        // joints inside the trunk belong to it
-        if (candidate.reason == HandleReason::middle && d <= candidate.radius)
-          least = std::max(least, candidate.radius);
-        if (d <= least) {
-          least = d;
-          near = &candidate;
-        }
-      }
-      if (near) {
-        if ((end || near->reason == HandleReason::middle) && near->joint == no_joint) near->joint = joint;
-        continue;
-      }
-      add_joint(joint, place);
-    }
-  }
-
-  Vec3 joint_place(std::uint32_t joint) const {
-    const double* p = options_.joints.data() + 3 * at(joint);
-    return mesh_.to_inner({p[0], p[1], p[2]});
-  }
-
-  // The joints from the roots outwards, of one depth the longest bone first. Of two joints at one place the first is
-  // proposed, so the order must not be that of the list.
-  Vector<std::uint32_t> joint_order() const {
-    const std::size_t count = options_.parents.size();
-    Vector<std::uint32_t> order(count, 0, &memory_), depth(count, 0, &memory_), path(&memory_);
-    Vector<double> bone(count, 0.0, &memory_);
-    for (std::uint32_t j = 0; j < count; ++j) {
-      order[j] = j;
-      const std::uint32_t parent = options_.parents[j];
-      if (parent != no_joint) bone[j] = distance(joint_place(j), joint_place(parent));
-      // up to a joint whose depth is known; a circle of parents ends where it began
-      path.clear();
-      for (std::uint32_t at_joint = j; at_joint != no_joint && depth[at_joint] == 0;
-           at_joint = options_.parents[at_joint]) {
-        depth[at_joint] = 1;
-        path.push_back(at_joint);
-      }
-      const std::uint32_t above = options_.parents[path.empty() ? j : path.back()];
-      std::uint32_t reached = above == no_joint ? 0 : depth[above];
-      for (std::size_t k = path.size(); k-- > 0;) depth[path[k]] = ++reached;
-    }
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      if (depth[a] != depth[b]) return depth[a] < depth[b];
-      return bone[a] != bone[b] ? bone[a] > bone[b] : a < b;
-    });
-    return order;
-  }
-
-  Index nearest_vertex(Vec3 place) const {
-    Index vertex = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
-      const double d = distance(mesh_.positions[v], place);
-      if (d < least) {
-        least = d;
-        vertex = static_cast<Index>(v);
-      }
-    }
-    return vertex;
-  }
-
-  void add_joint(std::uint32_t joint, Vec3 place) {
-    const Index vertex = nearest_vertex(place);
-    const double depth = distance(mesh_.positions[at(vertex)], place);
-    if (depth > joint_reach) return;  // a helper away from the surface
-    Candidate out;
-    out.vertex = vertex;
-    out.position = place;
-    out.reason = HandleReason::joint;
-    out.joint = joint;
-    out.radius = std::max(around_joint * depth, least_radius);
-    out.length = depth;
-    found_.push_back(out);
-  }
-
   double area_near(Vec3 place, double radius) const {
     double area = 0;
     for (const Index v : region_near(core_, place, radius, memory_)) area += core_.areas[at(v)];
@@ -302,12 +195,11 @@ class Proposer {
 
   // The trunk holds, so that a pulled hand does not take the body along. The region goes around, also where a part
   // inside the body is the nearest.
-  void add_trunk(const Extremities& tips) {
-    const Trunk trunk = find_trunk(core_, tips, height_);
+  void add_trunk(const Trunk& trunk) {
     if (!trunk.found) return;
     Candidate out;
     out.position = trunk.middle;
-    out.vertex = nearest_vertex(out.position);
+    out.vertex = nearest_vertex(core_, out.position);
     double depth = distance(mesh_.positions[at(out.vertex)], out.position);
     if (depth > most_depth) {
       out.position = mesh_.positions[at(out.vertex)];
@@ -322,53 +214,54 @@ class Proposer {
     found_.push_back(out);
   }
 
-  // ---- the list ----
-
-  Vector<HandleProposal> choose() {
-    std::sort(found_.begin(), found_.end(), [](const Candidate& a, const Candidate& b) {
-      if (a.pinned != b.pinned) return a.pinned;
-      if (a.length != b.length) return a.length > b.length;
-      if (a.second != b.second) return b.second;
-      if (a.vertex != b.vertex) return a.vertex < b.vertex;
-      return a.reason != b.reason ? a.reason < b.reason : a.joint < b.joint;
-    });
-    Vector<std::uint8_t> owned(mesh_.positions.size(), 0, &memory_);
-    Vector<HandleProposal> out(&memory_);
-    for (const Candidate& candidate : found_) {
-      if (out.size() == options_.limit) break;
-      HandleProposal proposal;
-      proposal.reason = candidate.reason;
-      proposal.pinned = candidate.pinned;
-      proposal.joint = candidate.joint;
-      proposal.vertex = candidate.vertex;
-      proposal.length = mesh_.scale * candidate.length;
-      proposal.position = mesh_.to_given(candidate.position);
-      if (claim(candidate.radius, owned, proposal)) out.push_back(proposal);
-      poll();
+  // What holds of the trunk is what the spine moves near its middle. A middle on a thigh or a neck goes to that of what
+  // the spine moves.
+  void place_trunk(MovedParts& parts) {
+    const auto middle = std::find_if(found_.begin(), found_.end(),
+                                     [](const Candidate& other) { return other.reason == HandleReason::middle; });
+    if (middle == found_.end()) return;
+    Vector<std::uint8_t> spine(mesh_.positions.size(), 0, &memory_);
+    for (std::size_t v = 0; v < spine.size(); ++v) spine[v] = parts.is_of_spine(static_cast<Index>(v));
+    const auto near_middle = [&] {
+      Vector<Index> out(&memory_);
+      for (std::size_t v = 0; v < spine.size(); ++v) {
+        if (spine[v] && distance(mesh_.positions[v], middle->position) <= middle->radius)
+          out.push_back(static_cast<Index>(v));
+      }
+      return out;
+    };
+    Vector<Index> held = near_middle();
+    const Vector<Index> around = region_near(core_, middle->position, middle->radius, memory_);
+    if (parts.role_of(around).role != Role::spine || held.size() < least_region) {
+      const Trunk trunk = trunk_of(core_, spine, height_);
+      if (!trunk.found) return;
+      middle->position = trunk.middle;
+      middle->radius = most_radius;
+      held = near_middle();
     }
-    return out;
+    if (held.size() >= least_region) middle->part = parts.add_trunk(held);
   }
 
-  // Finds a radius whose region has some vertices and overlaps no other. The region is computed from the numbers that
-  // the caller gets, so that handles made of them have the same one.
-  bool claim(double radius, Vector<std::uint8_t>& owned, HandleProposal& proposal) const {
-    const Vec3 place = mesh_.to_inner(proposal.position);
-    bool shrunk = false;
-    for (int attempt = 0; attempt < most_attempts; ++attempt) {
-      proposal.radius = mesh_.scale * radius;
-      const double own = proposal.radius / mesh_.scale;
-      const Vector<Index> region = region_near(core_, place, own, memory_);
-      const bool overlaps = std::any_of(region.begin(), region.end(), [&](Index v) { return owned[at(v)] != 0; });
-      if (shrunk && is_spike(region, own)) return false;
-      if (!overlaps && (shrunk || region.size() >= least_region || radius * radius_growth > most_radius)) {
-        for (const Index v : region) owned[at(v)] = 1;
-        return true;
-      }
-      if (overlaps && region.size() == 1) return false;
-      if (overlaps) shrunk = true;  // does not grow again
-      radius = overlaps ? radius / radius_growth : radius * radius_growth;
+  // ---- the list ----
+
+  Proposals choose_plain() {
+    if (!options_.parents.empty()) add_joints(core_, joint_list(core_, options_.joints, options_.parents), found_);
+    std::sort(found_.begin(), found_.end(), comes_first);
+    return choose_regions(core_, found_, nullptr, options_.limit);
+  }
+
+  Proposals follow(const KnownSkeleton& skeleton) {
+    MovedParts parts(core_, skeleton);
+    leave_out_unmoved(core_, parts, found_);
+    if (parts.knows_roles()) {
+      place_trunk(parts);
+      let_free(core_, parts, found_);
+      take_parts(core_, parts, height_, ground_ + ground_share * tall_, found_);
     }
-    return false;
+    add_joints(core_, joint_list(core_, skeleton, parts), found_);
+    if (parts.knows_roles()) leave_one_each(core_, skeleton, parts, found_);
+    std::sort(found_.begin(), found_.end(), comes_first);
+    return choose_regions(core_, found_, &parts, options_.limit);
   }
 
   const Core& core_;
@@ -382,8 +275,6 @@ class Proposer {
 
 }  // namespace
 
-Vector<HandleProposal> propose_handles(const Core& core, const ProposalOptions& options) {
-  return Proposer(core, options).run();
-}
+Proposals propose_handles(const Core& core, const ProposalOptions& options) { return Proposer(core, options).run(); }
 
 }  // namespace hf_inner

@@ -1,4 +1,5 @@
 // Proposes handles for a surface: feet and a trunk that hold, tips to drag, ends of pieces, joints of a skeleton.
+// Candidates are found in proposals.cpp, what a skeleton says about them in proposal_joints.h and moved_parts.h.
 //
 // Feet are minima of the height with a leg above them: the height rises by a share of the body on the way to a lower
 // minimum (find_peaks). Tips are the extremities of field/extremities.h; those at a foot belong to the foot. A
@@ -12,6 +13,7 @@
 
 #include "base/span.h"
 #include "engine/core.h"
+#include "skeleton/known_skeleton.h"
 
 namespace hf_inner {
 
@@ -22,21 +24,31 @@ struct HandleProposal {
   std::int32_t vertex = 0;  // inner, nearest to the position
   HandleReason reason = HandleReason::tip;
   bool pinned = false;
-  std::uint32_t joint = 0xffffffffu;  // end joint nearby, or none
-  Vec3 position;                      // in the unit of the mesh as given
-  double radius = 0, length = 0;      // same unit
+  std::uint32_t joint = 0xffffffffu;  // the joint that moves it, an end joint nearby, or none
+  Role role = Role::other;            // of the joint, or of what it hangs on
+  Side side = Side::middle;
+  Vec3 position;                  // in the unit of the mesh as given
+  double radius = 0, length = 0;  // same unit
+  double following = 1;           // for a drag
+};
+
+struct Proposals {
+  explicit Proposals(Memory* memory) : list(memory), region(memory) {}
+  Vector<HandleProposal> list;
+  Vector<std::int32_t> region;  // by inner vertex: its proposal by position in the list, or -1
 };
 
 struct ProposalOptions {
-  Vec3 up{0, 1, 0};                   // of length 1
-  double least_length_share = 0;      // share of the box diagonal
-  std::size_t limit = 0;              // most proposals
-  Span<const double> joints;          // [n][3], in the unit of the mesh as given
-  Span<const std::uint32_t> parents;  // [n]; 0xffffffff for a root
+  Vec3 up{0, 1, 0};                         // of length 1
+  double least_length_share = 0;            // share of the box diagonal
+  std::size_t limit = 0;                    // most proposals
+  Span<const double> joints;                // [n][3], in the unit of the mesh as given
+  Span<const std::uint32_t> parents;        // [n]; 0xffffffff for a root
+  const KnownSkeleton* skeleton = nullptr;  // instead of joints; a skin has the vertices of the mesh
 };
 
 // Returns pinned proposals first, then the others, each by length, the longest first. Throws as poisson_extremities
 // does.
-Vector<HandleProposal> propose_handles(const Core& core, const ProposalOptions& options);
+Proposals propose_handles(const Core& core, const ProposalOptions& options);
 
 }  // namespace hf_inner

@@ -6,7 +6,7 @@
 
 namespace hf_inner {
 
-RigidPieces::RigidPieces(const Core& core, Span<const std::int32_t> vertices, Memory& memory)
+RigidPieces::RigidPieces(const Core& core, Span<const std::int32_t> vertices, const Mesh& rest, Memory& memory)
     : piece_(static_cast<std::size_t>(core.size()), -1, &memory),
       start_(1, 0, &memory),
       vertex_(&memory),
@@ -55,18 +55,25 @@ RigidPieces::RigidPieces(const Core& core, Span<const std::int32_t> vertices, Me
   for (std::size_t k = 0; k < vertex_.size(); ++k) {
     const std::int32_t v = vertex_[k], own = piece_[v];
     const double share = held_sum[own] > 0 ? rigid_hold_share : 0.0;
-    rest_.push_back(core.mesh.to_given(core.mesh.positions[v]));
+    rest_.push_back(rest.to_given(rest.positions[v]));
     weight_.push_back((1 - share) * area(v) / area_sum[own] + (share > 0 ? share * held[k] / held_sum[own] : 0.0));
   }
 }
 
-void RigidPieces::make_rigid(Vec3* positions, Vec3* scratch) const noexcept {
+Vec3 RigidPieces::centroid(std::size_t piece) const noexcept {
+  Vec3 sum;
+  for (std::int32_t k = start_[piece]; k < start_[piece + 1]; ++k) sum = sum + rest_[k];
+  return (1.0 / static_cast<double>(start_[piece + 1] - start_[piece])) * sum;
+}
+
+void RigidPieces::make_rigid(Vec3* positions, Vec3* scratch, RigidMotion* motions) const noexcept {
   for (std::size_t p = 0; p < count(); ++p) {
     const std::size_t first = static_cast<std::size_t>(start_[p]), size = vertices_of(p).size();
     for (std::size_t k = 0; k < size; ++k) scratch[k] = positions[vertex_[first + k]];
     const RigidMotion motion =
         fit_rigid({rest_.data() + first, size}, {scratch, size}, {weight_.data() + first, size}, Quaternion());
     for (std::size_t k = 0; k < size; ++k) positions[vertex_[first + k]] = apply(motion, rest_[first + k]);
+    if (motions) motions[p] = motion;
   }
 }
 

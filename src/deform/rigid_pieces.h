@@ -15,8 +15,11 @@ namespace hf_inner {
 
 class RigidPieces {
  public:
-  // The pieces of these inner vertices, which may name a piece twice.
-  RigidPieces(const Core& core, Span<const std::int32_t> vertices, Memory& memory);
+  // The pieces of these inner vertices, which may name a piece twice. core: with the links. rest: the mesh of the core,
+  // perhaps in another pose.
+  RigidPieces(const Core& core, Span<const std::int32_t> vertices, const Mesh& rest, Memory& memory);
+  RigidPieces(const Core& core, Span<const std::int32_t> vertices, Memory& memory)
+      : RigidPieces(core, vertices, core.mesh, memory) {}
   std::size_t count() const noexcept { return start_.size() - 1; }
   // The piece of a vertex, or -1.
   std::int32_t piece_of(std::int32_t vertex) const noexcept { return piece_[vertex]; }
@@ -25,7 +28,10 @@ class RigidPieces {
   }
   // Room for the posed vertices of the largest piece.
   std::size_t scratch_size() const noexcept { return largest_; }
-  void make_rigid(Vec3* positions, Vec3* scratch) const noexcept;
+  // The mean of a piece at rest.
+  Vec3 centroid(std::size_t piece) const noexcept;
+  // motions: null, or room for the motion of each piece.
+  void make_rigid(Vec3* positions, Vec3* scratch, RigidMotion* motions = nullptr) const noexcept;
 
  private:
   Vector<std::int32_t> piece_;           // by vertex, -1 outside

@@ -44,6 +44,11 @@ Trunk find_trunk(const Core& core, const Extremities& tips, Span<const double> h
   for (const Extremity& tip : tips.points) {
     if (tip.component == component) remove_limb(core, tips.field, tip, limb, trunk);
   }
+  return trunk_of(core, trunk, height);
+}
+
+Trunk trunk_of(const Core& core, Span<const std::uint8_t> trunk, Span<const double> height) {
+  const Mesh& mesh = core.mesh;
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < trunk.size(); ++v) {
     if (trunk[v]) lowest = std::min(lowest, height[v]);

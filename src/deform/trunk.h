@@ -5,6 +5,8 @@
 // chest of a biped, not in its hips, and between the legs of an animal. The middle follows translation and scale. Cost:
 // some passes over the mesh.
 #pragma once
+#include <cstdint>
+
 #include "base/span.h"
 #include "engine/core.h"
 #include "field/extremities.h"
@@ -20,5 +22,8 @@ struct Trunk {
 // Finds the trunk of the component with the largest area. height: of every vertex. `found` is false where nothing is
 // left.
 Trunk find_trunk(const Core& core, const Extremities& tips, Span<const double> height);
+
+// The same of the vertices that are `inside`, 1 or 0 for every vertex.
+Trunk trunk_of(const Core& core, Span<const std::uint8_t> inside, Span<const double> height);
 
 }  // namespace hf_inner

@@ -84,7 +84,8 @@ struct Transfer::Prepared {
         needs(&memory),
         forces(&memory),
         block_needs(&memory),
-        hold_forces(&memory) {}
+        hold_forces(&memory),
+        rigid_motions(&memory) {}
   struct Anchor {
     std::uint32_t number = 0, flags = 0;
     bool is_foot = false;
@@ -143,12 +144,13 @@ struct Transfer::Prepared {
   // height of the cluster's source vertices over the ground, at rest and now. target_lows: lowest height of the
   // cluster's target vertices. touch: the cluster's area if the cluster touches the ground now but not at rest.
   Vector<double> rest_lows, source_lows, target_lows, touch;
-  double source_low = 0;         // lowest height of all source vertices
-  Vector<std::uint8_t> sinks;    // per target vertex: 1 if it may stay under the ground
-  Vector<double> rises;          // per cluster: how far it is raised
-  Vector<double> needs, forces;  // per vertex: how far it must rise, and the force that raises it
-  Vector<double> block_needs;    // the largest need of some adjacent vertices
-  Vector<double> hold_forces;    // per constraint of the frame: the force that keeps it in place
+  double source_low = 0;              // lowest height of all source vertices
+  Vector<std::uint8_t> sinks;         // per target vertex: 1 if it may stay under the ground
+  Vector<double> rises;               // per cluster: how far it is raised
+  Vector<double> needs, forces;       // per vertex: how far it must rise, and the force that raises it
+  Vector<double> block_needs;         // the largest need of some adjacent vertices
+  Vector<double> hold_forces;         // per constraint of the frame: the force that keeps it in place
+  Vector<RigidMotion> rigid_motions;  // of rigid pieces in the last frame, in the caller's units
 };
 
 }  // namespace hf_inner

@@ -438,6 +438,7 @@ Transfer::Prepared& Transfer::prepare() {
   p.shifts.assign(count, Vec3());
   p.cluster_goals.assign(count, Vec3());
   p.goals.assign(p.anchors.size(), Vec3());
+  p.rigid_motions.assign(rigid_ ? rigid_->count() : 0, RigidMotion());
   prepared_ = std::move(fresh);
   return p;
 }
@@ -475,31 +476,9 @@ std::int32_t Transfer::cluster_count() { return prepare().clusters.count; }
 
 double Transfer::scale() { return prepare().scale * target_core_->mesh.scale / source_core_->mesh.scale; }
 
-void Transfer::skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places) {
-  if (options_.mode == HF_TRANSFER_STRETCH)
-    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a transfer of mode HF_TRANSFER_STRETCH is no skin; take its positions");
-  const Prepared& p = prepare();
-  const Mesh& mesh = target_core_->mesh;
-  for (std::size_t c = 0; c < p.rotations.size(); ++c) {
-    if (pivots) pivots[c] = mesh.to_given(p.clusters.pivot[c]);
-    if (rotations) rotations[c] = p.rotations[c];
-    if (places) places[c] = mesh.to_given(p.matrices[c] * p.clusters.pivot[c] + p.shifts[c]);
-  }
-}
-
 const std::uint8_t* Transfer::sinking() {
   const Prepared& p = prepare();
   return p.sinks.empty() ? nullptr : p.sinks.data();
-}
-
-void Transfer::skin_weights(std::int32_t vertex, std::uint32_t influence_count, std::uint32_t* joints, float* weights) {
-  const Prepared& p = prepare();
-  for (std::uint32_t i = 0; i < influence_count; ++i) {
-    const bool used = i < blend_count;
-    const std::size_t from = at(vertex) * blend_count + i;
-    weights[i] = used ? p.clusters.weight[from] : 0.0f;
-    joints[i] = used && weights[i] > 0 ? static_cast<std::uint32_t>(p.clusters.joint[from]) : 0u;
-  }
 }
 
 }  // namespace hf_inner

@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "deform/rigid_pieces.h"
 #include "hf/transfer.h"
 #include "transfer/alignment.h"
 #include "transfer/clusters.h"
@@ -106,10 +107,14 @@ class Transfer {
   // (index: position in the list).
   void apply(const Vec3* source, Vec3* out, Span<const PairHold> holds = {});
 
-  // The number of clusters (joints) in the skin of the last frame. Before the first frame, the skin is at rest.
+  // Takes the pieces of the target that move rigidly, named by inner vertices; none: an empty list.
+  void set_rigid_pieces(Span<const std::int32_t> vertices);
+
   std::int32_t cluster_count();
-  // Writes each cluster's rest centroid, rotation and posed centroid, in the caller's units. Each array is null or
-  // cluster_count() long.
+  // The joints of the skin of the last frame: clusters, then rigid pieces. Before the first frame, the skin is at rest.
+  std::size_t joint_count();
+  // Writes each joint's rest centroid, rotation and posed centroid, in the caller's units. Each array is null or
+  // joint_count() long.
   void skin_motion(Vec3* pivots, Quaternion* rotations, Vec3* places);
   // By inner vertex of the target: 1 if it may sink into the ground. NULL: there is no ground.
   const std::uint8_t* sinking();
@@ -151,6 +156,7 @@ class Transfer {
   double lying_share(Prepared& p) const noexcept;
   void lie_down(Prepared& p, Vec3 centroid, double lies, double rigid, double share) const;
   void keep_above_ground(Prepared& p, const Quaternion& turn, Vec3 centroid, double rigid) const;
+  void make_rigid(Prepared& p, Vec3* out) noexcept;
   bool raise_sunk(Prepared& p, Vec3 up, double allowed, double share) const;
 
   // With rest poses of the caller, these hold their positions and no factor; the fields have the cores as made.
@@ -164,6 +170,8 @@ class Transfer {
   Vector<std::uint32_t> flags_;    // HF_PAIR_*, by pair number
   Vector<double> source_area_, target_area_;
   Vector<std::uint8_t> thin_;  // by inner vertex of the target (thin_parts.h); empty until the first pairs are prepared
+  std::shared_ptr<const RigidPieces> rigid_;  // null: none
+  Buffer<Vec3> rigid_scratch_;
   std::shared_ptr<Prepared> prepared_;
 };
 

@@ -218,6 +218,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
                        p.scale, p.target_centroid, target_area_},
                       p.blended.data());
     for (std::size_t v = 0; v < p.blended.size(); ++v) out[v] = to.to_given(p.blended[v]);
+    make_rigid(p, out);
     return;
   }
   p.source_rotations.clusters(p.clusters, p.posed.data(), whole.rotation, p.given.data(), *target_core_->jobs);
@@ -259,6 +260,7 @@ void Transfer::apply(const Vec3* source, Vec3* out, Span<const PairHold> holds) 
         const std::size_t last = std::min(p.blended.size(), (std::size_t{b} + 1) * vertex_block);
         for (std::size_t v = std::size_t{b} * vertex_block; v < last; ++v) out[v] = to.to_given(p.blended[v]);
       });
+  make_rigid(p, out);
 }
 
 }  // namespace hf_inner

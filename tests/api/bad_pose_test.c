@@ -167,6 +167,31 @@ static void bad_handles_are_not_added(void** state) {
   finish_rows("adding handles");
 }
 
+/* A joint that moves one vertex. */
+static hf_skeleton skeleton_of_another_mesh(void) {
+  const uint32_t no_parent = NO_INDEX, joint = 0;
+  const float rest[10] = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1}, position[3] = {0, 0, 0}, weight = 1;
+  hf_skin_desc one = HF_INIT(hf_skin_desc);
+  one.vertex_count = 1;
+  one.influence_count = 1;
+  one.positions = position;
+  one.joints = &joint;
+  one.weights = &weight;
+  hf_skeleton_desc desc = HF_INIT(hf_skeleton_desc);
+  desc.joint_count = 1;
+  desc.parents = &no_parent;
+  desc.rest = rest;
+  desc.skin = &one;
+  hf_skeleton out;
+  assert_ok(hf_skeleton_create(&desc, &out));
+  return out;
+}
+
+static void give_skeleton(hf_skeleton skeleton) {
+  propose.skeleton = skeleton;
+  propose.joint_count = 0;
+}
+
 #define PROPOSE(what, expected, index, change) \
   ROW(what, expected, index, change, hf_surface_propose_handles(scene.body, &propose, 0, NULL, &proposal_count))
 
@@ -188,6 +213,11 @@ static void handles_are_not_proposed_from_bad_input(void** state) {
   PROPOSE("least_length_share -1", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length_share = -1);
   PROPOSE("least_length_share 11", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.least_length_share = 11);
   PROPOSE("257 proposals", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.limit = 257);
+  const hf_skeleton other = skeleton_of_another_mesh();
+  PROPOSE("joints and a skeleton", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, propose.skeleton = other);
+  PROPOSE("a skin of another mesh", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, give_skeleton(other));
+  PROPOSE("a pose as a skeleton", HF_ERROR_INVALID_OBJECT, NO_INDEX, give_skeleton((hf_skeleton)(void*)scene.pose));
+  hf_skeleton_destroy(other);
   ROW("no output", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0,
       hf_surface_propose_handles(scene.body, &propose, 0, NULL, NULL));
   ROW("no surface", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0,
@@ -497,6 +527,12 @@ static void other_calls_of_a_transfer_refuse_bad_arguments(void** state) {
   APPLY("source NaN", HF_ERROR_NON_FINITE, 17, source[3 * 17 + 2] = (float)NAN);
   APPLY("source 1e30 boxes away", HF_ERROR_TOO_LARGE, 17, source[3 * 17] = 1e31f);
   APPLY("source infinite", HF_ERROR_NON_FINITE, TUBE_VERTICES - 1, source[3 * TUBE_VERTICES - 1] = (float)INFINITY);
+
+#define RIGID_TARGET(what, expected, index, change, count, list) \
+  ROW(what, expected, index, change, hf_transfer_set_rigid_pieces(scene.transfer, count, list))
+  RIGID_TARGET("list NULL", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, 2, NULL);
+  RIGID_TARGET("too many", HF_ERROR_TOO_LARGE, NO_INDEX, (void)0, UINT32_MAX, numbers);
+  RIGID_TARGET("no such vertex", HF_ERROR_OUT_OF_RANGE, 1, numbers[1] = UINT32_MAX, 2, numbers);
 
   hf_transfer_dials dials = HF_INIT(hf_transfer_dials);
   DIALS("reserved set", HF_ERROR_INVALID_DESC, dials.reserved = 1);

@@ -551,7 +551,7 @@ func imported():
 func following(deformer, moved, size):
 	var rest = deformer.arrays[Mesh.ARRAY_VERTEX]
 	var sums = []
-	var share = deformer.TIP_FOLLOWING
+	var share = 0.25
 	for follows in [1.0, share, 1.0]:
 		deformer.set_following(moved, follows)
 		var posed = []

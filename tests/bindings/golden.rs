@@ -438,7 +438,7 @@ impl Scene<'_> {
             "propose" => {
                 return array(
                     surface
-                        .propose_handles(&HandleProposalsOptions::default())?
+                        .propose_handles(None, &HandleProposalsOptions::default())?
                         .iter()
                         .map(|p| p.vertex)
                         .collect(),

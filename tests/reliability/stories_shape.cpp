@@ -237,6 +237,10 @@ void transfer(Story& s, const Tube& tube, Allocator& memory) {
   dials.stride = 1.2;
   dials.hip_height_share = 0.1;
   s.call("hf_transfer_set_dials", [&] { return hf_transfer_set_dials(motion, &dials); });
+  const std::uint32_t piece = 0;
+  s.call("hf_transfer_set_rigid_pieces", [&] { return hf_transfer_set_rigid_pieces(motion, 1, &piece); });
+  s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
+  s.call("hf_transfer_set_rigid_pieces", [&] { return hf_transfer_set_rigid_pieces(motion, 0, nullptr); });
   s.call("hf_transfer_apply", [&] { return hf_transfer_apply(motion, &frame); });
   s.take(out.data(), out.size());
   hf_transfer_info info = HF_INIT(hf_transfer_info);

@@ -100,8 +100,12 @@ class Transfers final : public Subject {
     }
     if (result == HF_OK && batch) result = add_to(fresh, pairs, nullptr);
     if (result == HF_OK) result = hf_transfer_set_dials(fresh, &dials_);
+    if (result == HF_OK) result = make_rigid(fresh, rigid_);
     if (result == HF_OK) result = apply(fresh, bent(0.4), out);
     return hf_transfer_destroy(fresh), result;
+  }
+  static hf_result make_rigid(hf_transfer transfer, const std::vector<std::uint32_t>& pieces) {
+    return hf_transfer_set_rigid_pieces(transfer, static_cast<std::uint32_t>(pieces.size()), pieces.data());
   }
   static hf_result add_to(hf_transfer transfer, const std::vector<Pair>& pairs, std::uint32_t* out,
                           hf_progress progress = nullptr) {
@@ -154,6 +158,7 @@ class Transfers final : public Subject {
   std::int32_t kind_ = TRANSFER_FIELDS;
   hf_transfer handle_ = nullptr;
   hf_transfer_dials dials_ = HF_INIT(hf_transfer_dials);
+  std::vector<std::uint32_t> rigid_;
   std::vector<Pair> pairs_;
 };
 
@@ -229,6 +234,14 @@ struct TransferCalls {
     if (result == HF_OK) s.dials_ = given ? dials : HF_INIT(hf_transfer_dials);  // NULL: neutral ones
     return result;
   }
+  static hf_result rigid(Subject& subject, Random& random) {
+    Transfers& s = of(subject);
+    std::vector<std::uint32_t> pieces(random.below(3));
+    for (std::uint32_t& v : pieces) v = random.index(s.world.shape->vertices());
+    const hf_result result = Transfers::make_rigid(s.handle_, pieces);
+    if (result == HF_OK) s.rigid_ = pieces;
+    return result;
+  }
   static hf_result make(Subject& subject, Random& random) {
     Transfers& s = of(subject);
     hf_transfer_desc desc = HF_INIT(hf_transfer_desc);
@@ -257,8 +270,9 @@ struct TransferCalls {
 const std::vector<Command>& Transfers::commands() const {
   static const std::vector<Command> table = {
       {"hf_transfer_add_pairs", 8, TransferCalls::add},   {"hf_transfer_remove_pairs", 3, TransferCalls::remove},
-      {"hf_transfer_set_dials", 3, TransferCalls::dials}, {"hf_transfer_apply", 10, TransferCalls::frame},
-      {"hf_transfer_create", 2, TransferCalls::make},     {"reading a transfer", 4, TransferCalls::read},
+      {"hf_transfer_set_dials", 3, TransferCalls::dials}, {"hf_transfer_set_rigid_pieces", 2, TransferCalls::rigid},
+      {"hf_transfer_apply", 10, TransferCalls::frame},    {"hf_transfer_create", 2, TransferCalls::make},
+      {"reading a transfer", 4, TransferCalls::read},
   };
   return table;
 }

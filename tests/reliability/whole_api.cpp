@@ -356,6 +356,11 @@ void Run::analysis() {
   call(hf_surface_propose_handles(surface, &places, HF_HANDLE_LIMIT, proposed.data(), &proposed_count),
        "hf_surface_propose_handles");
   take(proposed.data(), proposed_count);
+  std::vector<std::uint32_t> regions(n);
+  places.out_regions = regions.data();
+  call(hf_surface_propose_handles(surface, &places, 0, nullptr, &proposed_count),
+       "hf_surface_propose_handles, regions");
+  take(regions.data(), n);
   hf_geodesics_destroy(geodesics);
   hf_surface_destroy(surface);
 }

@@ -109,6 +109,10 @@ void Run::pose_and_transfer() {
     hf_skin_info skin = desc<hf_skin_info>();
     call(hf_transfer_get_skin(transfer, &skin), "hf_transfer_get_skin");
     take(&skin.joint_count, 1);
+    const std::uint32_t piece = 0;
+    call(hf_transfer_set_rigid_pieces(transfer, 1, &piece), "hf_transfer_set_rigid_pieces");
+    call(hf_transfer_apply(transfer, &frame), "hf_transfer_apply, a rigid piece");
+    take_floats();
     call(hf_transfer_remove_pairs(transfer, 1, numbers), "hf_transfer_remove_pairs");
     hf_transfer_destroy(transfer);
   }

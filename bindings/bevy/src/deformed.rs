@@ -161,7 +161,7 @@ impl DeformedMesh {
 
     /// Places for handles, those that hold the body first (`pinned` is 1). Y points up.
     pub fn propose_handles(&self) -> hf::Result<Vec<hf_handle_proposal>> {
-        self.surface.propose_handles(&default())
+        self.surface.propose_handles(None, &default())
     }
 
     /// The first triangle of the posed surface on a ray; `None` when the ray misses. The ray is one of the deformer's space.

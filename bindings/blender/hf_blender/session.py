@@ -244,8 +244,6 @@ def add_handles(obj, regions, names, layer=0):
         name in zip(regions, names)])
 
 
-# How much follows a tip that is dragged: its limb, and a quarter of what the body would lean. hf_deform_script takes the same.
-TIP_FOLLOWING = 0.25
 REASONS = ("foot", "tip", "end", "joint", "middle")
 
 
@@ -272,7 +270,7 @@ def add_proposals(obj, only_pinned=False):
             made[-1].empty_display_type = "CUBE"
         else:
             carriers.offer(made[-1])
-            made[-1].hf_following = TIP_FOLLOWING
+        made[-1].hf_following = place["following"]
     if not made:
         raise hf.EmptyError(f"{obj.name} has handles at all proposed places")
     return take_up(obj, made)

@@ -134,7 +134,8 @@ namespace Hf
         Tip = Constants.HF_HANDLE_REASON_TIP,
         /// <summary>one of the two ends of a component without feet or tips</summary>
         End = Constants.HF_HANDLE_REASON_END,
-        /// <summary>a joint of the given skeleton: an end, or where it branches</summary>
+        /// <summary>a joint of the given skeleton: an end, or where it branches; a head or a hand that is no tip of the
+        /// surface</summary>
         Joint = Constants.HF_HANDLE_REASON_JOINT,
         /// <summary>the trunk of the largest component: the chest of a biped; pinned, inside the surface</summary>
         Middle = Constants.HF_HANDLE_REASON_MIDDLE,
@@ -1180,7 +1181,9 @@ namespace Hf
         }
     }
 
-    /// <summary>One proposed handle. position and radius are as in HandlesDesc: the regions of all proposals are disjoint.</summary>
+    /// <summary>One proposed handle. position and radius are as in HandlesDesc: the regions of all proposals are disjoint.
+    /// With a skeleton whose roles are known, the region in regions is all that a head, a hand or a foot moves. The
+    /// region of position and radius is then a part of that.</summary>
     public sealed unsafe partial class HandleProposal
     {
         /// <summary>nearest to the position; as given, of welded copies the first</summary>
@@ -1190,14 +1193,22 @@ namespace Hf
         public HandleReason Reason;
         /// <summary>1: add it at once, it holds the body; 0: offer it, and add it when it is dragged</summary>
         public bool Pinned;
-        /// <summary>the end joint nearby, or the joint proposed, by position in the list; uint.MaxValue = none</summary>
+        /// <summary>with a skin: the first joint of a whole head, hand or foot, else the lowest joint that moves most of the
+        /// region, together with the joints below it. Without a skin: the end joint nearby, or the joint proposed.
+        /// uint.MaxValue = none</summary>
         public uint Joint;
+        /// <summary>Role that has most of the weights in the region. A sword has the role of the hand</summary>
+        public Role Role;
+        /// <summary>BodySide of the same joints</summary>
+        public Side Side;
         /// <summary>at rest, in the unit and frame of the mesh; inside the surface for a joint and the trunk</summary>
         public double[] Position = new double[3];
         /// <summary>in the unit of the mesh</summary>
         public double Radius;
         /// <summary>how far the part protrudes, in the unit of the mesh</summary>
         public double Length;
+        /// <summary>for Pose.SetFollowing while the handle is dragged: 1 if it is pinned, else 0.25</summary>
+        public double Following;
 
         internal HandleProposal(hf_handle_proposal* raw)
         {
@@ -1206,9 +1217,12 @@ namespace Hf
             Reason = (HandleReason)raw->reason;
             Pinned = raw->pinned != 0;
             Joint = raw->joint;
+            Role = (Role)raw->role;
+            Side = (Side)raw->side;
             for (int i = 0; i < 3; ++i) Position[i] = raw->position[i];
             Radius = raw->radius;
             Length = raw->length;
+            Following = raw->following;
         }
 
         public HandleProposal() { }
@@ -1220,10 +1234,13 @@ namespace Hf
             raw->reason = (int)Reason;
             raw->pinned = Pinned ? 1 : 0;
             raw->joint = Joint;
+            raw->role = (int)Role;
+            raw->side = (int)Side;
             c.Fit(Position, "Position", "3");
             for (int i = 0; Position != null && i < Position.Length; ++i) raw->position[i] = Position[i];
             raw->radius = Radius;
             raw->length = Length;
+            raw->following = Following;
         }
     }
 
@@ -2805,18 +2822,26 @@ namespace Hf
 
         /// <summary>Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned
         /// proposals come first, then the others, each group by length, the longest first. The places do not depend
-        /// on the order of the vertices. They follow translation and scale.
+        /// on the order of the vertices. They follow translation and scale. A skeleton gives each proposal the
+        /// joint that moves it, and a role and a side. If its roles are known, feet and the trunk hold. Hands,
+        /// heads and tails do not hold, nor does what hangs on them. Each head, hand, foot, tail, ear and wing gets
+        /// one proposal. A part that no joint of the skin moves, such as the box of a control, gets none.
         ///
         /// joints: [jointCount x 3] their places at rest, in the unit and frame of the mesh
         /// parents: [jointCount] position of each joint's parent in the list; uint.MaxValue for a root
-        /// up: direction away from the ground, of any length; 0 0 0 = 0 1 0
+        /// skeleton: the character of the mesh, instead of joints and parents: it rests in the unit and frame of
+        ///     the mesh. Its skin, if it has one, has the vertices of the mesh
+        /// up: direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0
         /// leastLengthShare: as in ExtremitiesDesc; 0 = 0.05
         /// limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
         /// progress: an object to poll and cancel through
+        /// regions: [vertexCount]: for each vertex the number of the proposal whose region it is in, uint.MaxValue
+        ///     for a vertex in none
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.</summary>
-        public HandleProposal[] ProposeHandles(double[] joints = null, uint[] parents = null, double[] up = null,
-                double leastLengthShare = 0, uint limit = 0, Progress progress = null)
+        public HandleProposal[] ProposeHandles(double[] joints = null, uint[] parents = null, Skeleton skeleton = null,
+                double[] up = null, double leastLengthShare = 0, uint limit = 0, Progress progress = null,
+                Span<uint> regions = default(Span<uint>))
         {
             using (var c = new Call(this))
             {
@@ -2827,23 +2852,30 @@ namespace Hf
                 desc->parents = (IntPtr)c.Array(parents, "parents", "joint_count");
                 c.Fit(up, "up", "3");
                 for (int i = 0; up != null && i < up.Length; ++i) desc->up[i] = up[i];
+                desc->skeleton = c.Handle(skeleton);
                 desc->progress = c.Handle(progress);
                 desc->joint_count = (uint)c.Count("joint_count", 0);
-                uint count = 0;
-                void* proposalsPlace = null;
-                c.Room("capacity", "hf_surface_propose_handles.capacity");
-                int result;
-                do
+                if (!regions.IsEmpty)
+                    c.Need(regions.Length, "regions", "vertex_count");
+                fixed (uint* regionsPlace = &MemoryMarshal.GetReference(regions))
                 {
-                        proposalsPlace = c.Rows(sizeof(hf_handle_proposal), "capacity");
-                        result = Functions.hf_surface_propose_handles(RawHandle, desc, (uint)c.Size("capacity"),
-                            proposalsPlace, &count);
+                    desc->out_regions = (IntPtr)regionsPlace;
+                    uint count = 0;
+                    void* proposalsPlace = null;
+                    c.Room("capacity", "hf_surface_propose_handles.capacity");
+                    int result;
+                    do
+                    {
+                            proposalsPlace = c.Rows(sizeof(hf_handle_proposal), "capacity");
+                            result = Functions.hf_surface_propose_handles(RawHandle, desc, (uint)c.Size("capacity"),
+                                proposalsPlace, &count);
+                    }
+                    while (c.Again("hf_surface_propose_handles", result, ("capacity", count)));
+                    var proposals = new HandleProposal[c.Product("capacity")];
+                    for (int i = 0; i < proposals.Length; ++i)
+                        proposals[i] = new HandleProposal((hf_handle_proposal*)proposalsPlace + i);
+                    return proposals;
                 }
-                while (c.Again("hf_surface_propose_handles", result, ("capacity", count)));
-                var proposals = new HandleProposal[c.Product("capacity")];
-                for (int i = 0; i < proposals.Length; ++i)
-                    proposals[i] = new HandleProposal((hf_handle_proposal*)proposalsPlace + i);
-                return proposals;
             }
         }
 
@@ -4229,8 +4261,9 @@ namespace Hf
         /// would be without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field
         /// of the handle is, the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the
         /// body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is
-        /// too short gets longer. The next Pose.Deform shows a change at once. Full-mesh steps (refine) ignore the
-        /// pins. Repeated steps (refine_from_last) let the body lean again.
+        /// too short gets longer. The next Pose.Deform shows a change at once, but a handle that was just added in
+        /// place leaves the surface where it stands until a handle moves. Full-mesh steps (refine) ignore the pins.
+        /// Repeated steps (refine_from_last) let the body lean again.
         ///
         /// handles: [handleCount].
         /// following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of
@@ -6006,6 +6039,25 @@ namespace Hf
             }
         }
 
+        /// <summary>Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh.
+        ///
+        /// vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid.
+        ///     The list replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits
+        ///     the piece best, as Pose.SetRigidPieces does. This comes last in a frame: a hold on a part of a rigid
+        ///     piece may miss its place, and a rigid piece may sink into the ground. Does not factorise.
+        ///
+        /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
+        public void SetRigidPieces(uint[] vertices)
+        {
+            using (var c = new Call(this))
+            {
+                c.Sizes.Remove("vertex_count");  // of the list given here
+                void* vertices_ = c.Array(vertices, "vertices", "vertex_count");
+                HfException.Check(Functions.hf_transfer_set_rigid_pieces(RawHandle, (uint)c.Count("vertex_count", 1),
+                    vertices_));
+            }
+        }
+
         /// <summary>Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest
         /// directions differ much on the two surfaces (PairInfo), it takes the direction of the source's limb
         /// instead, by a share.
@@ -6153,7 +6205,8 @@ namespace Hf
         }
 
         /// <summary>Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the
-        /// skin replays Transfer.Apply exactly, because that function also uses the four largest weights.
+        /// skin replays Transfer.Apply exactly, because that function also uses the four largest weights. A rigid
+        /// piece is one joint; these joints come last.
         ///
         /// influenceCount: joints per vertex, 4 or 8; 0 = 4
         /// scales: [jointCapacity x 3] along the axes in the last frame; null = joints are rigid

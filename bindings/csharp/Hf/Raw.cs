@@ -847,11 +847,13 @@ namespace Hf.Native
         public uint joint_count;
         public IntPtr joints;
         public IntPtr parents;
+        public IntPtr skeleton;
         public fixed double up[3];
         public double least_length_share;
         public uint limit;
         public uint reserved;
         public IntPtr progress;
+        public IntPtr out_regions;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -862,10 +864,13 @@ namespace Hf.Native
         public int reason;
         public int pinned;
         public uint joint;
+        public int role;
+        public int side;
         public uint reserved;
         public fixed double position[3];
         public double radius;
         public double length;
+        public double following;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1530,6 +1535,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_statistics(IntPtr transfer, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_set_dials(IntPtr transfer, void* dials);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_dials(IntPtr transfer, void* out_dials);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_set_rigid_pieces(IntPtr transfer, uint vertex_count, void* vertices);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_apply(IntPtr transfer, void* frame);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_sinking(IntPtr transfer, void* out_sinking);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_transfer_get_skin(IntPtr transfer, void* inout_skin);

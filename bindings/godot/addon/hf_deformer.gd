@@ -29,8 +29,6 @@ static func mesh_in(node):
 			return found
 	return null
 
-# How much follows a tip that is dragged: its limb, and a quarter of what the body would lean. hf_deform_script takes the same.
-const TIP_FOLLOWING = 0.25
 # The least steps that hf_pose_set_limb_refine gives for lengths.
 const LENGTH_STEPS = 8
 
@@ -76,8 +74,8 @@ func add_handle(point, radius, layer = 0, in_place = false):
 # A handle where the library proposes one, a row of surface.propose_handles(): it holds, or it is a tip to drag.
 func add_proposed(row):
 	var handle = add_handle(arrays[Mesh.ARRAY_VERTEX][row.vertex], row.radius)
-	if handle != null and not row.pinned:
-		set_following(handle, TIP_FOLLOWING)
+	if handle != null and row.following < 1:
+		set_following(handle, row.following)
 	return handle
 
 # How much of the surface follows a handle of layer 0: 1 all of it, 0 its limb alone.

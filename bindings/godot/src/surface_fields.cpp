@@ -149,14 +149,18 @@ Value find_extremities(Surface& s, const Arguments&) {
       });
 }
 
-// propose_handles(): { vertex, reason, pinned, radius } each, pinned ones first
+// propose_handles(): { vertex, reason, pinned, radius, following } each, pinned ones first
 Value propose_handles(Surface& s, const Arguments&) {
   return table_of<hf_handle_proposal>(
       [&](uint32_t capacity, hf_handle_proposal* out, uint32_t* count) {
         return hf_surface_propose_handles(s.get(), nullptr, capacity, out, count);
       },
       [](const hf_handle_proposal& p) {
-        return TableRow{{"vertex", p.vertex}, {"reason", p.reason}, {"pinned", p.pinned}, {"radius", p.radius}};
+        return TableRow{{"vertex", p.vertex},
+                        {"reason", p.reason},
+                        {"pinned", p.pinned},
+                        {"radius", p.radius},
+                        {"following", p.following}};
       });
 }
 

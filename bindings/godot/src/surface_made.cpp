@@ -264,6 +264,13 @@ Value transfer_dials(Surface& s, const Arguments&) {
       {"tail_follow", info.tail_follow}, {"arm_space", info.arm_space}, {"long_follow", info.long_follow}});
 }
 
+// transfer_set_rigid_pieces(vertices)
+Value transfer_set_rigid_pieces(Surface& s, const Arguments& a) {
+  const List vertices = integers(at(a, 0), "vertices");
+  check(hf_transfer_set_rigid_pieces(s.transfer.get(), vertices.count(), vertices.data()));
+  return done();
+}
+
 }  // namespace
 
 const std::vector<Entry>& made_methods() {
@@ -298,6 +305,7 @@ const std::vector<Entry>& made_methods() {
       {"transfer_info", 0, 0, transfer_info},
       {"transfer_statistics", 0, 0, transfer_statistics},
       {"transfer_dials", 0, 0, transfer_dials},
+      {"transfer_set_rigid_pieces", 1, 1, transfer_set_rigid_pieces},
   };
   return all;
 }

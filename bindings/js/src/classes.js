@@ -195,13 +195,14 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const handleProposalsDesc = (c, prefix, options) => {
-    const { joints = null, parents = null, up = null, leastLengthShare = 0, limit = 0, progress = null,
+    const { joints = null, parents = null, skeleton = null, up = null, leastLengthShare = 0, limit = 0, progress = null,
             ...more } = options;
     none(more);
     const desc = c.struct('hf_handle_proposals_desc', { least_length_share: leastLengthShare, limit });
     desc.set('joints', c.array('joints', joints, 'f8', [prefix + 'joint_count', 3]));
     desc.set('parents', c.array('parents', parents, 'u4', [prefix + 'joint_count']));
     desc.set('up', up && c.numbers('up', up, 'f8', [3]));
+    desc.set('skeleton', handleOf(skeleton, Skeleton, 'skeleton') || null);
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('joint_count', (c.n[prefix + 'joint_count'] ??= 0));
     return desc;
@@ -665,8 +666,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     }
 
     proposeHandles(options = {}) {
+      const { regions = null, ...more } = options;
       const c = new Call(this);
-      const desc = handleProposalsDesc(c, '', options);
+      const desc = handleProposalsDesc(c, '', more);
+      const regions_ = regions && c.out(regions, 'u4', ['vertex_count'], null, 'regions');
+      desc.set('out_regions', regions_ && written(regions_));
       const count = new Uint32Array(1);
       const found = c.grow(this, 'hf_surface_propose_handles', (room, made) => call('hf_surface_propose_handles',
               this._handle, desc, room.capacity, written(made.proposals), written(count)),
@@ -1615,6 +1619,13 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       const dials = c.struct('hf_transfer_dials', {});
       call('hf_transfer_get_dials', this._handle, dials);
       return dials.toObject();
+    }
+
+    setRigidPieces(vertices) {
+      const c = new Call(this);
+      delete c.n.vertex_count; // of the list given here
+      const vertices_ = c.array('vertices', vertices, 'u4', ['vertex_count']);
+      call('hf_transfer_set_rigid_pieces', this._handle, (c.n.vertex_count ??= 1), vertices_);
     }
 
     apply(sourcePositions = null, out = null, options = {}) {

@@ -628,7 +628,11 @@ export interface BlendRows {
   offsets: Float32Array;
 }
 
-/** One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint. */
+/**
+ * One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint.
+ * With a skeleton whose roles are known, the region in regions is all that a head, a hand or a foot moves. The
+ * region of position and radius is then a part of that.
+ */
 export interface HandleProposal {
   /** nearest to the position; as given, of welded copies the first */
   vertex: number;
@@ -638,14 +642,24 @@ export interface HandleProposal {
   reason: number;
   /** 1: add it at once, it holds the body; 0: offer it, and add it when it is dragged */
   pinned: number;
-  /** the end joint nearby, or the joint proposed, by position in the list; constants.HF_NO_INDEX = none */
+  /**
+   * with a skin: the first joint of a whole head, hand or foot, else the lowest joint that moves most of the
+   * region, together with the joints below it. Without a skin: the end joint nearby, or the joint proposed.
+   * constants.HF_NO_INDEX = none
+   */
   joint: number;
+  /** HF_ROLE_* that has most of the weights in the region. A sword has the role of the hand */
+  role: number;
+  /** HF_SIDE_* of the same joints */
+  side: number;
   /** at rest, in the unit and frame of the mesh; inside the surface for a joint and the trunk */
   position: number[];
   /** in the unit of the mesh */
   radius: number;
   /** how far the part protrudes, in the unit of the mesh */
   length: number;
+  /** for Pose.setFollowing while the handle is dragged: 1 if it is pinned, else 0.25 */
+  following: number;
 }
 
 /** Counts of a quad mesh. */
@@ -1351,18 +1365,25 @@ export interface Surface extends Handle {
   /**
    * Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals
    * come first, then the others, each group by length, the longest first. The places do not depend on the order of
-   * the vertices. They follow translation and scale.
+   * the vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, and a
+   * role and a side. If its roles are known, feet and the trunk hold. Hands, heads and tails do not hold, nor does
+   * what hangs on them. Each head, hand, foot, tail, ear and wing gets one proposal. A part that no joint of the
+   * skin moves, such as the box of a control, gets none.
    *
    * joints: [jointCount x 3] their places at rest, in the unit and frame of the mesh
    * parents: [jointCount] position of each joint's parent in the list; constants.HF_NO_INDEX for a root
-   * up: direction away from the ground, of any length; 0 0 0 = 0 1 0
+   * skeleton: the character of the mesh, instead of joints and parents: it rests in the unit and frame of the
+   *     mesh. Its skin, if it has one, has the vertices of the mesh
+   * up: direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0
    * leastLengthShare: as in hf_extremities_desc; 0 = 0.05
    * limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
    * progress: an object to poll and cancel through
+   * regions: [vertexCount]: for each vertex the number of the proposal whose region it is in,
+   *     constants.HF_NO_INDEX for a vertex in none
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
    */
-  proposeHandles(options?: { joints?: Rows | null; parents?: Rows | null; up?: Rows | null; leastLengthShare?: number; limit?: number; progress?: Progress | null }): HandleProposal[];
+  proposeHandles(options?: { joints?: Rows | null; parents?: Rows | null; skeleton?: Skeleton | null; up?: Rows | null; leastLengthShare?: number; limit?: number; progress?: Progress | null; regions?: Uint32Array | null }): HandleProposal[];
   /** What the last call told that writes it. */
   readonly gapsInfo: GapsInfo;
   /** What the last call told that writes it. */
@@ -1893,8 +1914,9 @@ export interface Pose extends Recorded {
    * without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field of the handle
    * is, the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the body, and set less for
    * a handle that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next
-   * Pose.deform shows a change at once. Full-mesh steps (refine) ignore the pins. Repeated steps
-   * (refine_from_last) let the body lean again.
+   * Pose.deform shows a change at once, but a handle that was just added in place leaves the surface where it
+   * stands until a handle moves. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let
+   * the body lean again.
    *
    * handles: [handleCount].
    * following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the
@@ -2459,6 +2481,17 @@ export interface Transfer extends Handle {
   /** Writes the dials; stride is never 0. */
   readonly dials: TransferDials;
   /**
+   * Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh.
+   *
+   * vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
+   *     replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best,
+   *     as Pose.setRigidPieces does. This comes last in a frame: a hold on a part of a rigid piece may miss its
+   *     place, and a rigid piece may sink into the ground. Does not factorise.
+   *
+   * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
+   */
+  setRigidPieces(vertices: Rows): void;
+  /**
    * Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions
    * differ much on the two surfaces (PairInfo), it takes the direction of the source's limb instead, by a share.
    *
@@ -2495,7 +2528,8 @@ export interface Transfer extends Handle {
   sinking(): Uint8Array;
   /**
    * Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
-   * replays Transfer.apply exactly, because that function also uses the four largest weights.
+   * replays Transfer.apply exactly, because that function also uses the four largest weights. A rigid piece is one
+   * joint; these joints come last.
    *
    * influenceCount: joints per vertex, 4 or 8; 0 = 4
    * scales: [jointCapacity x 3] along the axes in the last frame; null = joints are rigid

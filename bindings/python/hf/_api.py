@@ -194,7 +194,7 @@ class HandleReason(IntEnum):
     END = _raw.HF_HANDLE_REASON_END
     """one of the two ends of a component without feet or tips"""
     JOINT = _raw.HF_HANDLE_REASON_JOINT
-    """a joint of the given skeleton: an end, or where it branches"""
+    """a joint of the given skeleton: an end, or where it branches; a head or a hand that is no tip of the surface"""
     MIDDLE = _raw.HF_HANDLE_REASON_MIDDLE
     """the trunk of the largest component: the chest of a biped; pinned, inside the surface"""
 
@@ -795,12 +795,13 @@ def _deform_desc(c: Call, prefix: str = '', *, iteration_count: int = 0, restart
 
 
 def _handle_proposals_desc(c: Call, prefix: str = '', *, joints: Optional[ArrayLike] = None,
-        parents: Optional[ArrayLike] = None, up: Optional[ArrayLike] = None, least_length_share: float = 0.0,
-        limit: int = 0, progress: Optional[Progress] = None) -> Any:
+        parents: Optional[ArrayLike] = None, skeleton: Optional[Skeleton] = None, up: Optional[ArrayLike] = None,
+        least_length_share: float = 0.0, limit: int = 0, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_handle_proposals_desc, {'least_length_share': least_length_share, 'limit': limit})
     desc.joints = c.array('joints', joints, 'f8', (prefix + 'joint_count', 3))
     desc.parents = c.array('parents', parents, 'u4', (prefix + 'joint_count',), sentinel=True)
     c.fixed(desc.up, 'up', up)
+    desc.skeleton = handle_of(skeleton, Skeleton, 'skeleton')
     desc.progress = handle_of(progress, Progress, 'progress')
     desc.joint_count = c.n.setdefault(prefix + 'joint_count', 0)
     return desc
@@ -1483,24 +1484,34 @@ class Surface(Object):
         return found['extremities']
 
     def propose_handles(self, joints: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None, *,
-            up: Optional[ArrayLike] = None, least_length_share: float = 0.0, limit: int = 0,
-            progress: Optional[Progress] = None) -> np.ndarray:
+            skeleton: Optional[Skeleton] = None, up: Optional[ArrayLike] = None, least_length_share: float = 0.0,
+            limit: int = 0, progress: Optional[Progress] = None, regions: Optional[np.ndarray] = None) -> np.ndarray:
         """Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals
         come first, then the others, each group by length, the longest first. The places do not depend on the order of
-        the vertices. They follow translation and scale.
+        the vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, and a
+        role and a side. If its roles are known, feet and the trunk hold. Hands, heads and tails do not hold, nor does
+        what hangs on them. Each head, hand, foot, tail, ear and wing gets one proposal. A part that no joint of the
+        skin moves, such as the box of a control, gets none.
 
         joints: (joint_count, 3) their places at rest, in the unit and frame of the mesh
         parents: (joint_count,) position of each joint's parent in the list; NO_INDEX for a root
-        up: direction away from the ground, of any length; 0 0 0 = 0 1 0
+        skeleton: the character of the mesh, instead of joints and parents: it rests in the unit and frame of the
+            mesh. Its skin, if it has one, has the vertices of the mesh
+        up: direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0
         least_length_share: as in hf_extremities_desc; 0 = 0.05
         limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
         progress: an object to poll and cancel through
+        regions: (vertex_count,): for each vertex the number of the proposal whose region it is in, NO_INDEX for a
+            vertex in none
 
         Raises CancelledError, InvalidArgumentError, NonFiniteError, OutOfRangeError.
         """
         c = Call(self)
-        desc = _handle_proposals_desc(c, joints=joints, parents=parents, up=up, least_length_share=least_length_share,
-                limit=limit, progress=progress)
+        desc = _handle_proposals_desc(c, joints=joints, parents=parents, skeleton=skeleton, up=up,
+                least_length_share=least_length_share, limit=limit, progress=progress)
+        if regions is not None:
+            regions = c.out(regions, 'u4', ('vertex_count',), name='regions', packed=True)
+            desc.out_regions = address(regions)
         count = ctypes.c_uint32()
 
         def run(room: Any, made: Any) -> None:
@@ -2271,8 +2282,9 @@ class Pose(Recorded):
         without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field of the handle
         is, the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the body, and set less for
         a handle that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next
-        Pose.deform shows a change at once. Full-mesh steps (refine) ignore the pins. Repeated steps
-        (refine_from_last) let the body lean again.
+        Pose.deform shows a change at once, but a handle that was just added in place leaves the surface where it
+        stands until a handle moves. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let
+        the body lean again.
 
         handles: (handle_count,).
         following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the
@@ -3229,6 +3241,21 @@ class Transfer(Object):
         call('hf_transfer_get_dials', self._handle, ref(dials))
         return dials
 
+    def set_rigid_pieces(self, vertices: ArrayLike) -> None:
+        """Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh.
+
+        vertices: (vertex_count,), one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The
+            list replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece
+            best, as Pose.set_rigid_pieces does. This comes last in a frame: a hold on a part of a rigid piece may
+            miss its place, and a rigid piece may sink into the ground. Does not factorise.
+
+        Raises InvalidArgumentError, OutOfRangeError, TooLargeError.
+        """
+        c = Call(self)
+        c.n.pop('vertex_count', None)  # of the list given here
+        vertices_ = c.array('vertices', vertices, 'u4', ('vertex_count',))
+        call('hf_transfer_set_rigid_pieces', self._handle, c.n.setdefault('vertex_count', 1), vertices_)
+
     def apply(self, source_positions: Optional[ArrayLike] = None, out: Optional[np.ndarray] = None, *,
             hold_pairs: Optional[ArrayLike] = None, hold_positions: Optional[ArrayLike] = None, dtype: Any = np.float32,
             target_normals: Optional[np.ndarray] = None) -> np.ndarray:
@@ -3280,7 +3307,8 @@ class Transfer(Object):
 
     def skin(self, influence_count: int = 0, *, scales: bool = False) -> SkinInfo:
         """Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
-        replays Transfer.apply exactly, because that function also uses the four largest weights.
+        replays Transfer.apply exactly, because that function also uses the four largest weights. A rigid piece is one
+        joint; these joints come last.
 
         influence_count: joints per vertex, 4 or 8; 0 = 4
         scales: (joint_capacity, 3) along the axes in the last frame; None = joints are rigid

@@ -960,14 +960,16 @@ class hf_handle_proposals_desc(Struct):
     joint_count: int
     joints: int
     parents: int
+    skeleton: int
     up: object
     least_length_share: float
     limit: int
     reserved: int
     progress: int
+    out_regions: int
     _fields_ = [("struct_size", c_uint32), ("joint_count", c_uint32), ("joints", c_void_p), ("parents", c_void_p),
-                ("up", c_double * 3), ("least_length_share", c_double), ("limit", c_uint32), ("reserved", c_uint32),
-                ("progress", c_void_p)]
+                ("skeleton", c_void_p), ("up", c_double * 3), ("least_length_share", c_double), ("limit", c_uint32),
+                ("reserved", c_uint32), ("progress", c_void_p), ("out_regions", c_void_p)]
 
 
 class hf_handle_proposal(Struct):
@@ -977,13 +979,16 @@ class hf_handle_proposal(Struct):
     reason: int
     pinned: int
     joint: int
+    role: int
+    side: int
     reserved: int
     position: object
     radius: float
     length: float
+    following: float
     _fields_ = [("vertex", c_uint32), ("component", c_uint32), ("reason", c_int32), ("pinned", c_int32), ("joint",
-                c_uint32), ("reserved", c_uint32), ("position", c_double * 3), ("radius", c_double), ("length",
-                c_double)]
+                c_uint32), ("role", c_int32), ("side", c_int32), ("reserved", c_uint32), ("position", c_double * 3),
+                ("radius", c_double), ("length", c_double), ("following", c_double)]
 
 
 class hf_quads_desc(Struct):
@@ -1712,6 +1717,7 @@ PROTOTYPES = {
     "hf_transfer_get_statistics": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_set_dials": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_get_dials": (c_int32, [c_void_p, c_void_p]),
+    "hf_transfer_set_rigid_pieces": (c_int32, [c_void_p, c_uint32, c_void_p]),
     "hf_transfer_apply": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_get_sinking": (c_int32, [c_void_p, c_void_p]),
     "hf_transfer_get_skin": (c_int32, [c_void_p, c_void_p]),

@@ -620,7 +620,10 @@ pub struct HandleProposalsOptions<'a> {
     pub joints: Option<&'a [f64]>,
     /// `[joint_count]` position of each joint's parent in the list; [`raw::HF_NO_INDEX`] for a root
     pub parents: Option<&'a [u32]>,
-    /// direction away from the ground, of any length; 0 0 0 = 0 1 0
+    /// `None`, or the character of the mesh, instead of joints and parents: it rests in the unit and frame of the mesh.
+    /// Its skin, if it has one, has the vertices of the mesh
+    pub skeleton: Option<&'a Skeleton>,
+    /// direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0
     pub up: Option<[f64; 3]>,
     /// as in [`ExtremitiesOptions`]; 0 = 0.05
     pub least_length_share: f64,
@@ -646,6 +649,7 @@ impl<'a> HandleProposalsOptions<'a> {
         desc.joints = c.array(self.joints, "joints", &[&format!("{prefix}joint_count"), "3"])?;
         desc.parents = c.array(self.parents, "parents", &[&format!("{prefix}joint_count")])?;
         if let Some(given) = self.up { desc.up = given; }
+        desc.skeleton = self.skeleton.map_or(std::ptr::null_mut(), |o| o.handle);
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         desc.joint_count = c.count(&format!("{prefix}joint_count"), 0)?;
         Ok(desc)
@@ -1896,13 +1900,22 @@ impl Surface {
 
     /// Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals come
     /// first, then the others, each group by length, the longest first. The places do not depend on the order of the
-    /// vertices. They follow translation and scale.
+    /// vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, and a role
+    /// and a side. If its roles are known, feet and the trunk hold. Hands, heads and tails do not hold, nor does what
+    /// hangs on them. Each head, hand, foot, tail, ear and wing gets one proposal. A part that no joint of the skin
+    /// moves, such as the box of a control, gets none.
+    ///
+    /// regions: `[vertex_count]`: for each vertex the number of the proposal whose region it is in, [`raw::HF_NO_INDEX`]
+    /// for a vertex in none
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`].
-    pub fn propose_handles(&self, options: &HandleProposalsOptions) -> Result<Vec<raw::hf_handle_proposal>> {
+    pub fn propose_handles(&self, regions: Option<&mut [u32]>,
+            options: &HandleProposalsOptions) -> Result<Vec<raw::hf_handle_proposal>> {
         let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
-        let desc = options.fill(&mut c, "")?;
+        let mut desc = options.fill(&mut c, "")?;
+        let regions_at = c.fill(regions, "regions", &["vertex_count"])?;
+        desc.out_regions = regions_at;
         let mut count = 0;
         c.learn("capacity", Call::FIRST);
         let mut proposals: Vec<raw::hf_handle_proposal> = Vec::new();
@@ -2816,8 +2829,8 @@ impl Pose {
     /// without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field of the handle is,
     /// the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the body, and set less for a handle
     /// that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next Pose.deform
-    /// shows a change at once. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let the body
-    /// lean again.
+    /// shows a change at once, but a handle that was just added in place leaves the surface where it stands until a
+    /// handle moves. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let the body lean again.
     ///
     /// handles: `[handle_count]`.
     /// following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the
@@ -3878,6 +3891,23 @@ impl Transfer {
         Ok(dials)
     }
 
+    /// Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh.
+    ///
+    /// vertices: `[vertex_count]`, one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
+    /// replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best, as
+    /// `Pose::set_rigid_pieces` does. This comes last in a frame: a hold on a part of a rigid piece may miss its
+    /// place, and a rigid piece may sink into the ground. Does not factorise.
+    ///
+    /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
+    pub fn set_rigid_pieces(&mut self, vertices: &[u32]) -> Result<()> {
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        c.sizes.remove("vertex_count"); // of the list given here
+        let vertices_ = c.array(Some(vertices), "vertices", &["vertex_count"])?;
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_transfer_set_rigid_pieces(self.handle, c.count("vertex_count", 1)?, vertices_) })?;
+        Ok(())
+    }
+
     /// Transfers one posed frame. If the source is at rest, the target is at rest too. If a limb's rest directions differ
     /// much on the two surfaces ([`raw::hf_pair_info`]), it takes the direction of the source's limb instead, by a share.
     ///
@@ -3936,7 +3966,8 @@ impl Transfer {
     }
 
     /// Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
-    /// replays `Transfer::apply` exactly, because that function also uses the four largest weights.
+    /// replays `Transfer::apply` exactly, because that function also uses the four largest weights. A rigid piece is one
+    /// joint; these joints come last.
     ///
     /// influence_count: joints per vertex, 4 or 8; 0 = 4
     /// scales: `[joint_capacity x 3]` along the axes in the last frame; `None` = joints are rigid

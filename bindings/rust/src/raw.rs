@@ -956,11 +956,13 @@ pub struct hf_handle_proposals_desc {
     pub joint_count: u32,
     pub joints: *const f64,
     pub parents: *const u32,
+    pub skeleton: hf_skeleton,
     pub up: [f64; 3],
     pub least_length_share: f64,
     pub limit: u32,
     pub reserved: u32,
     pub progress: hf_progress,
+    pub out_regions: *mut u32,
 }
 
 /// One proposed handle.
@@ -972,10 +974,13 @@ pub struct hf_handle_proposal {
     pub reason: i32,
     pub pinned: i32,
     pub joint: u32,
+    pub role: i32,
+    pub side: i32,
     pub reserved: u32,
     pub position: [f64; 3],
     pub radius: f64,
     pub length: f64,
+    pub following: f64,
 }
 
 /// Options of a quad mesh.
@@ -1787,6 +1792,7 @@ extern "C" {
     pub fn hf_transfer_get_statistics(transfer: hf_transfer, out_statistics: *mut hf_transfer_statistics) -> i32;
     pub fn hf_transfer_set_dials(transfer: hf_transfer, dials: *const hf_transfer_dials) -> i32;
     pub fn hf_transfer_get_dials(transfer: hf_transfer, out_dials: *mut hf_transfer_dials) -> i32;
+    pub fn hf_transfer_set_rigid_pieces(transfer: hf_transfer, vertex_count: u32, vertices: *const u32) -> i32;
     pub fn hf_transfer_apply(transfer: hf_transfer, frame: *const hf_transfer_frame) -> i32;
     pub fn hf_transfer_get_sinking(transfer: hf_transfer, out_sinking: *mut u8) -> i32;
     pub fn hf_transfer_get_skin(transfer: hf_transfer, inout_skin: *mut hf_skin_info) -> i32;

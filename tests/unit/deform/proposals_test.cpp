@@ -45,7 +45,7 @@ PlainMesh tube(std::uint32_t around, std::uint32_t rings, double length) {
 }
 
 std::vector<HandleProposal> propose(const hf_inner::Core& core, const hf_inner::ProposalOptions& options) {
-  const auto found = propose_handles(core, options);
+  const auto found = propose_handles(core, options).list;
   return {found.begin(), found.end()};
 }
 

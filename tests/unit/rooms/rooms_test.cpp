@@ -2,7 +2,7 @@
 //   base <- {mesh, factor} <- engine <- field <- {deform, detail} <- transfer <- capi
 //                             engine <- remesh, {remesh, field} <- quads <- capi
 //                             engine <- weights <- capi, transfer <- peers <- capi/peer_api.cpp
-//           mesh <- skeleton <- {retarget, capi}, retarget <- capi
+//           mesh <- skeleton <- {deform, retarget, capi}, retarget <- capi
 // A room may include itself, the public headers, and the rooms to its left. mesh and factor do not see each other, nor
 // do deform, detail and quads, nor weights and the rooms above the engine. gltf is a library beside the core: it sees
 // itself, the public headers and the rooms skeleton and retarget with base, of which it has a copy inside; no room sees
@@ -81,12 +81,13 @@ const std::map<std::string, Names>& arrows() {
       a[room] = a["field"];
       a[room].insert(room);
     }
+    a["deform"].insert("skeleton");
     a["remesh"] = a["engine"];
     a["remesh"].insert("remesh");
     a["quads"] = a["field"];
     a["quads"].insert({"remesh", "quads"});
-    a["transfer"] = a["field"];
-    a["transfer"].insert({"deform", "detail", "transfer"});
+    a["transfer"] = a["deform"];
+    a["transfer"].insert({"detail", "transfer"});
     a["peers"] = a["transfer"];
     a["peers"].insert("peers");
     a["weights"] = a["engine"];

@@ -13,11 +13,6 @@ const GAP_SAID = 0.005;
 const [NUDGE, TURN_STEP] = [0.02, Math.PI / 18];
 /** Radius of a handle that a click makes, as part of the size of the body: of a leg's width on our own creatures. */
 const RADIUS = 0.035;
-/**
- * How much follows a tip that is dragged: its limb, and a quarter of what the body would lean. hf_deform_script takes the
- * same. A handle that holds has 1.
- */
-const TIP_FOLLOWING = 0.25;
 /** Corners of the circle that shows a radius. */
 const POINTS = 72;
 
@@ -55,12 +50,12 @@ export class PoseTool {
     this.mirror.opened();
     this.chosen = null;
     this.pulled = false;
-    this.offers = this.app.opened.proposals.map(({ position, radius, reason, pinned, vertex }, i) => ({
+    this.offers = this.app.opened.proposals.map(({ position, radius, reason, pinned, following, vertex }, i) => ({
       id: `p${i}`,
       position,
       radius,
       pinned: Boolean(pinned),
-      following: pinned ? 1 : TIP_FOLLOWING,
+      following,
       label: `${reasons[reason]} ${i + 1}`,
       vertex,
       ...rest,

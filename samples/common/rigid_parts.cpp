@@ -1,4 +1,4 @@
-#include "deform/rigid_parts.h"
+#include "common/rigid_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -73,6 +73,17 @@ std::vector<uint32_t> rigid_parts(const FlatMesh& mesh, const Model& model, cons
     if (own >= 0 && piece[v] != largest && moved[static_cast<size_t>(own)].size() == 1) part[v] = piece[v];
   }
   return part;
+}
+
+std::vector<uint32_t> rigid_vertices(const FlatMesh& mesh, const std::vector<uint32_t>& parts) {
+  const std::set<uint32_t> used(mesh.triangles.begin(), mesh.triangles.end());
+  std::map<uint32_t, uint32_t> vertex_of;
+  for (const uint32_t v : used) {
+    if (parts[v] != HF_NO_INDEX) vertex_of.try_emplace(parts[v], v);
+  }
+  std::vector<uint32_t> out;
+  for (const auto& [part, v] : vertex_of) out.push_back(v);
+  return out;
 }
 
 }  // namespace samples

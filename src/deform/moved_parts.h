@@ -1,0 +1,96 @@
+// What the skin of a character says about regions of a mesh: the joint that moves most of a region, the role of that
+// joint, and the rigid part that the region belongs to.
+//
+// A joint moves what it moves itself and what the joints below it move. The lowest joint that moves more than half of a
+// region is the joint of the region: a hand, not one of its fingers. The role of a region is the one that has most of
+// its weights. A joint without a role has that of the limb it hangs on.
+//
+// A part is a head with jaw and eyes, a hand with its fingers, or a foot with its toes. A vertex belongs to the part
+// that has more than half of its weight. The trunk that holds becomes a part too. Cost: a pass over the weights; a pass
+// over the joints for each region.
+#pragma once
+#include <cstdint>
+
+#include "base/span.h"
+#include "engine/core.h"
+#include "skeleton/known_skeleton.h"
+
+namespace hf_inner {
+
+constexpr std::uint32_t no_joint = 0xffffffffu;
+
+struct BodyRole {
+  Role role = Role::other;
+  Side side = Side::middle;
+};
+
+class MovedParts {
+ public:
+  // known: if it has a skin, that has the vertices of the mesh as given. It outlives this object.
+  MovedParts(const Core& core, const KnownSkeleton& known);
+
+  // Whether roles are known well enough to decide what holds.
+  bool knows_roles() const noexcept;
+  // Returns no_joint where no joint moves more than half of the region.
+  std::uint32_t joint_of(Span<const std::int32_t> region);
+  // The role and side of a joint, or of the limb it hangs on.
+  BodyRole role_of(std::uint32_t joint) const noexcept {
+    return joint == no_joint ? BodyRole() : BodyRole{role_[joint], side_[joint]};
+  }
+  BodyRole role_of(Span<const std::int32_t> region) const noexcept;
+  // Whether what has this role moves freely: an arm, a head, a tail. The hands of a body that is not upright may stand.
+  bool hangs_free(Role role, bool stands) const noexcept;
+  // The chain (skeleton/character.h) of a joint, or of the joint it hangs on; -1: none.
+  std::int32_t chain_of(std::uint32_t joint) const noexcept { return joint == no_joint ? -1 : chain_[joint]; }
+  // Whether a chain goes on in a foot.
+  bool has_foot(std::int32_t chain) const noexcept { return chain >= 0 && has_foot_[static_cast<std::size_t>(chain)]; }
+  // Whether no joint of the skin moves most of a region: the box of a control.
+  bool is_unmoved(Span<const std::int32_t> region) const noexcept;
+
+  std::size_t part_count() const noexcept { return part_role_.size(); }
+  // The part that has most vertices of a region, or -1.
+  std::int32_t part_of(Span<const std::int32_t> region) const;
+  Span<const std::int32_t> vertices_of(std::size_t part) const noexcept {
+    return {vertex_.data() + start_[part], static_cast<std::size_t>(start_[part + 1] - start_[part])};
+  }
+  BodyRole role_of_part(std::size_t part) const noexcept { return {part_role_[part], side_[part_joint_[part]]}; }
+  // The joint that the part begins with.
+  std::uint32_t joint_of_part(std::size_t part) const noexcept { return part_joint_[part]; }
+  // Makes a part of ascending vertices that are of no part, and returns its number.
+  std::int32_t add_trunk(Span<const std::int32_t> vertices);
+  // Whether the spine moves a vertex that is not beside a part: between a trunk that holds and a head, a neck stays
+  // free.
+  bool is_of_spine(std::int32_t vertex) const noexcept {
+    return beside_[static_cast<std::size_t>(vertex)] == 0 && role_of({&vertex, 1}).role == Role::spine;
+  }
+  // The part of a joint, or -1.
+  std::int32_t part_of_joint(std::uint32_t joint) const noexcept { return joint_part_[joint]; }
+
+ private:
+  void read_roles();
+  void read_chains();
+  void find_unmoved();
+  void find_vertices();
+  void find_beside();
+  // Calls visit(joint, weight) for the joints of an inner vertex.
+  template <class Visit>
+  void for_joints(std::int32_t v, Visit&& visit) const;
+
+  const Core& core_;
+  const KnownSkeleton& known_;
+  Memory& memory_;
+  Vector<std::uint32_t> order_;  // joints, parents first
+  Vector<Role> role_;            // by joint, inherited where a joint has none
+  Vector<Side> side_;
+  Vector<std::int32_t> chain_, joint_part_;
+  Vector<Role> part_role_;  // head, hand, foot or spine
+  Vector<std::uint32_t> part_joint_;
+  Vector<std::uint8_t> has_foot_;        // by chain
+  Vector<std::uint8_t> unmoved_;         // by inner vertex
+  Vector<std::int32_t> vertex_part_;     // by inner vertex, or -1
+  Vector<std::uint8_t> beside_;          // by inner vertex: 1 in a part, and free_rings edges or a link around it
+  Vector<std::int32_t> start_, vertex_;  // vertices of part p: vertex_[start_[p] .. start_[p + 1])
+  Vector<double> moved_;                 // by joint, of the region at hand
+};
+
+}  // namespace hf_inner

@@ -1,0 +1,260 @@
+#include "deform/proposal_parts.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/index.h"
+#include "base/progress.h"
+#include "deform/constants.h"
+#include "deform/handles.h"
+
+namespace hf_inner {
+namespace {
+
+constexpr std::int32_t nobody = -1;
+
+bool is_hand(Role role) noexcept { return role == Role::arm || role == Role::hand || role == Role::finger; }
+
+// Roles of limbs that are dragged at their end.
+bool ends_free(Role role) noexcept {
+  return role == Role::tail || role == Role::ear || role == Role::wing || role == Role::antenna || role == Role::fin;
+}
+
+// The region that a candidate gets where no other is near.
+Vector<std::int32_t> region_of(const Core& core, const Candidate& candidate) {
+  double radius = candidate.radius;
+  for (;;) {
+    Vector<std::int32_t> region = region_near(core, candidate.position, radius, *core.memory);
+    radius *= radius_growth;
+    if (region.size() >= least_region || radius > most_radius) return region;
+  }
+}
+
+// A candidate for a part on which none was found. Its place is the middle of the part.
+Candidate part_candidate(const Core& core, Span<const std::int32_t> vertices) {
+  const Vector<Vec3>& positions = core.mesh.positions;
+  Vec3 sum;
+  for (const std::int32_t v : vertices) sum = sum + positions[at(v)];
+  Candidate out;
+  out.position = (1.0 / static_cast<double>(vertices.size())) * sum;
+  out.reason = HandleReason::joint;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::int32_t v : vertices) {
+    const double d = norm(positions[at(v)] - out.position);
+    out.length = std::max(out.length, d);
+    if (d >= least) continue;
+    least = d;
+    out.vertex = v;
+  }
+  return out;
+}
+
+class Chooser {
+ public:
+  Chooser(const Core& core, const Vector<Candidate>& found, MovedParts* parts)
+      : core_(core), mesh_(core.mesh), memory_(*core.memory), found_(found), parts_(parts), owner_(&memory_) {}
+
+  Proposals run(std::size_t limit) {
+    owner_.assign(mesh_.positions.size(), nobody);
+    // others make room for whole parts
+    for (std::size_t k = 0; k < found_.size(); ++k) {
+      if (found_[k].part < 0) continue;
+      for (const std::int32_t v : part(found_[k])) owner_[at(v)] = static_cast<std::int32_t>(k);
+    }
+    Proposals out(&memory_);
+    Vector<std::int32_t> number(found_.size(), nobody, &memory_);
+    for (std::size_t k = 0; k < found_.size() && out.list.size() < limit; ++k) {
+      HandleProposal proposal;
+      if (found_[k].part < 0 ? claim(k, proposal) : fit(k, proposal)) {
+        number[k] = static_cast<std::int32_t>(out.list.size());
+        out.list.push_back(proposal);
+      }
+      poll();
+    }
+    out.region.resize(owner_.size());
+    for (std::size_t v = 0; v < owner_.size(); ++v) out.region[v] = owner_[v] < 0 ? nobody : number[at(owner_[v])];
+    return out;
+  }
+
+ private:
+  Span<const std::int32_t> part(const Candidate& candidate) const { return parts_->vertices_of(at(candidate.part)); }
+
+  void describe(const Candidate& candidate, Span<const std::int32_t> region, HandleProposal& out) const {
+    out.reason = candidate.reason;
+    out.pinned = candidate.pinned;
+    out.joint = candidate.joint;
+    out.vertex = candidate.vertex;
+    out.length = mesh_.scale * candidate.length;
+    out.following = candidate.pinned ? 1 : tip_following;
+    if (!parts_) return;
+    const bool whole = candidate.part >= 0;
+    const std::uint32_t joint = whole ? parts_->joint_of_part(at(candidate.part)) : parts_->joint_of(region);
+    if (joint != no_joint) out.joint = joint;
+    const BodyRole own = whole               ? parts_->role_of_part(at(candidate.part))
+                         : joint != no_joint ? parts_->role_of(region)
+                                             : parts_->role_of(out.joint);
+    out.role = own.role;
+    out.side = own.side;
+  }
+
+  // Finds a radius whose region has some vertices and overlaps no other. The region is computed from the numbers that
+  // the caller gets, so that handles made of them have the same one.
+  bool claim(std::size_t k, HandleProposal& proposal) {
+    proposal.position = mesh_.to_given(found_[k].position);
+    const Vec3 place = mesh_.to_inner(proposal.position);
+    double radius = found_[k].radius;
+    bool shrunk = false;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+      proposal.radius = mesh_.scale * radius;
+      const double own = proposal.radius / mesh_.scale;
+      const Vector<std::int32_t> region = region_near(core_, place, own, memory_);
+      const bool overlaps =
+          std::any_of(region.begin(), region.end(), [&](std::int32_t v) { return owner_[at(v)] >= 0; });
+      if (shrunk && is_spike(region, own)) return false;
+      if (!overlaps && (shrunk || region.size() >= least_region || radius * radius_growth > most_radius)) {
+        for (const std::int32_t v : region) owner_[at(v)] = static_cast<std::int32_t>(k);
+        describe(found_[k], region, proposal);
+        return true;
+      }
+      if (overlaps && region.size() == 1) return false;
+      if (overlaps) shrunk = true;  // does not grow again
+      radius = overlaps ? radius / radius_growth : radius * radius_growth;
+    }
+    return false;
+  }
+
+  // Finds a place and a radius whose region is a piece of the part.
+  bool fit(std::size_t k, HandleProposal& proposal) const {
+    const Candidate middle = part_candidate(core_, part(found_[k]));
+    const std::int32_t own = static_cast<std::int32_t>(k);
+    const bool inside = owner_[at(nearest_vertex(core_, middle.position))] == own;
+    proposal.position = mesh_.to_given(inside ? middle.position : mesh_.positions[at(middle.vertex)]);
+    const Vec3 place = mesh_.to_inner(proposal.position);
+    double radius = middle.length;
+    for (int attempt = 0; attempt < most_attempts; ++attempt, radius /= radius_growth) {
+      proposal.radius = mesh_.scale * radius;
+      const Vector<std::int32_t> region = region_near(core_, place, proposal.radius / mesh_.scale, memory_);
+      if (std::all_of(region.begin(), region.end(), [&](std::int32_t v) { return owner_[at(v)] == own; })) break;
+    }
+    describe(found_[k], part(found_[k]), proposal);
+    proposal.vertex = nearest_vertex(core_, place);
+    return true;
+  }
+
+  const Core& core_;
+  const Mesh& mesh_;
+  Memory& memory_;
+  const Vector<Candidate>& found_;
+  MovedParts* const parts_;
+  Vector<std::int32_t> owner_;  // by inner vertex: its candidate, or nobody
+};
+
+}  // namespace
+
+void leave_out_unmoved(const Core& core, const MovedParts& parts, Vector<Candidate>& found) {
+  const auto unmoved = [&](const Candidate& candidate) { return parts.is_unmoved(region_of(core, candidate)); };
+  found.erase(std::remove_if(found.begin(), found.end(), unmoved), found.end());
+}
+
+void let_free(const Core& core, const MovedParts& parts, Vector<Candidate>& found) {
+  Vector<std::size_t> feet(core.memory.get()), freed(core.memory.get());
+  bool held = false, legs = false;
+  const auto is_leg = [](Role role) { return role == Role::leg || role == Role::foot || role == Role::toe; };
+  Vector<Role> role(found.size(), Role::other, core.memory.get());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k].pinned) continue;
+    role[k] =
+        found[k].part < 0 ? parts.role_of(region_of(core, found[k])).role : parts.role_of_part(at(found[k].part)).role;
+    legs = legs || (found[k].reason == HandleReason::foot && is_leg(role[k]));
+  }
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k].pinned) continue;
+    const bool foot = found[k].reason == HandleReason::foot;
+    if (parts.hangs_free(role[k], foot) || (foot && legs && !is_leg(role[k]) && !is_hand(role[k]))) {
+      freed.push_back(k);
+    } else {
+      held = true;
+    }
+  }
+  if (!held) return;
+  for (const std::size_t k : freed) {
+    found[k].pinned = false;
+    if (found[k].reason == HandleReason::foot) found[k].reason = HandleReason::tip;
+  }
+}
+
+void take_parts(const Core& core, MovedParts& parts, Span<const double> height, double low, Vector<Candidate>& found) {
+  std::sort(found.begin(), found.end(), comes_first);
+  Vector<std::uint8_t> taken(parts.part_count(), 0, core.memory.get());
+  Vector<Candidate> out(core.memory.get());
+  const auto take = [&](Candidate candidate, std::int32_t part) {
+    const Span<const std::int32_t> vertices = parts.vertices_of(at(part));
+    candidate.part = part;
+    taken[at(part)] = 1;
+    const bool is_low =
+        std::any_of(vertices.begin(), vertices.end(), [&](std::int32_t v) { return height[at(v)] <= low; });
+    if (parts.role_of_part(at(part)).role == Role::foot && is_low) {
+      candidate.pinned = true;
+      candidate.reason = HandleReason::foot;
+    }
+    out.push_back(candidate);
+  };
+  for (const Candidate& candidate : found) {
+    if (candidate.reason == HandleReason::middle) {
+      if (candidate.part >= 0) taken[at(candidate.part)] = 1;
+      out.push_back(candidate);
+      continue;
+    }
+    const Vector<std::int32_t> region = region_of(core, candidate);
+    const std::uint32_t joint = parts.joint_of(region);
+    std::int32_t part = parts.part_of(region);
+    // what a head moves beside the skull goes along with it
+    if (part < 0 && joint != no_joint) part = parts.part_of_joint(joint);
+    if (part >= 0 && parts.vertices_of(at(part)).size() >= least_part) {
+      if (!taken[at(part)]) take(candidate, part);
+      continue;
+    }
+    out.push_back(candidate);
+    if (!parts.has_foot(parts.chain_of(joint)) || candidate.reason != HandleReason::foot) continue;
+    out.back().pinned = false;  // a shin above a foot
+    out.back().reason = HandleReason::tip;
+  }
+  for (std::size_t p = 0; p < taken.size(); ++p) {
+    const Span<const std::int32_t> vertices = parts.vertices_of(p);
+    if (!taken[p] && vertices.size() >= least_part) take(part_candidate(core, vertices), static_cast<std::int32_t>(p));
+  }
+  found = std::move(out);
+}
+
+void leave_one_each(const Core& core, const KnownSkeleton& known, MovedParts& parts, Vector<Candidate>& found) {
+  const Character& character = known.character;
+  Vector<std::uint32_t> rank(character.kinds.size(), 0, core.memory.get());  // of a joint in its chain
+  for (const Chain& chain : character.chains) {
+    for (std::uint32_t k = 0; k < chain.count; ++k) rank[character.chain_joints[chain.first + k]] = k + 1;
+  }
+  std::sort(found.begin(), found.end(), comes_first);
+  Vector<std::size_t> best(character.chains.size(), found.size(), core.memory.get());
+  Vector<std::uint32_t> farthest(character.chains.size(), 0, core.memory.get());
+  Vector<std::uint8_t> dropped(found.size(), 0, core.memory.get());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (found[k].part >= 0 || found[k].pinned) continue;
+    const std::uint32_t joint = parts.joint_of(region_of(core, found[k]));
+    const std::int32_t c = parts.chain_of(joint);
+    if (c < 0 || !ends_free(character.chains[at(c)].role)) continue;
+    if (best[at(c)] < found.size()) dropped[rank[joint] > farthest[at(c)] ? best[at(c)] : k] = 1;
+    if (best[at(c)] < found.size() && rank[joint] <= farthest[at(c)]) continue;
+    best[at(c)] = k;
+    farthest[at(c)] = rank[joint];
+  }
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!dropped[k]) found[kept++] = found[k];
+  }
+  found.resize(kept);
+}
+
+Proposals choose_regions(const Core& core, const Vector<Candidate>& found, MovedParts* parts, std::size_t limit) {
+  return Chooser(core, found, parts).run(limit);
+}
+
+}  // namespace hf_inner
