@@ -2416,8 +2416,8 @@ class Pose {
     check(hf_pose_solve(get(), iteration_count, restart ? 1 : 0, info));
   }
 
-  // Writes the transforms of the clusters in the last Pose::solve or Pose.deform, without its refine. Before the first
-  // they are identities. The call allocates nothing.
+  // Writes the transforms of the clusters in the last Pose::solve or Pose.deform, without its refine. Before the first,
+  // and after handles were added or removed, they are identities. The call allocates nothing.
   //
   // Fails with HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
   std::vector<float> blend_transforms() const {
@@ -3237,7 +3237,7 @@ class Transfer {
   // vertices: `[vertex_count]`, one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
   // replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best, as
   // Pose::set_rigid_pieces does. This comes last in a frame: a hold on a part of a rigid piece may miss its place,
-  // and a rigid piece may sink into the ground. Does not factorise.
+  // and a rigid piece may sink into the ground. The pieces move from the next frame on. Does not factorise.
   //
   // Fails with HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
   void set_rigid_pieces(const std::vector<uint32_t>& vertices) {

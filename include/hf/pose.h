@@ -333,7 +333,7 @@ HF_API hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
  *
  * A vector u in the tangent plane at rest goes to J u, with J the sum of w L + (A (p, 1)) g^T over the row: L is the 3
  * x 3 part of A, g the gradient of the entry. The posed normal is J u x J v for two unit tangents with u x v the rest
- * normal; tangents of textures go to J u. */
+ * normal; tangents of textures go to J u. J leaves the offsets out: while they fade, normals are some degrees off. */
 
 /* The blend of a pose in the last frame. */
 typedef struct hf_blend_info {
@@ -375,10 +375,10 @@ HF_API hf_result hf_pose_get_blend_rows(hf_pose pose, hf_blend_rows* inout_rows)
  * HF_ERROR_EMPTY (no handle), HF_ERROR_INVALID_ARGUMENT. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_solve(hf_pose pose, uint32_t iteration_count, int32_t restart, hf_deform_info* out_info);
 
-/* Writes the transforms of the clusters in the last hf_pose_solve or hf_deform, without its refine. Before the first
- * they are identities. The call allocates nothing. out_transforms: NULL, or float[capacity][12], 3 x 4 matrices row by
- * row. out_count: NULL, or receives cluster_count. Errors: as hf_pose_get_blend_info. Thread safety: reads `pose`.
- * Since 0.1. */
+/* Writes the transforms of the clusters in the last hf_pose_solve or hf_deform, without its refine. Before the first,
+ * and after handles were added or removed, they are identities. The call allocates nothing. out_transforms: NULL, or
+ * float[capacity][12], 3 x 4 matrices row by row. out_count: NULL, or receives cluster_count. Errors: as
+ * hf_pose_get_blend_info. Thread safety: reads `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_blend_transforms(hf_pose pose, uint32_t capacity, float* out_transforms,
                                               uint32_t* out_count);
 

@@ -177,7 +177,8 @@ HF_API hf_result hf_transfer_get_dials(hf_transfer transfer, hf_transfer_dials* 
  * uint32_t[vertex_count], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
  * replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best, as
  * hf_pose_set_rigid_pieces does. This comes last in a frame: a hold on a part of a rigid piece may miss its place, and
- * a rigid piece may sink into the ground. Does not factorise. Errors: HF_ERROR_OUT_OF_RANGE and
+ * a rigid piece may sink into the ground. The pieces move from the next frame on. Does not
+ * factorise. Errors: HF_ERROR_OUT_OF_RANGE and
  * HF_ERROR_INVALID_ARGUMENT (isolated vertex; index = position), HF_ERROR_TOO_LARGE. Thread safety: changes `transfer`.
  * Since 0.1. */
 HF_API hf_result hf_transfer_set_rigid_pieces(hf_transfer transfer, uint32_t vertex_count, const uint32_t* vertices);

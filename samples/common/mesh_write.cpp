@@ -173,9 +173,14 @@ std::string stl_bytes(const SurfaceMesh& mesh) {
     const glm::dvec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
     const double twice_area = length(normal);
     const auto add = [&](const glm::dvec3& v) {
-      for (int c = 0; c < 3; ++c) out.raw(static_cast<float>(v[c]));
+      for (int c = 0; c < 3; ++c) {
+        const float value = static_cast<float>(v[c]);
+        if (!std::isfinite(value))
+          throw std::runtime_error("a position is too large for .stl, which has floats; write .ply");
+        out.raw(value);
+      }
     };
-    add(twice_area > 0 ? normal / twice_area : glm::dvec3(0));
+    add(twice_area > 0 && std::isfinite(twice_area) ? normal / twice_area : glm::dvec3(0));
     for (const glm::dvec3& corner : corners) add(corner);
     out.raw(uint16_t{0});
   }

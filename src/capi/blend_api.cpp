@@ -109,7 +109,7 @@ hf_blend_info blend_info(const Pose& pose) noexcept {
   hf_blend_info info{};
   info.cluster_count = blend_clusters(pose);
   info.revision = pose.blend_revision();
-  info.offset_share = pose.posed() ? pose.crossfade_share() : 0;
+  info.offset_share = pose.crossfade_share();
   put(pose.core().mesh.centre, info.centre);
   return info;
 }

@@ -158,6 +158,7 @@ void MovedParts::find_unmoved() {
     count += !moved;
   }
   if (2 * count > size) unmoved_.assign(size, 0);
+  has_unmoved_ = count > 0 && 2 * count <= size;
 }
 
 void MovedParts::find_vertices() {

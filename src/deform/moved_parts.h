@@ -46,6 +46,7 @@ class MovedParts {
   bool has_foot(std::int32_t chain) const noexcept { return chain >= 0 && has_foot_[static_cast<std::size_t>(chain)]; }
   // Whether no joint of the skin moves most of a region: the box of a control.
   bool is_unmoved(Span<const std::int32_t> region) const noexcept;
+  bool has_unmoved() const noexcept { return has_unmoved_; }
 
   std::size_t part_count() const noexcept { return part_role_.size(); }
   // The part that has most vertices of a region, or -1.
@@ -85,8 +86,9 @@ class MovedParts {
   Vector<std::int32_t> chain_, joint_part_;
   Vector<Role> part_role_;  // head, hand, foot or spine
   Vector<std::uint32_t> part_joint_;
-  Vector<std::uint8_t> has_foot_;        // by chain
-  Vector<std::uint8_t> unmoved_;         // by inner vertex
+  Vector<std::uint8_t> has_foot_;  // by chain
+  Vector<std::uint8_t> unmoved_;   // by inner vertex
+  bool has_unmoved_ = false;
   Vector<std::int32_t> vertex_part_;     // by inner vertex, or -1
   Vector<std::uint8_t> beside_;          // by inner vertex: 1 in a part, and free_rings edges or a link around it
   Vector<std::int32_t> start_, vertex_;  // vertices of part p: vertex_[start_[p] .. start_[p + 1])

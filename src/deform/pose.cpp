@@ -59,10 +59,8 @@ std::shared_ptr<Pose> Pose::clone() const {
   copy->previous_layout_ = previous_layout_;
   if (state_) copy->state_ = make_shared_in<State>(memory(), *state_, memory());
   copy->previous_state_ = previous_state_;
-  if (posed_) {
-    ensure_surface();
-    std::memcpy(copy->positions_.data(), positions_.data(), positions_.size() * sizeof(Vec3));
-  }
+  if (posed_ && !stale_) std::memcpy(copy->positions_.data(), positions_.data(), positions_.size() * sizeof(Vec3));
+  copy->stale_ = stale_;
   copy->posed_ = posed_;
   copy->refined_ = refined_;
   copy->report_ = report_;
@@ -139,6 +137,7 @@ void Pose::add_handles(Span<const std::uint32_t> start, Span<const std::int32_t>
   if (kind.in_place && posed_) {
     fit_new_handles(*layout, *state);
     keep_in_place(*layout, *state, true);
+    state->stands = true;
   }
   previous_layout_ = layout_;
   previous_state_ = state_;
@@ -270,7 +269,7 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) co
 
 std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout, bool free_turn) const {
   auto state = make_shared_in<State>(memory(), memory());
-  state->transforms.assign(static_cast<std::size_t>(layout.weights.cluster_count), Affine());
+  state->transforms.assign(static_cast<std::size_t>(layout.weights.cluster_count), to_affine({}));
   state->columns.allocate(memory(), column_count(layout.weights));
   for (const Handle& handle : layout.handles) {
     const std::int32_t old = find(handle.number);

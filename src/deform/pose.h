@@ -127,8 +127,8 @@ class Pose {
   const ClusterWeights* weights() const noexcept;
   Span<const Affine> cluster_transforms() const noexcept;
   bool posed() const noexcept { return posed_; }  // transforms() holds a pose
-  // The surface is the blend of clusters plus this share of crossfade().offset. Needs a handle.
-  double crossfade_share() const noexcept;
+  // The surface of the last frame is the blend of clusters plus this share of crossfade().offset. Needs a handle.
+  double crossfade_share() const noexcept { return state_->crossfade ? state_->share : 0; }
   const Crossfade* crossfade() const noexcept { return state_->crossfade.get(); }
   // Counts the changes of weights and offsets.
   std::uint32_t blend_revision() const noexcept { return blend_revision_; }
@@ -191,6 +191,8 @@ class Pose {
           rigid(other.rigid ? other.rigid->clone(memory) : nullptr),
           started(other.started),
           changed(other.changed),
+          stands(other.stands),
+          share(other.share),
           last_change(other.last_change),
           idle_iterations(other.idle_iterations),
           crossfade(other.crossfade),
@@ -205,6 +207,8 @@ class Pose {
     std::shared_ptr<PoseScheme::State> rigid;  // null: without a scheme
     bool started = false;                      // a solved pose exists, from which to continue
     bool changed = true;                       // transforms or handles changed since the last solve
+    bool stands = false;                       // handles were added in place, and none has moved since
+    double share = 0;                          // of the offsets of the crossfade, in the last frame
     double last_change = 0;
     std::uint32_t idle_iterations = 0;           // iterations since the last change
     std::shared_ptr<const Crossfade> crossfade;  // null: the surface is that of the transforms
@@ -236,6 +240,7 @@ class Pose {
   void keep_in_place(const Layout& layout, State& state, bool fades_at_rest);
   void place_handles(const Layout& layout, State& state) const noexcept;
   Span<const RigidMotion> placed(const State& state) const noexcept;
+  double fade_crossfade() noexcept;
   void make_refinement(const Layout& layout, std::uint32_t steps, const Followed* followed);
   void refine(const Layout& layout, const State& state, std::uint32_t steps, const Limbs* limbs, Vec3* positions);
   void install(std::shared_ptr<const Layout> layout, std::shared_ptr<State> state) noexcept;

@@ -23,10 +23,9 @@ void Pose::set_following(Span<const std::uint32_t> numbers, double following) {
   if (!changed) return;
   prepare_holds(*layout_, *state);
   prepare_turns(*layout_, *state);
-  state->smooth.anderson.forget();                                           // its steps are those of other equations
-  const bool stands = posed_ && !state_->changed && crossfade_share() == 1;  // in place, and nothing has moved since
+  state->smooth.anderson.forget();  // its steps are those of other equations
   state->changed = true;
-  if (stands) keep_in_place(*layout_, *state, state_->crossfade->from_rest > 0);
+  if (state->stands) keep_in_place(*layout_, *state, state->crossfade && state->crossfade->from_rest > 0);
   state_ = std::move(state);
 }
 

@@ -75,6 +75,7 @@ void Pose::set_transforms(Span<const std::uint32_t> numbers, Span<const HandleTr
     handle.rotation = rotation;
     handle.translation = translation;
     state_->changed = state_->changed || !same;
+    state_->stands = state_->stands && same;
   }
 }
 
@@ -208,8 +209,11 @@ void Pose::ensure_surface() const {
   stale_ = false;
 }
 
-double Pose::crossfade_share() const noexcept {
-  return state_->crossfade ? share_left(*state_->crossfade, placed(*state_)) : 0;
+// Returns the share of a new frame. A crossfade that has no share is over.
+double Pose::fade_crossfade() noexcept {
+  state_->share = state_->crossfade ? share_left(*state_->crossfade, placed(*state_)) : 0;
+  if (!(state_->share > 0)) state_->crossfade.reset();
+  return state_->share;
 }
 
 // Takes full-mesh steps. limbs: null, or the only vertices that they move.
@@ -244,10 +248,9 @@ void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   report.cluster_count = static_cast<std::uint32_t>(layout_->weights.cluster_count);
   report.unreached_vertex_count = static_cast<std::uint32_t>(layout_->weights.unreached_vertex_count);
   report.last_change = state_->last_change;
+  const double share = fade_crossfade();
   if (!request.surface) return;
   const Timer blend_timer;
-  const double share = crossfade_share();
-  if (!(share > 0)) state_->crossfade.reset();  // it comes back to nothing
   const Limbs* const limbs = state_->limbs.get();
   const bool blended_only = request.refine == 0 && !limbs && !(share > 0) && !rigid_;
   float* packed = blended_only ? request.packed_positions : nullptr;
@@ -278,7 +281,7 @@ DeformReport Pose::deform(const DeformRequest& request) {
   if (request.restart) {
     for (HandleState& handle : state.handles) handle.turn = logarithm(handle.rotation);
     if (state.rigid) std::fill(state.rigid->motion.begin(), state.rigid->motion.end(), RigidMotion());
-    state.started = false;
+    state.started = state.stands = false;
     state.changed = true;
     state.crossfade.reset();
     if (state.followed) state.followed->forget();

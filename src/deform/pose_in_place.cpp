@@ -72,6 +72,7 @@ void Pose::keep_in_place(const Layout& layout, State& state, bool fades_at_rest)
     offset[2] = static_cast<float>(d.z);
   }
   state.crossfade = std::move(crossfade);
+  state.share = 1;
   ++blend_revision_;
 }
 

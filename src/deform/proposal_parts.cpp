@@ -134,11 +134,12 @@ class Chooser {
     for (int attempt = 0; attempt < most_attempts; ++attempt, radius /= radius_growth) {
       proposal.radius = mesh_.scale * radius;
       const Vector<std::int32_t> region = region_near(core_, place, proposal.radius / mesh_.scale, memory_);
-      if (std::all_of(region.begin(), region.end(), [&](std::int32_t v) { return owner_[at(v)] == own; })) break;
+      if (!std::all_of(region.begin(), region.end(), [&](std::int32_t v) { return owner_[at(v)] == own; })) continue;
+      describe(found_[k], part(found_[k]), proposal);
+      proposal.vertex = nearest_vertex(core_, place);
+      return true;
     }
-    describe(found_[k], part(found_[k]), proposal);
-    proposal.vertex = nearest_vertex(core_, place);
-    return true;
+    return false;  // other layers of the surface lie at the same place
   }
 
   const Core& core_;
@@ -152,7 +153,11 @@ class Chooser {
 }  // namespace
 
 void leave_out_unmoved(const Core& core, const MovedParts& parts, Vector<Candidate>& found) {
-  const auto unmoved = [&](const Candidate& candidate) { return parts.is_unmoved(region_of(core, candidate)); };
+  if (!parts.has_unmoved()) return;
+  const auto unmoved = [&](const Candidate& candidate) {
+    poll();
+    return parts.is_unmoved(region_of(core, candidate));
+  };
   found.erase(std::remove_if(found.begin(), found.end(), unmoved), found.end());
 }
 
@@ -163,6 +168,7 @@ void let_free(const Core& core, const MovedParts& parts, Vector<Candidate>& foun
   Vector<Role> role(found.size(), Role::other, core.memory.get());
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k].pinned) continue;
+    poll();
     role[k] =
         found[k].part < 0 ? parts.role_of(region_of(core, found[k])).role : parts.role_of_part(at(found[k].part)).role;
     legs = legs || (found[k].reason == HandleReason::foot && is_leg(role[k]));
@@ -200,8 +206,11 @@ void take_parts(const Core& core, MovedParts& parts, Span<const double> height, 
     out.push_back(candidate);
   };
   for (const Candidate& candidate : found) {
+    if (candidate.reason == HandleReason::middle && candidate.part >= 0) taken[at(candidate.part)] = 1;
+  }
+  for (const Candidate& candidate : found) {
+    poll();
     if (candidate.reason == HandleReason::middle) {
-      if (candidate.part >= 0) taken[at(candidate.part)] = 1;
       out.push_back(candidate);
       continue;
     }
@@ -238,6 +247,7 @@ void leave_one_each(const Core& core, const KnownSkeleton& known, MovedParts& pa
   Vector<std::uint8_t> dropped(found.size(), 0, core.memory.get());
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (found[k].part >= 0 || found[k].pinned) continue;
+    poll();
     const std::uint32_t joint = parts.joint_of(region_of(core, found[k]));
     const std::int32_t c = parts.chain_of(joint);
     if (c < 0 || !ends_free(character.chains[at(c)].role)) continue;

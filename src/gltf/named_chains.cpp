@@ -19,6 +19,10 @@ bool has_sides(Role role) {
          role == Role::leg || role == Role::foot || role == Role::toe || role == Role::wing;
 }
 
+bool is_in_the_middle(Role role) {
+  return role == Role::spine || role == Role::neck || role == Role::head || role == Role::jaw || role == Role::tail;
+}
+
 // "left arm", "right leg 2", "tail": a side, a part and a number that tells chains of one part apart.
 bool read_name(NamedChain& chain) {
   std::istringstream words(chain.name);
@@ -31,7 +35,8 @@ bool read_name(NamedChain& chain) {
   for (std::int32_t r = 0; r < hf_inner::role_count; ++r) {
     if (word != role_name(static_cast<Role>(r))) continue;
     chain.part = word;
-    return chain.side != 0 || !has_sides(static_cast<Role>(r));
+    const Role role = static_cast<Role>(r);
+    return chain.side != 0 ? !is_in_the_middle(role) : !has_sides(role);
   }
   return false;
 }

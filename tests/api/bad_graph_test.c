@@ -108,7 +108,8 @@ static void hf_surface_create_graph_refuses_bad_options(void** state) {
   CREATE("struct_size 0", HF_ERROR_INVALID_DESC, NO_INDEX, desc.struct_size = 0);
   CREATE("allocator without release", HF_ERROR_NULL_POINTER, NO_INDEX, desc.allocator.release = NULL);
   CREATE("allocator that refuses at once", HF_ERROR_OUT_OF_MEMORY, NO_INDEX, counter.refuse_at = counter.calls + 1);
-  CREATE("allocator that refuses later", HF_ERROR_OUT_OF_MEMORY, NO_INDEX, (counter.refuse_at = counter.calls + 20, counter.refuse_on = 1));
+  CREATE("allocator that refuses later", HF_ERROR_OUT_OF_MEMORY, NO_INDEX,
+         (counter.refuse_at = counter.calls + 20, counter.refuse_on = 1));
   counter.refuse_at = 0;
   counter.refuse_on = 0;
   CREATE("progress destroyed", HF_ERROR_INVALID_OBJECT, NO_INDEX, desc.progress = scene.stale_progress);

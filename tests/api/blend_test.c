@@ -263,6 +263,56 @@ static void a_solve_has_the_bits_of_a_deform(void** state) {
   hf_surface_destroy(surface);
 }
 
+static float largest_entry(hf_pose pose) {
+  static float transforms[12 * 4096];
+  const hf_blend_info info = frame_of(pose, transforms, 4096);
+  float most = 0;
+  for (uint32_t k = 0; k < 12 * info.cluster_count; ++k) most = fmaxf(most, fabsf(transforms[k]));
+  return most;
+}
+
+static void the_blend_is_that_of_the_last_frame(void** state) {
+  (void)state;
+  hf_surface surface = whole_surface(0);
+  uint32_t handles[2], middle;
+  hf_pose pose = tube_pose(surface, AROUND, RINGS, handles), copy;
+  const hf_transform to = drag(2.1);
+  assert_ok(hf_pose_set_transform(pose, handles[1], &to));
+  assert_ok(hf_pose_solve(pose, 0, 0, NULL));
+  /* a clone of a pose without vertices has its surface */
+  static float a[3 * ALL], b[3 * ALL];
+  assert_ok(hf_pose_clone(pose, &copy));
+  assert_ok(hf_deform(pose, a, NULL));
+  assert_ok(hf_deform(copy, b, NULL));
+  assert_memory_equal(a, b, sizeof a);
+  hf_pose_destroy(copy);
+  /* new clusters rest until they are solved; they do not vanish */
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
+  const uint32_t size = 3, region[3] = {15 * AROUND, 15 * AROUND + 1, 15 * AROUND + 2};
+  desc.handle_count = 1;
+  desc.region_counts = &size;
+  desc.region_vertices = region;
+  assert_ok(hf_pose_add_handles(pose, &desc, &middle));
+  assert_true(largest_entry(pose) == 1);
+  assert_ok(hf_pose_remove_handles(pose, 1, &middle));
+  /* the share of an offset is that of the frame, not of transforms that no frame has shown, and ends for good */
+  desc.in_place = 1;
+  assert_ok(hf_deform(pose, a, NULL));
+  assert_ok(hf_pose_add_handles(pose, &desc, &middle));
+  hf_blend_info info = HF_INIT(hf_blend_info);
+  const hf_transform away = {{0, 0, 0, 1}, {30, 0, 0}};
+  assert_ok(hf_pose_set_transform(pose, handles[1], &away));
+  assert_ok(hf_pose_get_blend_info(pose, &info));
+  assert_true(info.offset_share == 1);
+  assert_ok(hf_pose_solve(pose, 0, 0, NULL));
+  assert_ok(hf_pose_set_transform(pose, handles[1], &to));
+  assert_ok(hf_pose_solve(pose, 0, 0, NULL));
+  assert_ok(hf_pose_get_blend_info(pose, &info));
+  assert_true(info.offset_share == 0);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
+}
+
 static void what_is_no_blend_is_refused(void** state) {
   (void)state;
   hf_surface surface = whole_surface(0);
@@ -316,6 +366,7 @@ int main(void) {
       cmocka_unit_test(a_shader_has_the_vertices_of_hf_deform),
       cmocka_unit_test(normals_of_a_shader_are_those_of_hf_deform),
       cmocka_unit_test(a_solve_has_the_bits_of_a_deform),
+      cmocka_unit_test(the_blend_is_that_of_the_last_frame),
       cmocka_unit_test(what_is_no_blend_is_refused),
   };
   return cmocka_run_group_tests_name("blend", tests, NULL, NULL);

@@ -253,6 +253,28 @@ static hf_result pose_get_skin(Call* c) {
   c->count[1] = skin.vertex_count;
   return r;
 }
+static hf_result pose_get_blend_rows(Call* c) {
+  hf_blend_rows rows_of = HF_INIT(hf_blend_rows);
+  rows_of.vertex_capacity = (uint32_t)c->capacity[0];
+  rows_of.entry_capacity = (uint32_t)c->capacity[1];
+  rows_of.rows = c->array[0];
+  rows_of.positions = c->array[1];
+  rows_of.normals = c->array[2];
+  rows_of.offsets = c->array[3];
+  rows_of.clusters = c->array[4];
+  rows_of.weights = c->array[5];
+  rows_of.gradients = c->array[6];
+  const hf_result r = hf_pose_get_blend_rows(scene.pose, &rows_of);
+  c->count[0] = rows_of.vertex_count;
+  c->count[1] = rows_of.entry_count;
+  return r;
+}
+static hf_result pose_get_blend_transforms(Call* c) {
+  uint32_t count = 777;
+  const hf_result r = hf_pose_get_blend_transforms(scene.pose, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
 static hf_result transfer_get_skin(Call* c) {
   hf_skin_info skin = HF_INIT(hf_skin_info);
   to_skin(c, &skin);
@@ -339,6 +361,11 @@ static const struct {
      pose_get_skin,
      {{0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {1, 16, 0}, {1, 16, 0}},
      1},
+    {"hf_pose_get_blend_rows",
+     pose_get_blend_rows,
+     {{0, 8, 0}, {0, 12, 0}, {0, 12, 0}, {0, 12, 0}, {1, 2, 0}, {1, 4, 0}, {1, 12, 0}},
+     1},
+    {"hf_pose_get_blend_transforms", pose_get_blend_transforms, {{0, 48, 0}}, 0},
     {"hf_transfer_get_skin",
      transfer_get_skin,
      {{0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {0, 32, 0}, {0, 24, 0}, {1, 16, 0}, {1, 16, 0}},

@@ -4713,7 +4713,7 @@ namespace Hf
         }
 
         /// <summary>Writes the transforms of the clusters in the last Pose.Solve or Pose.Deform, without its refine. Before
-        /// the first they are identities. The call allocates nothing.
+        /// the first, and after handles were added or removed, they are identities. The call allocates nothing.
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
         public float[] BlendTransforms()
@@ -6044,7 +6044,8 @@ namespace Hf
         /// vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid.
         ///     The list replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits
         ///     the piece best, as Pose.SetRigidPieces does. This comes last in a frame: a hold on a part of a rigid
-        ///     piece may miss its place, and a rigid piece may sink into the ground. Does not factorise.
+        ///     piece may miss its place, and a rigid piece may sink into the ground. The pieces move from the next
+        ///     frame on. Does not factorise.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public void SetRigidPieces(uint[] vertices)

@@ -2049,7 +2049,7 @@ export interface Pose extends Recorded {
   solve(iterationCount?: number, restart?: boolean | number): void;
   /**
    * Writes the transforms of the clusters in the last Pose.solve or Pose.deform, without its refine. Before the
-   * first they are identities. The call allocates nothing.
+   * first, and after handles were added or removed, they are identities. The call allocates nothing.
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
@@ -2486,7 +2486,8 @@ export interface Transfer extends Handle {
    * vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
    *     replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best,
    *     as Pose.setRigidPieces does. This comes last in a frame: a hold on a part of a rigid piece may miss its
-   *     place, and a rigid piece may sink into the ground. Does not factorise.
+   *     place, and a rigid piece may sink into the ground. The pieces move from the next frame on. Does not
+   *     factorise.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */

@@ -2501,7 +2501,7 @@ class Pose(Recorded):
 
     def blend_transforms(self) -> np.ndarray:
         """Writes the transforms of the clusters in the last Pose.solve or Pose.deform, without its refine. Before the
-        first they are identities. The call allocates nothing.
+        first, and after handles were added or removed, they are identities. The call allocates nothing.
 
         Raises EmptyError, TooLargeError, UnsupportedError.
         """
@@ -3247,7 +3247,8 @@ class Transfer(Object):
         vertices: (vertex_count,), one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The
             list replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece
             best, as Pose.set_rigid_pieces does. This comes last in a frame: a hold on a part of a rigid piece may
-            miss its place, and a rigid piece may sink into the ground. Does not factorise.
+            miss its place, and a rigid piece may sink into the ground. The pieces move from the next frame on. Does
+            not factorise.
 
         Raises InvalidArgumentError, OutOfRangeError, TooLargeError.
         """

@@ -3116,7 +3116,7 @@ impl Pose {
     }
 
     /// Writes the transforms of the clusters in the last `Pose::solve` or Pose.deform, without its refine. Before the
-    /// first they are identities. The call allocates nothing.
+    /// first, and after handles were added or removed, they are identities. The call allocates nothing.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn blend_transforms(&self) -> Result<Vec<f32>> {
@@ -3896,7 +3896,7 @@ impl Transfer {
     /// vertices: `[vertex_count]`, one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
     /// replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best, as
     /// `Pose::set_rigid_pieces` does. This comes last in a frame: a hold on a part of a rigid piece may miss its
-    /// place, and a rigid piece may sink into the ground. Does not factorise.
+    /// place, and a rigid piece may sink into the ground. The pieces move from the next frame on. Does not factorise.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn set_rigid_pieces(&mut self, vertices: &[u32]) -> Result<()> {

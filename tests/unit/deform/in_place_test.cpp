@@ -94,6 +94,7 @@ TEST(InPlace, HowMuchFollowsIsSetWhereTheSurfaceStands) {
   for (int f = 0; f < 20; ++f) plant.frame();
   const std::uint32_t arm = plant.add_arm();
   const Surface before = plant.frame();
+  plant.pose->set_free_turns({&arm, 1}, true);
   plant.pose->set_following({&arm, 1}, 0.25);
   EXPECT_LT(largest_distance(plant.frame(), before), 1e-6 * plant.box);
   HandleTransform to = plant.pose->placed(arm);

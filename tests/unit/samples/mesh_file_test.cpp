@@ -352,8 +352,8 @@ TEST(MeshFile, WhatIsWrittenReadsBackTheSame) {
     EXPECT_EQ(back.triangles, mesh.triangles);
     for (size_t v = 0; v < 5; ++v) EXPECT_EQ(back.positions[v], float_rounded(mesh.positions[v]));
   }
-  EXPECT_THROW(write_mesh_file(mesh, folder.path / "mesh.stl"), std::runtime_error);
-  EXPECT_THROW(read_mesh_file(folder.path / "mesh.stl"), std::runtime_error);
+  EXPECT_THROW(write_mesh_file(mesh, folder.path / "mesh.xyz"), std::runtime_error);
+  EXPECT_THROW(read_mesh_file(folder.path / "mesh.xyz"), std::runtime_error);
   EXPECT_THROW(read_mesh_file(folder.path / "missing.obj"), std::runtime_error);
   mesh.triangles[0] = 99;
   EXPECT_NE(message_of([&] { write_mesh_file(mesh, folder.path / "mesh.obj"); }).find("vertex 99"), std::string::npos);
