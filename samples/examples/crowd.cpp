@@ -25,13 +25,8 @@ int main(int argc, char** argv) {
   hf_surface surface = mesh_surface(&mesh);  // once for all characters; threads may read it together
 
   hf_pose first;
-  ok(hf_pose_create(surface, nullptr, &first));
-  double low[3], high[3];
-  mesh_ends(&mesh, low, high);
-  const double size = high[1] - low[1];
   uint32_t foot, hip;
-  ok(hf_pose_add_handle_at(first, low, 0.15 * size, &foot));
-  ok(hf_pose_add_handle_at(first, high, 0.15 * size, &hip));
+  const double size = mesh_pose(&mesh, surface, &first, &foot, &hip);
 
   std::vector<Character> crowd(100);
   for (Character& character : crowd) {

@@ -155,13 +155,8 @@ int main(int argc, char** argv) {
   ok(hf_surface_create(&desc, &surface));
 
   hf_pose pose;  // works on the same jobs and in the same arena
-  ok(hf_pose_create(surface, nullptr, &pose));
-  double low[3], high[3];
-  mesh_ends(&mesh, low, high);
-  const double size = high[1] - low[1];
   uint32_t foot, hip;
-  ok(hf_pose_add_handle_at(pose, low, 0.15 * size, &foot));
-  ok(hf_pose_add_handle_at(pose, high, 0.15 * size, &hip));
+  const double size = mesh_pose(&mesh, surface, &pose, &foot, &hip);
 
   std::vector<float> posed(3 * static_cast<size_t>(mesh.vertex_count));
   size_t calls = 0;

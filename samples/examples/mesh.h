@@ -141,4 +141,16 @@ static void mesh_ends(const Mesh* mesh, double low[3], double high[3]) {
   }
 }
 
+/* A pose with a handle at the lowest and one at the highest corner. Returns the distance of both along y. */
+static double mesh_pose(const Mesh* mesh, hf_surface surface, hf_pose* pose, uint32_t* low_handle,
+                        uint32_t* high_handle) {
+  double low[3], high[3];
+  mesh_ends(mesh, low, high);
+  const double size = high[1] - low[1];
+  ok(hf_pose_create(surface, NULL, pose));
+  ok(hf_pose_add_handle_at(*pose, low, 0.15 * size, low_handle));
+  ok(hf_pose_add_handle_at(*pose, high, 0.15 * size, high_handle));
+  return size;
+}
+
 #endif

@@ -119,22 +119,20 @@ std::int32_t vertex_near(const Core& core, Vec3 point) noexcept {
   return nearest;
 }
 
-Vector<std::int32_t> region_from(const Core& core, std::int32_t nearest, Vec3 point, double radius, Memory& memory) {
-  const Mesh& mesh = core.mesh;
-  const Topology& topology = core.topology;
-  Vector<std::int32_t> region(&memory);
-  Vector<std::uint8_t> seen(static_cast<std::size_t>(core.size()), 0, &memory);
-  region.push_back(nearest);
-  seen[nearest] = 1;
+Vector<std::int32_t> RegionSearch::from(std::int32_t nearest, Vec3 point, double radius) {
+  const Topology& topology = core_.topology;
+  Vector<std::int32_t> region(1, nearest, core_.memory.get());
+  seen_[nearest] = 1;
   for (std::size_t at = 0; at < region.size(); ++at) {
     const std::int32_t v = region[at];
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
-      if (seen[u] || !(norm(mesh.positions[u] - point) <= radius)) continue;
+      if (seen_[u] || !(norm(core_.mesh.positions[u] - point) <= radius)) continue;
       region.push_back(u);
-      seen[u] = 1;
+      seen_[u] = 1;
     }
   }
+  for (const std::int32_t v : region) seen_[v] = 0;
   std::sort(region.begin(), region.end());
   return region;
 }
@@ -183,13 +181,14 @@ void regions_near(const Core& core, const Places& places, const double* radii, V
   Places surface = places;
   surface.points = nullptr;  // of points, vertices count and not triangles
   const PlaceReader reader(core.mesh, surface, *core.memory);
+  RegionSearch search(core);
   for (std::uint32_t r = 0; r < places.count; ++r) {
     const RegionCentre centre = centre_of(core, places, reader, r);
     if (!std::isfinite(radii[r])) fail(HF_ERROR_NON_FINITE, r, "the radius of place %u is not finite", r);
     if (radii[r] < 0)
       fail(HF_ERROR_INVALID_ARGUMENT, r, "the radius of place %u is %g; it must not be negative", r, radii[r]);
     const double radius = radii[r] / core.mesh.scale;
-    const Vector<std::int32_t> region = region_from(core, centre.vertex, centre.point, radius, *core.memory);
+    const Vector<std::int32_t> region = search.from(centre.vertex, centre.point, radius);
     if (is_spike(region, radius))
       fail(HF_ERROR_INVALID_ARGUMENT, r,
            "the radius of place %u is %g and holds one vertex, which pulls a spike. Make it larger (the next vertex is "

@@ -46,19 +46,28 @@ std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int3
 // Returns the vertex nearest to a point, in the unit of the scaled mesh.
 std::int32_t vertex_near(const Core& core, Vec3 point) noexcept;
 
-// Returns the vertices within a radius of a point, in ascending order. Point and radius are in the unit of the scaled
-// mesh. The region starts at a vertex near the point, which always belongs to it. It contains those vertices that are
-// edge-connected to that vertex inside the radius.
-Vector<std::int32_t> region_from(const Core& core, std::int32_t nearest, Vec3 point, double radius, Memory& memory);
-// The same from the vertex nearest to the point.
-inline Vector<std::int32_t> region_near(const Core& core, Vec3 point, double radius, Memory& memory) {
-  return region_from(core, vertex_near(core, point), point, radius, memory);
-}
+// Finds the vertices within a radius of a point. Point and radius are in the unit of the scaled mesh. A region starts
+// at a vertex near the point, which always belongs to it. It contains those vertices that are edge-connected to that
+// vertex inside the radius. One search finds many regions: each costs its own size.
+class RegionSearch {
+ public:
+  explicit RegionSearch(const Core& core)
+      : core_(core), seen_(static_cast<std::size_t>(core.size()), 0, core.memory.get()) {}
+  const Core& core() const noexcept { return core_; }
+  // Returns the region in ascending order.
+  Vector<std::int32_t> from(std::int32_t nearest, Vec3 point, double radius);
+  // The same from the vertex nearest to the point. Costs a pass over the mesh.
+  Vector<std::int32_t> near(Vec3 point, double radius) { return from(vertex_near(core_, point), point, radius); }
+
+ private:
+  const Core& core_;
+  Vector<std::uint8_t> seen_;  // all 0 between two searches
+};
 
 // Whether a radius is so small that its region is one vertex, which pulls a spike. One vertex of a coarse mesh is none.
 bool is_spike(Span<const std::int32_t> region, double radius) noexcept;
 
-// Does the same as region_from for places and radii, in the unit of the mesh as given. A point in space stands for its
+// Does the same as RegionSearch for places and radii, in the unit of the mesh as given. A point in space stands for its
 // nearest vertex, any other place for the nearest of its corners. Region r is vertices[start[r] .. start[r + 1]).
 // Throws as PlaceReader does, HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a radius that is negative, or makes
 // a spike; index: r.

@@ -117,7 +117,7 @@ void MovedParts::read_chains() {
   for (std::size_t c = 0; c < chains.size(); ++c) {
     const std::int32_t above = chains[c].parent;
     const Role role = part_role(chains[c].role);
-    const bool digit = role != chains[c].role && role != Role::head;
+    const bool digit = chains[c].role == Role::finger || chains[c].role == Role::toe;
     const std::int32_t part_above = above < 0 ? -1 : digit && part[at(above)] < 0 ? below[at(above)] : part[at(above)];
     const Role role_above = part_above < 0 ? Role::other : part_role_[at(part_above)];
     const bool brow = role_above == Role::head && chains[c].role == Role::other && chains[c].count == 1 && ends[c];
@@ -260,7 +260,7 @@ std::int32_t MovedParts::add_trunk(Span<const std::int32_t> vertices) {
   return part;
 }
 
-BodyRole MovedParts::role_of(Span<const std::int32_t> region) const noexcept {
+BodyRole MovedParts::main_role_of(Span<const std::int32_t> region) const noexcept {
   double share[role_count][3] = {};
   BodyRole best;
   for (const std::int32_t v : region) {

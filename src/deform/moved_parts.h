@@ -37,7 +37,8 @@ class MovedParts {
   BodyRole role_of(std::uint32_t joint) const noexcept {
     return joint == no_joint ? BodyRole() : BodyRole{role_[joint], side_[joint]};
   }
-  BodyRole role_of(Span<const std::int32_t> region) const noexcept;
+  // The role and side that have most of the weights in a region.
+  BodyRole main_role_of(Span<const std::int32_t> region) const noexcept;
   // Whether what has this role moves freely: an arm, a head, a tail. The hands of a body that is not upright may stand.
   bool hangs_free(Role role, bool stands) const noexcept;
   // The chain (skeleton/character.h) of a joint, or of the joint it hangs on; -1: none.
@@ -62,7 +63,7 @@ class MovedParts {
   // Whether the spine moves a vertex that is not beside a part: between a trunk that holds and a head, a neck stays
   // free.
   bool is_of_spine(std::int32_t vertex) const noexcept {
-    return beside_[static_cast<std::size_t>(vertex)] == 0 && role_of({&vertex, 1}).role == Role::spine;
+    return beside_[static_cast<std::size_t>(vertex)] == 0 && main_role_of({&vertex, 1}).role == Role::spine;
   }
   // The part of a joint, or -1.
   std::int32_t part_of_joint(std::uint32_t joint) const noexcept { return joint_part_[joint]; }

@@ -1,10 +1,10 @@
 #include "deform/proposal_joints.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/index.h"
 #include "deform/constants.h"
+#include "deform/handles.h"
 
 namespace hf_inner {
 namespace {
@@ -38,7 +38,7 @@ Vector<std::uint32_t> outwards(const JointList& joints, Memory& memory) {
 }
 
 void add_joint(const Core& core, std::uint32_t number, Vec3 place, Vector<Candidate>& found) {
-  const std::int32_t vertex = nearest_vertex(core, place);
+  const std::int32_t vertex = vertex_near(core, place);
   const double depth = norm(core.mesh.positions[at(vertex)] - place);
   if (depth > joint_reach) return;  // a helper away from the surface
   Candidate out;
@@ -93,19 +93,6 @@ JointList joint_list(const Core& core, const KnownSkeleton& known, const MovedPa
     out.left_out.push_back(inside || (part >= 0 && parts.vertices_of(at(part)).size() >= least_part));
   }
   return out;
-}
-
-std::int32_t nearest_vertex(const Core& core, Vec3 place) noexcept {
-  std::int32_t vertex = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t v = 0; v < core.mesh.positions.size(); ++v) {
-    const double d = norm(core.mesh.positions[v] - place);
-    if (d < least) {
-      least = d;
-      vertex = static_cast<std::int32_t>(v);
-    }
-  }
-  return vertex;
 }
 
 void add_joints(const Core& core, const JointList& joints, Vector<Candidate>& found) {

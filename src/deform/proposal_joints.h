@@ -41,7 +41,4 @@ JointList joint_list(const Core& core, const KnownSkeleton& known, const MovedPa
 
 void add_joints(const Core& core, const JointList& joints, Vector<Candidate>& found);
 
-// The vertex nearest to a place of the inner mesh.
-std::int32_t nearest_vertex(const Core& core, Vec3 place) noexcept;
-
 }  // namespace hf_inner

@@ -6,7 +6,6 @@
 #include "base/index.h"
 #include "base/progress.h"
 #include "deform/constants.h"
-#include "deform/handles.h"
 
 namespace hf_inner {
 namespace {
@@ -21,10 +20,10 @@ bool ends_free(Role role) noexcept {
 }
 
 // The region that a candidate gets where no other is near.
-Vector<std::int32_t> region_of(const Core& core, const Candidate& candidate) {
+Vector<std::int32_t> region_of(RegionSearch& search, const Candidate& candidate) {
   double radius = candidate.radius;
   for (;;) {
-    Vector<std::int32_t> region = region_near(core, candidate.position, radius, *core.memory);
+    Vector<std::int32_t> region = search.from(candidate.vertex, candidate.position, radius);
     radius *= radius_growth;
     if (region.size() >= least_region || radius > most_radius) return region;
   }
@@ -51,8 +50,14 @@ Candidate part_candidate(const Core& core, Span<const std::int32_t> vertices) {
 
 class Chooser {
  public:
-  Chooser(const Core& core, const Vector<Candidate>& found, MovedParts* parts)
-      : core_(core), mesh_(core.mesh), memory_(*core.memory), found_(found), parts_(parts), owner_(&memory_) {}
+  Chooser(RegionSearch& search, const Vector<Candidate>& found, MovedParts* parts)
+      : search_(search),
+        core_(search.core()),
+        mesh_(core_.mesh),
+        memory_(*core_.memory),
+        found_(found),
+        parts_(parts),
+        owner_(&memory_) {}
 
   Proposals run(std::size_t limit) {
     owner_.assign(mesh_.positions.size(), nobody);
@@ -91,7 +96,7 @@ class Chooser {
     const std::uint32_t joint = whole ? parts_->joint_of_part(at(candidate.part)) : parts_->joint_of(region);
     if (joint != no_joint) out.joint = joint;
     const BodyRole own = whole               ? parts_->role_of_part(at(candidate.part))
-                         : joint != no_joint ? parts_->role_of(region)
+                         : joint != no_joint ? parts_->main_role_of(region)
                                              : parts_->role_of(out.joint);
     out.role = own.role;
     out.side = own.side;
@@ -107,7 +112,7 @@ class Chooser {
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
       proposal.radius = mesh_.scale * radius;
       const double own = proposal.radius / mesh_.scale;
-      const Vector<std::int32_t> region = region_near(core_, place, own, memory_);
+      const Vector<std::int32_t> region = search_.near(place, own);
       const bool overlaps =
           std::any_of(region.begin(), region.end(), [&](std::int32_t v) { return owner_[at(v)] >= 0; });
       if (shrunk && is_spike(region, own)) return false;
@@ -124,24 +129,25 @@ class Chooser {
   }
 
   // Finds a place and a radius whose region is a piece of the part.
-  bool fit(std::size_t k, HandleProposal& proposal) const {
+  bool fit(std::size_t k, HandleProposal& proposal) {
     const Candidate middle = part_candidate(core_, part(found_[k]));
     const std::int32_t own = static_cast<std::int32_t>(k);
-    const bool inside = owner_[at(nearest_vertex(core_, middle.position))] == own;
+    const bool inside = owner_[at(vertex_near(core_, middle.position))] == own;
     proposal.position = mesh_.to_given(inside ? middle.position : mesh_.positions[at(middle.vertex)]);
     const Vec3 place = mesh_.to_inner(proposal.position);
     double radius = middle.length;
     for (int attempt = 0; attempt < most_attempts; ++attempt, radius /= radius_growth) {
       proposal.radius = mesh_.scale * radius;
-      const Vector<std::int32_t> region = region_near(core_, place, proposal.radius / mesh_.scale, memory_);
+      const Vector<std::int32_t> region = search_.near(place, proposal.radius / mesh_.scale);
       if (!std::all_of(region.begin(), region.end(), [&](std::int32_t v) { return owner_[at(v)] == own; })) continue;
       describe(found_[k], part(found_[k]), proposal);
-      proposal.vertex = nearest_vertex(core_, place);
+      proposal.vertex = vertex_near(core_, place);
       return true;
     }
     return false;  // other layers of the surface lie at the same place
   }
 
+  RegionSearch& search_;
   const Core& core_;
   const Mesh& mesh_;
   Memory& memory_;
@@ -152,25 +158,25 @@ class Chooser {
 
 }  // namespace
 
-void leave_out_unmoved(const Core& core, const MovedParts& parts, Vector<Candidate>& found) {
+void leave_out_unmoved(RegionSearch& search, const MovedParts& parts, Vector<Candidate>& found) {
   if (!parts.has_unmoved()) return;
   const auto unmoved = [&](const Candidate& candidate) {
     poll();
-    return parts.is_unmoved(region_of(core, candidate));
+    return parts.is_unmoved(region_of(search, candidate));
   };
   found.erase(std::remove_if(found.begin(), found.end(), unmoved), found.end());
 }
 
-void let_free(const Core& core, const MovedParts& parts, Vector<Candidate>& found) {
-  Vector<std::size_t> feet(core.memory.get()), freed(core.memory.get());
+void let_free(RegionSearch& search, const MovedParts& parts, Vector<Candidate>& found) {
+  Vector<std::size_t> freed(search.core().memory.get());
   bool held = false, legs = false;
   const auto is_leg = [](Role role) { return role == Role::leg || role == Role::foot || role == Role::toe; };
-  Vector<Role> role(found.size(), Role::other, core.memory.get());
+  Vector<Role> role(found.size(), Role::other, search.core().memory.get());
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k].pinned) continue;
     poll();
-    role[k] =
-        found[k].part < 0 ? parts.role_of(region_of(core, found[k])).role : parts.role_of_part(at(found[k].part)).role;
+    role[k] = found[k].part < 0 ? parts.main_role_of(region_of(search, found[k])).role
+                                : parts.role_of_part(at(found[k].part)).role;
     legs = legs || (found[k].reason == HandleReason::foot && is_leg(role[k]));
   }
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -189,10 +195,11 @@ void let_free(const Core& core, const MovedParts& parts, Vector<Candidate>& foun
   }
 }
 
-void take_parts(const Core& core, MovedParts& parts, Span<const double> height, double low, Vector<Candidate>& found) {
+void take_parts(RegionSearch& search, MovedParts& parts, Span<const double> height, double low,
+                Vector<Candidate>& found) {
   std::sort(found.begin(), found.end(), comes_first);
-  Vector<std::uint8_t> taken(parts.part_count(), 0, core.memory.get());
-  Vector<Candidate> out(core.memory.get());
+  Vector<std::uint8_t> taken(parts.part_count(), 0, search.core().memory.get());
+  Vector<Candidate> out(search.core().memory.get());
   const auto take = [&](Candidate candidate, std::int32_t part) {
     const Span<const std::int32_t> vertices = parts.vertices_of(at(part));
     candidate.part = part;
@@ -214,7 +221,7 @@ void take_parts(const Core& core, MovedParts& parts, Span<const double> height, 
       out.push_back(candidate);
       continue;
     }
-    const Vector<std::int32_t> region = region_of(core, candidate);
+    const Vector<std::int32_t> region = region_of(search, candidate);
     const std::uint32_t joint = parts.joint_of(region);
     std::int32_t part = parts.part_of(region);
     // what a head moves beside the skull goes along with it
@@ -230,25 +237,26 @@ void take_parts(const Core& core, MovedParts& parts, Span<const double> height, 
   }
   for (std::size_t p = 0; p < taken.size(); ++p) {
     const Span<const std::int32_t> vertices = parts.vertices_of(p);
-    if (!taken[p] && vertices.size() >= least_part) take(part_candidate(core, vertices), static_cast<std::int32_t>(p));
+    if (!taken[p] && vertices.size() >= least_part)
+      take(part_candidate(search.core(), vertices), static_cast<std::int32_t>(p));
   }
   found = std::move(out);
 }
 
-void leave_one_each(const Core& core, const KnownSkeleton& known, MovedParts& parts, Vector<Candidate>& found) {
+void leave_one_each(RegionSearch& search, const KnownSkeleton& known, MovedParts& parts, Vector<Candidate>& found) {
   const Character& character = known.character;
-  Vector<std::uint32_t> rank(character.kinds.size(), 0, core.memory.get());  // of a joint in its chain
+  Vector<std::uint32_t> rank(character.kinds.size(), 0, search.core().memory.get());  // of a joint in its chain
   for (const Chain& chain : character.chains) {
     for (std::uint32_t k = 0; k < chain.count; ++k) rank[character.chain_joints[chain.first + k]] = k + 1;
   }
   std::sort(found.begin(), found.end(), comes_first);
-  Vector<std::size_t> best(character.chains.size(), found.size(), core.memory.get());
-  Vector<std::uint32_t> farthest(character.chains.size(), 0, core.memory.get());
-  Vector<std::uint8_t> dropped(found.size(), 0, core.memory.get());
+  Vector<std::size_t> best(character.chains.size(), found.size(), search.core().memory.get());
+  Vector<std::uint32_t> farthest(character.chains.size(), 0, search.core().memory.get());
+  Vector<std::uint8_t> dropped(found.size(), 0, search.core().memory.get());
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (found[k].part >= 0 || found[k].pinned) continue;
     poll();
-    const std::uint32_t joint = parts.joint_of(region_of(core, found[k]));
+    const std::uint32_t joint = parts.joint_of(region_of(search, found[k]));
     const std::int32_t c = parts.chain_of(joint);
     if (c < 0 || !ends_free(character.chains[at(c)].role)) continue;
     if (best[at(c)] < found.size()) dropped[rank[joint] > farthest[at(c)] ? best[at(c)] : k] = 1;
@@ -263,8 +271,8 @@ void leave_one_each(const Core& core, const KnownSkeleton& known, MovedParts& pa
   found.resize(kept);
 }
 
-Proposals choose_regions(const Core& core, const Vector<Candidate>& found, MovedParts* parts, std::size_t limit) {
-  return Chooser(core, found, parts).run(limit);
+Proposals choose_regions(RegionSearch& search, const Vector<Candidate>& found, MovedParts* parts, std::size_t limit) {
+  return Chooser(search, found, parts).run(limit);
 }
 
 }  // namespace hf_inner

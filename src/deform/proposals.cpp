@@ -22,7 +22,13 @@ double distance(Vec3 a, Vec3 b) noexcept { return norm(a - b); }
 class Proposer {
  public:
   Proposer(const Core& core, const ProposalOptions& options)
-      : core_(core), mesh_(core.mesh), options_(options), memory_(*core.memory), found_(&memory_), height_(&memory_) {}
+      : core_(core),
+        search_(core),
+        mesh_(core.mesh),
+        options_(options),
+        memory_(*core.memory),
+        found_(&memory_),
+        height_(&memory_) {}
 
   Proposals run() {
     constexpr float tips_found = 0.8f;  // reported progress, by the usual share of time
@@ -189,7 +195,7 @@ class Proposer {
 
   double area_near(Vec3 place, double radius) const {
     double area = 0;
-    for (const Index v : region_near(core_, place, radius, memory_)) area += core_.areas[at(v)];
+    for (const Index v : search_.near(place, radius)) area += core_.areas[at(v)];
     return area;
   }
 
@@ -199,7 +205,7 @@ class Proposer {
     if (!trunk.found) return;
     Candidate out;
     out.position = trunk.middle;
-    out.vertex = nearest_vertex(core_, out.position);
+    out.vertex = vertex_near(core_, out.position);
     double depth = distance(mesh_.positions[at(out.vertex)], out.position);
     if (depth > most_depth) {
       out.position = mesh_.positions[at(out.vertex)];
@@ -231,8 +237,8 @@ class Proposer {
       return out;
     };
     Vector<Index> held = near_middle();
-    const Vector<Index> around = region_near(core_, middle->position, middle->radius, memory_);
-    if (parts.role_of(around).role != Role::spine || held.size() < least_region) {
+    const Vector<Index> around = search_.near(middle->position, middle->radius);
+    if (parts.main_role_of(around).role != Role::spine || held.size() < least_region) {
       const Trunk trunk = trunk_of(core_, spine, height_);
       if (!trunk.found) return;
       middle->position = trunk.middle;
@@ -247,24 +253,25 @@ class Proposer {
   Proposals choose_plain() {
     if (!options_.parents.empty()) add_joints(core_, joint_list(core_, options_.joints, options_.parents), found_);
     std::sort(found_.begin(), found_.end(), comes_first);
-    return choose_regions(core_, found_, nullptr, options_.limit);
+    return choose_regions(search_, found_, nullptr, options_.limit);
   }
 
   Proposals follow(const KnownSkeleton& skeleton) {
     MovedParts parts(core_, skeleton);
-    leave_out_unmoved(core_, parts, found_);
+    leave_out_unmoved(search_, parts, found_);
     if (parts.knows_roles()) {
       place_trunk(parts);
-      let_free(core_, parts, found_);
-      take_parts(core_, parts, height_, ground_ + ground_share * tall_, found_);
+      let_free(search_, parts, found_);
+      take_parts(search_, parts, height_, ground_ + ground_share * tall_, found_);
     }
     add_joints(core_, joint_list(core_, skeleton, parts), found_);
-    if (parts.knows_roles()) leave_one_each(core_, skeleton, parts, found_);
+    if (parts.knows_roles()) leave_one_each(search_, skeleton, parts, found_);
     std::sort(found_.begin(), found_.end(), comes_first);
-    return choose_regions(core_, found_, &parts, options_.limit);
+    return choose_regions(search_, found_, &parts, options_.limit);
   }
 
   const Core& core_;
+  RegionSearch search_;
   const Mesh& mesh_;
   const ProposalOptions& options_;
   Memory& memory_;
