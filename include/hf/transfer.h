@@ -175,12 +175,12 @@ HF_API hf_result hf_transfer_get_dials(hf_transfer transfer, hf_transfer_dials* 
 
 /* Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh. vertices:
  * uint32_t[vertex_count], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
- * replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best, as
- * hf_pose_set_rigid_pieces does. This comes last in a frame: a hold on a part of a rigid piece may miss its place, and
- * a rigid piece may sink into the ground. The pieces move from the next frame on. Does not
- * factorise. Errors: HF_ERROR_OUT_OF_RANGE and
- * HF_ERROR_INVALID_ARGUMENT (isolated vertex; index = position), HF_ERROR_TOO_LARGE. Thread safety: changes `transfer`.
- * Since 0.1. */
+ * replaces the previous list and applies from the next frame on. The call does not factorise.
+ *
+ * Each frame moves a rigid piece by the rigid motion that fits the piece best, as hf_pose_set_rigid_pieces does. This
+ * fit is the last step of a frame. So a hold on a part of a rigid piece may miss its position, and a rigid piece may
+ * sink into the ground. Errors: HF_ERROR_OUT_OF_RANGE and HF_ERROR_INVALID_ARGUMENT (isolated vertex; index =
+ * position), HF_ERROR_TOO_LARGE. Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_set_rigid_pieces(hf_transfer transfer, uint32_t vertex_count, const uint32_t* vertices);
 
 /* Describes one frame: the input is the posed source, the output the posed target. Set at least one output. */
@@ -223,9 +223,9 @@ HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame
 HF_API hf_result hf_transfer_get_sinking(hf_transfer transfer, uint8_t* out_sinking);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin replays
- * hf_transfer_apply exactly, because that function also uses the four largest weights. A rigid piece is one joint;
- * these joints come last. Errors: HF_ERROR_INVALID_ARGUMENT (influence_count), HF_ERROR_EMPTY (no pair),
- * HF_ERROR_UNSUPPORTED (HF_TRANSFER_STRETCH). Thread safety: reads `transfer`. Since 0.1. */
+ * hf_transfer_apply exactly, because that function also uses the four largest weights. Each rigid piece is one
+ * joint. These joints come after the joints of clusters. Errors: HF_ERROR_INVALID_ARGUMENT (influence_count),
+ * HF_ERROR_EMPTY (no pair), HF_ERROR_UNSUPPORTED (HF_TRANSFER_STRETCH). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
 
 #ifdef __cplusplus
