@@ -40,8 +40,8 @@ Vec3 knee_side_of(const Rig& rig, const RigLeg& leg, Turn align) noexcept {
 
 }  // namespace
 
-// Legs pair from behind, each with one of its side. A leg without a foot has no goal: its boot tilts with the shin, so
-// that a knee that bends to lift the toes puts them deeper. It lifts the body instead.
+// Legs pair from behind, each with a leg of its side. A leg without a foot gets no goal. Its boot tilts with the shin,
+// so a knee that bends to lift the toes pushes them deeper. Such a leg lifts the body instead.
 void Retargeter::find_feet() {
   for (std::size_t t = 0; t < target.legs.size(); ++t) {
     const RigLeg& leg = target.legs[t];

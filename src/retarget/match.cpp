@@ -40,8 +40,8 @@ std::size_t segment_end(const Segments& chain, std::size_t k) {
   return k + 1 < chain.count() ? at(chain.starts[k + 1]) : chain.joints.size();
 }
 
-// Where the joints of a segment stand along it, and its end, as shares of its length. A last piece whose end is not
-// known counts as long as the one before.
+// Returns the places of the joints along a segment, then the place of its end, as shares of its length. If the end of
+// the last piece is not known, the piece counts as long as the piece before.
 Vector<double> piece_places(const Rig& rig, const Segments& chain, std::size_t k, Memory& memory) {
   const std::size_t first = at(chain.starts[k]), end = segment_end(chain, k), joints = chain.joints.size();
   const auto place = [&](std::size_t i) {
@@ -58,7 +58,7 @@ Vector<double> piece_places(const Rig& rig, const Segments& chain, std::size_t k
   return places;
 }
 
-// Pieces of one bone: each follows the piece of the source in which its middle lies. A joint in the place where the
+// Makes each piece of a bone follow the piece of the source in which its middle lies. A joint in the place where the
 // bone ends, such as a control of the heel, is a piece of no length: nothing follows it.
 void follow_pieces(Matcher& m, const ChainPair& pair, std::size_t k) {
   const Vector<double> from = piece_places(m.r.source, pair.source, k, m.memory),

@@ -91,7 +91,7 @@ struct Chain {
   std::int32_t parent = -1;  // the chain it hangs on
   std::uint32_t first = 0, count = 0;  // its joints in Character::chain_joints, root to tip
   double length = 0;                   // along the joints, up to the first joint of the chain at its tip
-  double low = 0;                      // of the lowest vertex that it and what hangs on it own, over the ground
+  double low = 0;  // height over the ground of the lowest vertex of the chain and of all joints below it
 };
 
 // Where a joint rests in the space of the model: a rotation as columns, and a place.
