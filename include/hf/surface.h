@@ -428,7 +428,7 @@ typedef struct hf_hit {
   uint32_t triangle;  /* or face, as given */
   uint32_t vertex;    /* its corner nearest to the hit, as given, of welded copies the first */
   hf_place place;     /* the point hit: corners of the triangle (the first of welded copies) and their barycentrics.
-                         A face of more corners is cut into triangles; the corners are those of the triangle hit */
+                         A face of more corners is cut into triangles; these are the corners of the triangle hit */
   double position[3]; /* in the unit of the positions */
   double distance;    /* from the origin, in lengths of `direction` */
 } hf_hit;

@@ -1,4 +1,4 @@
-// See skeleton_pair.h.
+// Pairs two bodies by joints, plays clips of one on the other and measures how well the limbs agree.
 #include "gltf/skeleton_pair.h"
 
 #include <algorithm>

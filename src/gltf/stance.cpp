@@ -1,4 +1,4 @@
-// See stance.h.
+// Compares the pose of the nodes with the bound pose and with the poses at both ends of clips.
 #include "gltf/stance.h"
 
 #include <algorithm>

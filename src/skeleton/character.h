@@ -130,7 +130,7 @@ struct Character {
   Vector<std::int32_t> mates;         // its mirror image, or -1
   Vector<RestFrame> frames;
 
-  // Lengths in units of the model; 0: there is none. Of legs: the hindmost pair that stands.
+  // Lengths in units of the model; 0: there is none. Lengths of legs are measured on the hindmost pair that stands.
   double height = 0, ground = 0;  // along up; ground is the lowest vertex
   double leg_length = 0;          // hip, knee, foot, and the height of the foot
   double hip_height = 0;          // of the thigh's joint over the ground

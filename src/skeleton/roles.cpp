@@ -227,8 +227,8 @@ void assign_rest(Body& body, Vector<std::uint8_t>& given) {
   }
 }
 
-// Declared roles win; joints along a bone take its role. Sides of pairs are those of their places: a declaration may be
-// that of the body before it was mirrored.
+// Declared roles win; joints along a bone take its role. The sides of a pair follow from its places, because a
+// declaration may be older than a mirroring of the body.
 void take_declared_roles(Body& body) {
   for (Index j = 0; j < body.count; ++j) {
     const Index p = body.carriers[at(j)];

@@ -729,7 +729,7 @@ namespace Hf
         /// <summary>its corner nearest to the hit, as given, of welded copies the first</summary>
         public uint Vertex;
         /// <summary>the point hit: corners of the triangle (the first of welded copies) and their barycentrics. A face of
-        /// more corners is cut into triangles; the corners are those of the triangle hit</summary>
+        /// more corners is cut into triangles; these are the corners of the triangle hit</summary>
         public Place Place;
         /// <summary>in the unit of the positions</summary>
         public double[] Position = new double[3];
@@ -1581,8 +1581,8 @@ namespace Hf
         }
     }
 
-    /// <summary>What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and
-    /// the result is continuous in each dial.</summary>
+    /// <summary>Dials that an animator turns while a transfer plays. Neutral dials give the bits of a transfer without
+    /// dials, and the result is continuous in each dial.</summary>
     public sealed unsafe partial class TransferDials
     {
         /// <summary>the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
@@ -6073,16 +6073,16 @@ namespace Hf
         ///
         /// The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc
         /// alone. Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a
-        /// played one. The result changes as little as the source does: a source that stands still, but for noise,
+        /// played one. The result changes as little as the source does: a source that stands still except for noise
         /// gives a target that stands still.
         ///
         /// The ground counts too if the mode is TransferMode.Fields and some pairs are anchors (their target region
         /// follows the path of the source's region). While a foot of the source stands on the ground, the target's
-        /// foot follows its scaled path exactly. No part of the target sinks deeper into the ground than the
-        /// source, scaled, but for those of Transfer.Sinking. What would sink bends up. The ground does not move
-        /// regions that you hold. A lying target rests on the parts that the source rests on. A rigid motion of the
-        /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
-        /// off.
+        /// foot follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the
+        /// source, scaled, except the vertices of Transfer.Sinking. A part that would sink bends up. The ground
+        /// does not move regions that you hold. A lying target rests on the parts that the source rests on. A rigid
+        /// motion of the whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off
+        /// switches them off.
         ///
         /// sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
         /// holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a

@@ -240,7 +240,7 @@ export interface Hit {
   vertex: number;
   /**
    * the point hit: corners of the triangle (the first of welded copies) and their barycentrics. A face of more
-   * corners is cut into triangles; the corners are those of the triangle hit
+   * corners is cut into triangles; these are the corners of the triangle hit
    */
   place: Place;
   /** in the unit of the positions */
@@ -887,8 +887,8 @@ export interface TransferStatistics {
 }
 
 /**
- * What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the
- * result is continuous in each dial.
+ * Dials that an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials,
+ * and the result is continuous in each dial.
  */
 export interface TransferDials {
   /**
@@ -2507,15 +2507,15 @@ export interface Transfer extends Handle {
    *
    * The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
    * Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The
-   * result changes as little as the source does: a source that stands still, but for noise, gives a target that
+   * result changes as little as the source does: a source that stands still except for noise gives a target that
    * stands still.
    *
    * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region
    * follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
-   * follows its scaled path exactly. No part of the target sinks deeper into the ground than the source, scaled,
-   * but for those of Transfer.sinking. What would sink bends up. The ground does not move regions that you hold. A
-   * lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
-   * unchanged. All rules of the ground come in continuously. HF_GROUND_OFF switches them off.
+   * follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the source, scaled,
+   * except the vertices of Transfer.sinking. A part that would sink bends up. The ground does not move regions
+   * that you hold. A lying target rests on the parts that the source rests on. A rigid motion of the whole source
+   * is copied unchanged. All rules of the ground come in continuously. HF_GROUND_OFF switches them off.
    *
    * sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
    * holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a position of

@@ -1364,7 +1364,7 @@ class hf_transfer_statistics(Struct):
 
 
 class hf_transfer_dials(Struct):
-    """What an animator turns while a transfer plays."""
+    """Dials that an animator turns while a transfer plays."""
     struct_size: int
     reserved: int
     stride: float

@@ -1076,8 +1076,8 @@ impl<'a> Pairs<'a> {
     }
 }
 
-/// What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the result
-/// is continuous in each dial.
+/// Dials that an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the
+/// result is continuous in each dial.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TransferDials {
     /// the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted foot does
@@ -3916,14 +3916,15 @@ impl Transfer {
     ///
     /// The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
     /// Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The result
-    /// changes as little as the source does: a source that stands still, but for noise, gives a target that stands still.
+    /// changes as little as the source does: a source that stands still except for noise gives a target that stands
+    /// still.
     ///
     /// The ground counts too if the mode is [`raw::HF_TRANSFER_FIELDS`] and some pairs are anchors (their target region
     /// follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
-    /// follows its scaled path exactly. No part of the target sinks deeper into the ground than the source, scaled, but
-    /// for those of `Transfer::sinking`. What would sink bends up. The ground does not move regions that you hold. A
-    /// lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged.
-    /// All rules of the ground come in continuously. [`raw::HF_GROUND_OFF`] switches them off.
+    /// follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the source, scaled,
+    /// except the vertices of `Transfer::sinking`. A part that would sink bends up. The ground does not move regions that
+    /// you hold. A lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
+    /// unchanged. All rules of the ground come in continuously. [`raw::HF_GROUND_OFF`] switches them off.
     ///
     /// source_positions: `[source.vertex_count x 3]` of float or double: the posed source, its own vertex order
     /// out: `[target.vertex_count x 3]` of float or double

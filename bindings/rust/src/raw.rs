@@ -1334,7 +1334,7 @@ pub struct hf_transfer_statistics {
     pub target_factorisation_count: u32,
 }
 
-/// What an animator turns while a transfer plays.
+/// Dials that an animator turns while a transfer plays.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_dials {
