@@ -115,7 +115,7 @@ void Retargeter::turn_joints() {
   }
 }
 
-// The hips of the target, in the middle of its thighs, go where those of the source are.
+// Moves the hips of the target, in the middle of its thighs, to the scaled place of the hips of the source.
 void Retargeter::move_root() {
   mover_place = target.rest.place[at(target.mover)];
   target.place(wanted, mover_place, to);

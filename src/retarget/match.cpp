@@ -75,8 +75,8 @@ void follow_pieces(Matcher& m, const ChainPair& pair, std::size_t k) {
   }
 }
 
-// Chains of unequal length: the turn of a segment of the target is that of the source at the same share of arc length,
-// between the turns at the ends of its segments. What carries the chain turns at share 0.
+// Pairs chains of unequal length. A segment of the target turns as the source does at the same share of arc length,
+// between the turns at the ends of its segments. The joint that carries the chain has share 0.
 void follow_arcs(Matcher& m, const ChainPair& pair) {
   Vector<double> u(&m.memory), v(&m.memory);
   arc_shares(m.r.source, pair.source, u);
@@ -160,7 +160,7 @@ const Chain* next_of(const Character& c, const Chain& chain, Role role) {
 
 }  // namespace
 
-// Hands, feet and toes: what goes on from a limb.
+// Pairs the chains that continue a limb: hands, feet and toes.
 void Matcher::add_next(const Chain& a, const Chain& b, Role role, Turn align) {
   ChainPair pair(memory);
   pair.role = role;

@@ -83,7 +83,7 @@ struct Rig {
   void read_pose(const double* trs, Stance& stance) const;
   // Places joints whose turns are given: turns[j] is wanted where wanted[j] is not 0; others keep their rest.
   void place(const Vector<std::uint8_t>& wanted, Vec3 mover_place, Stance& stance) const;
-  // The rotation of a joint relative to its parent, from those of both.
+  // Returns the rotation of a joint relative to its parent, from the rotations of both.
   Turn local_turn(Index joint, const Stance& stance) const noexcept;
   // Where a tip is.
   Vec3 tip_place(const Tip& tip, const Stance& stance) const noexcept;

@@ -100,7 +100,7 @@ void add_bare_sole(const Rig& rig, const Stance& rest, RigLeg& leg) {
 
 }  // namespace
 
-// The lowest points of what the foot owns, and of what the shin owns below the ankle. A shin without a foot stands on
+// Finds the lowest vertices that the foot owns, and that the shin owns below the ankle. A shin without a foot stands on
 // its lower half.
 void find_soles(Rig& rig, const RetargetSide& side, Memory& memory) {
   const Stance& file_rest = rig.file_rest;

@@ -44,7 +44,7 @@ enum class Role : std::int32_t {
 constexpr std::int32_t role_count = 18;
 const char* role_name(Role role) noexcept;
 
-// Of the character, not of the person who looks at it.
+// Left and right are sides of the character, not of the person who looks at it.
 enum class Side : std::int32_t { middle, left, right };
 
 // body: it carries the body. helper: control, pole, target, root: it carries nothing. end: marks the tip of a chain.
@@ -140,7 +140,7 @@ struct Character {
   double trunk = 1;
 
   Vector<char> why;  // sentences, one a line
-  // What speaks for the axes, in a few words: "legs down, head up".
+  // The reasons for the axes in a few words: "legs down, head up".
   Vector<char> up_why, forward_why;
 };
 

@@ -16,7 +16,7 @@ void set_from(Body& body, const Vector<Index>& path, std::size_t first, std::siz
   for (std::size_t k = first; k < last && k < path.size(); ++k) body.roles[at(path[k])] = role;
 }
 
-// What hangs on a limb but is not on its path: fingers or toes.
+// Gives a role to the joints that hang on a limb but are not on its path: fingers or toes.
 void set_digits(Body& body, const Limb& limb, int side, Role role) {
   const auto& path = limb.paths[side];
   for (const Index j : body.subtree(limb.roots[side])) {
