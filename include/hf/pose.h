@@ -375,8 +375,9 @@ typedef struct hf_blend_rows {
 HF_API hf_result hf_pose_get_blend_rows(hf_pose pose, hf_blend_rows* inout_rows);
 
 /* Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
- * hf_pose_deform. iteration_count: 1 to 1000; 0 = as in hf_pose_desc. restart: 1: as in hf_deform_desc. out_info: NULL,
- * or a struct. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_INVALID_ARGUMENT (iteration_count, restart). Thread safety:
+ * hf_pose_deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
+ * hf_deform. iteration_count: 1 to 1000; 0 = as in hf_pose_desc. restart: 1: as in hf_deform_desc. out_info: NULL, or a
+ * struct. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_INVALID_ARGUMENT (iteration_count, restart). Thread safety:
  * changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_solve(hf_pose pose, uint32_t iteration_count, int32_t restart, hf_deform_info* out_info);
 

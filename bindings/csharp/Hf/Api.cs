@@ -4701,7 +4701,8 @@ namespace Hf
         }
 
         /// <summary>Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
-        /// Pose.Deform.
+        /// Pose.Deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as
+        /// much as Pose.Deform.
         ///
         /// iterationCount: 1 to 1000; 0 = as in PoseDesc.
         /// restart: 1: as in DeformDesc.

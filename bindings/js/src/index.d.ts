@@ -2046,6 +2046,7 @@ export interface Pose extends Recorded {
   blendRows(): BlendRows;
   /**
    * Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
+   * Pose.deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
    * Pose.deform.
    *
    * iterationCount: 1 to 1000; 0 = as in hf_pose_desc.

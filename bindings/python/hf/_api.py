@@ -2490,6 +2490,7 @@ class Pose(Recorded):
 
     def solve(self, iteration_count: int = 0, restart: bool = False, *, info: Optional[DeformInfo] = None) -> None:
         """Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
+        Pose.deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
         Pose.deform.
 
         iteration_count: 1 to 1000; 0 = as in hf_pose_desc.

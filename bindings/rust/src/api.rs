@@ -3101,7 +3101,8 @@ impl Pose {
     }
 
     /// Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
-    /// `Pose::deform`.
+    /// `Pose::deform`. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
+    /// Pose.deform.
     ///
     /// iteration_count: 1 to 1000; 0 = as in [`PoseOptions`].
     /// restart: 1: as in [`DeformOptions`].
