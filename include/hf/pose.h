@@ -141,11 +141,11 @@ HF_API hf_result hf_pose_set_transform(hf_pose pose, uint32_t handle, const hf_t
  * turns a ring. A given rotation starts at the present rotation of the handle, so the pose does not change. When you
  * free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move, as with
  * in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at the next
- * frame. A handle alone in its component keeps its rotation. The first frame of a pose, and a frame with restart, take
- * free handles to their places in 8 steps, as a drag does; such a frame costs about 8 more. refine keeps the rotation
- * of the smooth pose. Cost: one iteration of a solve for each free handle, at this call and when handles are added or
- * removed; little in a frame. Errors: HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (free_rotation). Thread safety:
- * changes `pose`. Since 0.1. */
+ * frame. A handle alone in its component keeps its rotation. The first frame of a pose, and a frame with restart, move
+ * free handles to their places in 8 steps, as a drag does. Such a frame takes the time of about 8 pose solves. refine
+ * keeps the rotation of the smooth pose. Cost: one iteration of a solve for each free handle, at this call and when
+ * handles are added or removed; little in a frame. Errors: HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT
+ * (free_rotation). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
                                             int32_t free_rotation);
 
@@ -153,15 +153,15 @@ HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count,
  * of the surface follows the handle; a new handle has 1. At 0 only the limb of the handle follows, such as an arm.
  *
  * Below 1, soft pins hold the surface where it would be without these handles. So a body does not lean after a dragged
- * hand. The nearer to 1 the field of the handle is, the weaker the pins are: the limb stays free. Keep 1 for the
- * handles that hold the body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb
- * that is too short gets longer. The next hf_deform shows a change at once, but a handle that
- * was just added in place leaves the surface where it stands until a handle moves. Full-mesh steps (refine) ignore the
- * pins. Repeated steps (refine_from_last) let the body lean again. Cost: at this call, and when handles are added or
- * removed, one field solve for the other handles, and as many solves of the reduced system as in a few frames. While
- * other handles move, a frame takes up to twice the time of the pose solve. No factor is recomputed. Errors:
- * HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (following), HF_ERROR_UNSUPPORTED (a handle of
- * a higher layer). Thread safety: changes `pose`. Since 0.1. */
+ * hand. Where the field of the handle is near 1, the pins are weak, so the limb stays free. Keep 1 for the handles that
+ * hold the body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is too
+ * short gets longer. The next hf_deform shows a change at once. But a handle that was just added in place leaves the
+ * surface where it stands until a handle moves. Full-mesh steps (refine) ignore the pins. Repeated steps
+ * (refine_from_last) let the body lean again. Cost: at this call, and when handles are added or removed, one field
+ * solve for the other handles, and as many solves of the reduced system as in a few frames. While other handles move,
+ * the pose solve of a frame takes up to twice the time. No factor is recomputed. Errors: HF_ERROR_NOT_FOUND,
+ * HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (following), HF_ERROR_UNSUPPORTED (a handle of a higher layer).
+ * Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_following(hf_pose pose, uint32_t handle_count, const uint32_t* handles, double following);
 
 /* Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. handles:
@@ -238,11 +238,10 @@ typedef struct hf_deform_info {
 } hf_deform_info;
 
 /* Solves the pose and writes every vertex. out_positions: float[vertex_count][3], packed, in the unit and frame of the
- * mesh. Regions
- * of layer 0 land exactly where their transforms put them. Regions of higher layers add their edits to the surface of
- * the lower layers. Identity transforms give the rest positions. Repeated calls start from the last pose and allocate
- * nothing, as dragging needs. out_info: NULL, or a struct. Errors: HF_ERROR_EMPTY (no handle). Thread safety: changes
- * `pose`. Since 0.1. */
+ * mesh. Regions of layer 0 land exactly where their transforms put them. Regions of higher layers add their edits to
+ * the surface of the lower layers. Identity transforms give the rest positions. Repeated calls start from the last pose
+ * and allocate nothing, as dragging needs. out_info: NULL, or a struct. Errors: HF_ERROR_EMPTY (no handle). Thread
+ * safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_deform(hf_pose pose, float* out_positions, hf_deform_info* out_info);
 
 /* The options of hf_pose_deform are outputs and a range of vertices. Set at least one output. */
@@ -301,7 +300,7 @@ typedef struct hf_skin_info {
   uint32_t joint_capacity;  /* in: joints the arrays can take */
   uint32_t vertex_capacity; /* in: vertices the arrays can take */
   uint32_t influence_count; /* in: joints per vertex, 4 or 8; 0 = 4 */
-  uint32_t joint_count;     /* out: joints, one per cluster of vertices */
+  uint32_t joint_count;     /* out: joints, one per cluster of vertices and per rigid piece of a transfer */
   uint32_t vertex_count;    /* out */
   double* pivots;           /* [joint_capacity][3] rest centroid of what each joint moves */
   double* rotations;        /* [joint_capacity][4] quaternion x, y, z, w of the last frame */
@@ -326,59 +325,67 @@ HF_API hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
 
 /* ---- on a GPU ----
  *
- * A pose blends the transforms of clusters by fixed weights, so a shader can compute the vertices of a frame. A vertex
- * with the rest position p goes to the sum of w A (p, 1) over its row, plus offset_share times its offset. A row lists
- * clusters with their weights w; A is the transform of a cluster. The row is fixed, the transform is that of the frame.
- * Rest positions, transforms and posed positions are relative to `centre`, so floats keep their digits far from 0.
+ * A pose blends the transforms of clusters by fixed weights, so a shader can compute the vertices of a frame. Each
+ * vertex has a row of entries. An entry names a cluster, with a weight w and the gradient g of that weight. Rows stay
+ * the same until `revision` changes. Each frame has a new 3 x 4 transform A for every cluster. A vertex with the rest
+ * position p goes to the sum of w A (p, 1) over its row, plus offset_share times its offset. Rest positions, transforms
+ * and posed positions are relative to `centre`, so floats keep their digits far from 0.
  *
- * A vector u in the tangent plane at rest goes to J u, with J the sum of w L + (A (p, 1)) g^T over the row: L is the 3
- * x 3 part of A, g the gradient of the entry. The posed normal is J u x J v for two unit tangents with u x v the rest
- * normal; tangents of textures go to J u. J leaves the offsets out: while they fade, normals are some degrees off. */
+ * Let L be the 3 x 3 part of A, and J the sum of w L + (A (p, 1)) g^T over the row. A vector u in the tangent plane at
+ * rest goes to J u, as does the tangent of a texture. Take two unit tangents u and v whose cross product u x v is the
+ * rest normal. The posed normal has the direction J u x J v. J leaves the offsets out, so normals are some degrees off
+ * while offsets fade. */
 
-/* The blend of a pose in the last frame. */
+/* hf_pose_get_blend_info writes here how the last frame of a pose is blended. */
 typedef struct hf_blend_info {
   uint32_t struct_size;
-  uint32_t cluster_count; /* of hf_pose_get_blend_transforms */
+  uint32_t cluster_count; /* transforms that hf_pose_get_blend_transforms writes */
   uint32_t revision;      /* changes when rows or offsets change: call hf_pose_get_blend_rows again */
   uint32_t reserved;      /* 0 */
-  double offset_share; /* 0 to 1; 0 unless handles were added in place or rotations freed. It falls as handles move */
-  double centre[3];    /* positions are relative to this point */
+  double offset_share;    /* 0 to 1: share of its offset that a vertex gets. 0 unless handles were added in place or
+                             rotations freed; it falls as handles move */
+  double centre[3];       /* in the unit and frame of the mesh; positions are relative to this point */
 } hf_blend_info;
 
 /* Writes the info of a blend. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_UNSUPPORTED (higher layers, rigid pieces or
  * limb_refine: the surface is no blend), HF_ERROR_TOO_LARGE (for floats). Thread safety: reads `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_blend_info(hf_pose pose, hf_blend_info* out_info);
 
-/* Receives the rows of a blend. The arrays are yours; each may be NULL. */
+/* Receives the rows of a blend. The arrays are yours; each may be NULL. Positions and offsets are in the unit of the
+ * mesh, gradients per unit of the mesh. */
 typedef struct hf_blend_rows {
   uint32_t struct_size;
   uint32_t vertex_capacity; /* in: vertices the arrays can take */
   uint32_t entry_capacity;  /* in: entries the arrays can take */
-  uint32_t vertex_count;    /* out */
-  uint32_t entry_count;     /* out */
+  uint32_t vertex_count;    /* out: as given to the surface */
+  uint32_t entry_count;     /* out: entries of all rows together */
   uint32_t longest_row;     /* out: entries of the vertex that has the most */
   uint32_t* rows;           /* [vertex_capacity][2] number of the first entry of the vertex, and count of its entries */
-  uint16_t* clusters;       /* [entry_capacity] */
-  float* weights;           /* [entry_capacity] multiples of 2^-24; those of a vertex sum to 1 */
+  uint16_t* clusters;       /* [entry_capacity] each below the count of clusters */
+  float* weights;           /* [entry_capacity] multiples of 2^-24; the weights of a vertex sum to 1 */
   float* gradients;         /* [entry_capacity][3] of the weights along the rest surface, for normals */
-  float* positions;         /* [vertex_capacity][3] at rest */
+  float* positions;         /* [vertex_capacity][3] at rest, relative to centre */
   float* normals;           /* [vertex_capacity][3] unit, at rest */
-  float* offsets;           /* [vertex_capacity][3] */
+  float* offsets;           /* [vertex_capacity][3] 0 unless handles were added in place or rotations freed */
 } hf_blend_rows;
 
-/* Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last cluster that
- * never moves holds them. Errors: as hf_pose_get_blend_info. Thread safety: reads `pose`. Since 0.1. */
+/* Writes the arrays that a shader needs once for each `revision`. Call it without arrays for the counts, then with
+ * arrays. If handles do not reach some vertices, a last cluster that never moves holds those vertices. Errors: as
+ * hf_pose_get_blend_info, HF_ERROR_TOO_LARGE (too many entries). Thread safety: reads `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_blend_rows(hf_pose pose, hf_blend_rows* inout_rows);
 
-/* Solves the pose as hf_pose_deform does, and writes no vertex: the work of a frame whose vertices a shader computes.
- * iteration_count: 1 to 1000; 0 = the pose's. restart: 1: as in hf_deform_desc. out_info: NULL, or a struct. Errors:
- * HF_ERROR_EMPTY (no handle), HF_ERROR_INVALID_ARGUMENT. Thread safety: changes `pose`. Since 0.1. */
+/* Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
+ * hf_pose_deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
+ * hf_deform. iteration_count: 1 to 1000; 0 = as in hf_pose_desc. restart: 1: as in hf_deform_desc. out_info: NULL, or a
+ * struct. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_INVALID_ARGUMENT (iteration_count, restart). Thread safety:
+ * changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_solve(hf_pose pose, uint32_t iteration_count, int32_t restart, hf_deform_info* out_info);
 
-/* Writes the transforms of the clusters in the last hf_pose_solve or hf_deform, without its refine. Before the first,
- * and after handles were added or removed, they are identities. The call allocates nothing. out_transforms: NULL, or
- * float[capacity][12], 3 x 4 matrices row by row. out_count: NULL, or receives cluster_count. Errors: as
- * hf_pose_get_blend_info. Thread safety: reads `pose`. Since 0.1. */
+/* Writes the transforms of the clusters in the last hf_pose_solve or hf_deform, without its refine. Before the first
+ * solve they are identities. After handles were added or removed, solve before you read them: they may be identities
+ * until then. The call allocates nothing. out_transforms: NULL, or float[capacity][12], 3 x 4 matrices row by row.
+ * out_count: NULL, or receives cluster_count. Errors: as hf_pose_get_blend_info. Thread safety: reads `pose`. Since
+ * 0.1. */
 HF_API hf_result hf_pose_get_blend_transforms(hf_pose pose, uint32_t capacity, float* out_transforms,
                                               uint32_t* out_count);
 
@@ -389,8 +396,8 @@ enum hf_handle_reason {
   HF_HANDLE_REASON_FOOT = 0,  /* stands on the ground: the surface rises from it along a leg */
   HF_HANDLE_REASON_TIP = 1,   /* a protruding part ends there: head, tail, hand, horn (hf_surface_find_extremities) */
   HF_HANDLE_REASON_END = 2,   /* one of the two ends of a component without feet or tips */
-  HF_HANDLE_REASON_JOINT = 3, /* a joint of the given skeleton: an end, or where it branches; a head or a hand that is
-                                 no tip of the surface */
+  HF_HANDLE_REASON_JOINT = 3, /* a joint of the given skeleton: an end, or where it branches. Or a head, hand or foot
+                                 that is no tip of the surface */
   HF_HANDLE_REASON_MIDDLE = 4 /* the trunk of the largest component: the chest of a biped; pinned, inside the surface */
 };
 
@@ -399,29 +406,30 @@ typedef struct hf_handle_proposals_desc {
   uint32_t joint_count;      /* joints of a skeleton that the mesh has already, up to 65,536; 0 = none */
   const double* joints;      /* [joint_count][3] their places at rest, in the unit and frame of the mesh */
   const uint32_t* parents;   /* [joint_count] position of each joint's parent in the list; HF_NO_INDEX for a root */
-  hf_skeleton skeleton;      /* NULL, or the character of the mesh, instead of joints and parents: it rests in the unit
-                                and frame of the mesh. Its skin, if it has one, has the vertices of the mesh */
-  double up[3];              /* direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0 */
+  hf_skeleton skeleton;      /* NULL, or the skeleton of the mesh, instead of joints and parents. It rests in the unit
+                                and frame of the mesh. If it has a skin, the skin has the vertices of the mesh */
+  double up[3];              /* direction away from the ground, of any length; 0 0 0 = up of the skeleton where it is
+                                known, else 0 1 0 */
   double least_length_share; /* as in hf_extremities_desc; 0 = 0.05 */
   uint32_t limit;            /* most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32 */
   uint32_t reserved;         /* 0 */
   hf_progress progress;      /* NULL, or an object to poll and cancel through */
-  uint32_t* out_regions;     /* NULL, or [vertex_count]: for each vertex the number of the proposal whose region it is
-                                in, HF_NO_INDEX for a vertex in none */
+  uint32_t* out_regions;     /* NULL, or [vertex_count]: position in the list of the proposal whose region has the
+                                vertex; HF_NO_INDEX for a vertex of no region */
 } hf_handle_proposals_desc;
 
-/* One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint. With a
- * skeleton whose roles are known, the region in out_regions is all that a head, a hand or a foot moves. The region of
- * position and radius is then a part of that. */
+/* One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint. If a
+ * skeleton with known roles is given, out_regions has all vertices of a head, a hand or a foot. The region of position
+ * and radius is then a part of these vertices. */
 typedef struct hf_handle_proposal {
   uint32_t vertex;    /* nearest to the position; as given, of welded copies the first */
   uint32_t component; /* as hf_surface_get_components */
   int32_t reason;     /* HF_HANDLE_REASON_* */
   int32_t pinned;     /* 1: add it at once, it holds the body; 0: offer it, and add it when it is dragged */
-  uint32_t joint;     /* with a skin: the first joint of a whole head, hand or foot, else the lowest joint that moves
-                         most of the region, together with the joints below it. Without a skin: the end joint nearby, or
-                         the joint proposed. HF_NO_INDEX = none */
-  int32_t role;       /* HF_ROLE_* that has most of the weights in the region. A sword has the role of the hand */
+  uint32_t joint;     /* with a skin: the first joint of a head, hand or foot; for another region the lowest joint
+                         that moves more than half of it, together with the joints below. Without a skin: the end joint
+                         nearby, or the joint proposed. HF_NO_INDEX = none */
+  int32_t role;       /* HF_ROLE_* that has most of the weights in the region. A sword has the role of its hand */
   int32_t side;       /* HF_SIDE_* of the same joints */
   uint32_t reserved;  /* 0 */
   double position[3]; /* at rest, in the unit and frame of the mesh; inside the surface for a joint and the trunk */
@@ -435,13 +443,13 @@ typedef struct hf_handle_proposal {
  * vertices. They follow translation and scale. desc: NULL for defaults. out_proposals: NULL, or
  * hf_handle_proposal[capacity]. out_count: NULL, or receives the number of proposals.
  *
- * A skeleton gives each proposal the joint that moves it, and a role and a side. If its roles are known, feet and the
- * trunk hold. Hands, heads and tails do not hold, nor does what hangs on them. Each head, hand, foot, tail, ear and
- * wing gets one proposal. A part that no joint of the skin moves, such as the box of a control, gets none. Cost: as
- * hf_surface_find_extremities, and some passes over the mesh. Errors: HF_ERROR_INVALID_ARGUMENT (least_length_share,
- * limit, joints without parents, joints and a skeleton, a skin of another mesh), HF_ERROR_NON_FINITE (up; index =
- * joint), HF_ERROR_OUT_OF_RANGE (a parent; index = joint), HF_ERROR_CANCELLED. Thread safety: reads `surface` and the
- * skeleton. Since 0.1. */
+ * A skeleton gives each proposal the joint that moves it, a role and a side. If its roles are known, feet and the trunk
+ * are pinned. Hands, heads, tails and pieces that hang on them, such as a sword, are not. Each head, hand, foot, tail,
+ * ear and wing gets at most one proposal. A part that no joint of the skin moves, such as the box of a control, gets
+ * none. Cost: as hf_surface_find_extremities, and some passes over the mesh. Errors: HF_ERROR_INVALID_ARGUMENT
+ * (least_length_share, limit, joints without parents, joints and a skeleton, a skin of another mesh),
+ * HF_ERROR_NON_FINITE (up; index = joint), HF_ERROR_OUT_OF_RANGE (a parent; index = joint), HF_ERROR_CANCELLED. Thread
+ * safety: reads `surface` and the skeleton. Since 0.1. */
 HF_API hf_result hf_surface_propose_handles(hf_surface surface, const hf_handle_proposals_desc* desc, uint32_t capacity,
                                             hf_handle_proposal* out_proposals, uint32_t* out_count);
 

@@ -31,7 +31,7 @@ typedef struct hf_region_desc {
   uint32_t struct_size;
   int32_t base;         /* HF_BASE_*. If the surface has no factor for it yet, it is made now */
   hf_array positions;   /* NULL, or [vertex_count][3] of float or double: positions of the mesh or of a pose. A morph of
-                           weight 0 writes their bits. NULL: the positions of the mesh, to 1e-15 of the box. The
+                           weight 0 writes the same bits. NULL: the positions of the mesh, to 1e-15 of the box. The
                            call copies the array */
   hf_progress progress; /* NULL, or an object to poll and cancel through */
 } hf_region_desc;

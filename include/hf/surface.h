@@ -341,7 +341,7 @@ typedef struct hf_gaps_info {
   uint32_t link_count;
   double percentile_95;    /* 95 of 100 links opened no more than this; 0 without links */
   double worst;            /* the widest gap of a link; 0 without links */
-  uint32_t worst_link;     /* its number in hf_surface_get_links; HF_NO_INDEX without links */
+  uint32_t worst_link;     /* position in hf_surface_get_links of the link with that gap; HF_NO_INDEX without links */
   uint32_t contact_count;  /* as in hf_links_info; the fields above leave contacts out */
   double worst_contact;    /* the widest gap of a contact; 0 without contacts */
   uint32_t contact_vertex; /* a vertex of that contact, as given; HF_NO_INDEX without contacts */
@@ -428,7 +428,7 @@ typedef struct hf_hit {
   uint32_t triangle;  /* or face, as given */
   uint32_t vertex;    /* its corner nearest to the hit, as given, of welded copies the first */
   hf_place place;     /* the point hit: corners of the triangle (the first of welded copies) and their barycentrics.
-                         In a face of more corners: the three corners of the triangle of its cut that the ray hits */
+                         A face of more corners is cut into triangles; these are the corners of the triangle hit */
   double position[3]; /* in the unit of the positions */
   double distance;    /* from the origin, in lengths of `direction` */
 } hf_hit;
@@ -443,10 +443,10 @@ HF_API hf_result hf_surface_cast_ray(hf_surface surface, const double* origin, c
                                      const hf_pick_desc* desc, hf_hit* out_hit);
 
 /* Finds the vertex nearest to a point. point: double[3] in the frame of the positions. desc: NULL for the rest
- * positions. The call ignores isolated vertices. Among several at one distance, such as welded copies,
- * the lowest index counts. out_vertex: receives the vertex. out_distance: NULL, or receives the distance. Cost: a pass
- * over the vertices. Errors: HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (1e15 boxes). Thread safety:
- * reads `surface`. Since 0.1. */
+ * positions. The call ignores isolated vertices. Among several at one distance, such as welded copies, the lowest index
+ * counts. out_vertex: receives the vertex. out_distance: NULL, or receives the distance. Cost: a pass over the
+ * vertices. Errors: HF_ERROR_NON_FINITE (index = vertex), HF_ERROR_TOO_LARGE (1e15 boxes). Thread safety: reads
+ * `surface`. Since 0.1. */
 HF_API hf_result hf_surface_find_vertex(hf_surface surface, const double* point, const hf_pick_desc* desc,
                                         uint32_t* out_vertex, double* out_distance);
 

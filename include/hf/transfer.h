@@ -145,7 +145,7 @@ typedef struct hf_transfer_statistics {
 /* Writes the statistics of a transfer. Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_statistics(hf_transfer transfer, hf_transfer_statistics* out_statistics);
 
-/* What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the
+/* Dials that an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the
  * result is continuous in each dial. */
 typedef struct hf_transfer_dials {
   uint32_t struct_size;
@@ -175,12 +175,12 @@ HF_API hf_result hf_transfer_get_dials(hf_transfer transfer, hf_transfer_dials* 
 
 /* Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh. vertices:
  * uint32_t[vertex_count], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
- * replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best, as
- * hf_pose_set_rigid_pieces does. This comes last in a frame: a hold on a part of a rigid piece may miss its place, and
- * a rigid piece may sink into the ground. The pieces move from the next frame on. Does not
- * factorise. Errors: HF_ERROR_OUT_OF_RANGE and
- * HF_ERROR_INVALID_ARGUMENT (isolated vertex; index = position), HF_ERROR_TOO_LARGE. Thread safety: changes `transfer`.
- * Since 0.1. */
+ * replaces the previous list and applies from the next frame on. The call does not factorise.
+ *
+ * Each frame moves a rigid piece by the rigid motion that fits the piece best, as hf_pose_set_rigid_pieces does. This
+ * fit is the last step of a frame. So a hold on a part of a rigid piece may miss its position, and a rigid piece may
+ * sink into the ground. Errors: HF_ERROR_OUT_OF_RANGE and HF_ERROR_INVALID_ARGUMENT (isolated vertex; index =
+ * position), HF_ERROR_TOO_LARGE. Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_set_rigid_pieces(hf_transfer transfer, uint32_t vertex_count, const uint32_t* vertices);
 
 /* Describes one frame: the input is the posed source, the output the posed target. Set at least one output. */
@@ -201,31 +201,31 @@ typedef struct hf_transfer_frame {
  *
  * The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone. Removed
  * pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The result changes as
- * little as the source does: a source that stands still, but for noise, gives a target that stands still.
+ * little as the source does: a source that stands still except for noise gives a target that stands still.
  *
  * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region follows the
  * path of the source's region). While a foot of the source stands on the ground, the target's foot follows its scaled
- * path exactly. No part of the target sinks deeper into the ground than the source, scaled, but for those of
- * hf_transfer_get_sinking. What would sink bends up. The ground does not move regions that you hold. A lying target
- * rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules of the
- * ground come in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair), HF_ERROR_NON_FINITE
- * or HF_ERROR_TOO_LARGE (index = source vertex, or position in the holds; 1e15 boxes away), HF_ERROR_TOO_LARGE (holds),
- * HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_UNSUPPORTED (holds with
- * HF_TRANSFER_STRETCH). Thread safety: changes `transfer`. Since 0.1. */
+ * path exactly. No vertex of the target sinks deeper into the ground than the source, scaled, except the vertices
+ * of hf_transfer_get_sinking. A part that would sink bends up. The ground does not move regions that you hold. A lying
+ * target rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged. All rules
+ * of the ground come in continuously. HF_GROUND_OFF switches them off. Errors: HF_ERROR_EMPTY (no pair),
+ * HF_ERROR_NON_FINITE or HF_ERROR_TOO_LARGE (index = source vertex, or position in the holds; 1e15 boxes away),
+ * HF_ERROR_TOO_LARGE (holds), HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (a pair held twice), HF_ERROR_UNSUPPORTED
+ * (holds with HF_TRANSFER_STRETCH). Thread safety: changes `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_apply(hf_transfer transfer, const hf_transfer_frame* frame);
 
 /* Writes which target vertices may sink into the ground. out_sinking: uint8_t[target.vertex_count], 1: it may sink.
  * These are limbs flagged HF_PAIR_SINKS, tails (HF_PAIR_TAIL) where they are thin, and thin parts that no pair moves:
  * antlers, ears, a held weapon. Thin is less than 4 % of the bounding box through. Legs (HF_PAIR_FOOT) never sink by
- * themselves, nor does what is thin around an anchor, a contact or the trunk, but for loose pieces without a pair. The
- * first call after a change of pairs solves fields. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads `transfer`.
- * Since 0.1. */
+ * themselves. Thin parts around an anchor, a contact or the trunk do not sink either, except loose pieces without a
+ * pair. The first call after a change of pairs solves fields. Errors: HF_ERROR_EMPTY (no pair). Thread safety: reads
+ * `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_sinking(hf_transfer transfer, uint8_t* out_sinking);
 
 /* Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin replays
- * hf_transfer_apply exactly, because that function also uses the four largest weights. A rigid piece is one joint;
- * these joints come last. Errors: HF_ERROR_INVALID_ARGUMENT (influence_count), HF_ERROR_EMPTY (no pair),
- * HF_ERROR_UNSUPPORTED (HF_TRANSFER_STRETCH). Thread safety: reads `transfer`. Since 0.1. */
+ * hf_transfer_apply exactly, because that function also uses the four largest weights. Each rigid piece is one
+ * joint. These joints come after the joints of clusters. Errors: HF_ERROR_INVALID_ARGUMENT (influence_count),
+ * HF_ERROR_EMPTY (no pair), HF_ERROR_UNSUPPORTED (HF_TRANSFER_STRETCH). Thread safety: reads `transfer`. Since 0.1. */
 HF_API hf_result hf_transfer_get_skin(hf_transfer transfer, hf_skin_info* inout_skin);
 
 #ifdef __cplusplus

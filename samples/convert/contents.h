@@ -1,4 +1,5 @@
-// What a file holds, and which formats can hold it: hf_convert tells from it what a conversion keeps and what it loses.
+// Lists the contents of a file, each with the formats that can hold it. hf_convert prints from this list the contents
+// that a conversion keeps and loses.
 #ifndef HF_SAMPLES_CONVERT_CONTENTS_H
 #define HF_SAMPLES_CONVERT_CONTENTS_H
 
@@ -14,8 +15,8 @@ enum Format : unsigned { to_gltf = 1, to_obj = 2, to_off = 4, to_ply = 8, to_stl
 
 struct Content {
   size_t count;
-  const char *one, *many;  // in brackets: what becomes of it where it is lost. many: NULL if it is not counted
-  unsigned formats;        // that hold it
+  const char *one, *many;  // names of one and of several; brackets say how it is lost. many: NULL: no count is printed
+  unsigned formats;        // bits of the formats that can hold it
 };
 using Contents = std::vector<Content>;
 

@@ -1,4 +1,4 @@
-// Writes a model or a mesh in another format and says in one line what it kept and what it lost.
+// Writes a model or a mesh in another format, and lists in one line the contents that it kept and lost.
 #include <cstdio>
 #include <stdexcept>
 
@@ -13,11 +13,11 @@ namespace {
 
 const char usage[] =
     R"(usage: hf_convert IN OUT
-  Writes the model or mesh of IN in the format of OUT, and says in one line what it kept and what it lost.
+  Writes the model or mesh of IN in the format of OUT, and lists in one line the contents that it kept and lost.
   IN    .gltf .glb .vrm .obj .off .ply .stl; where the build has assimp also .fbx .dae .bvh
   OUT   .gltf .glb .vrm .obj .off .ply .stl, chosen by the ending
   A model keeps its nodes, skins, clips, morph targets and materials in .gltf and .glb. The other formats get its surface
-  at rest. A .vrm file can be made of a .vrm file alone, because it needs its humanoid and its licence.
+  at rest. A .vrm can be written only from a .vrm, because it needs a humanoid map and a licence.
   --help
 )";
 

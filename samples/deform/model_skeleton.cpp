@@ -1,4 +1,4 @@
-// See model_skeleton.h.
+// Makes an hf_skeleton from the nodes, skins and rigid meshes of a model.
 #include "deform/model_skeleton.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The skeleton of a model as the library takes it (hf/skeleton.h): nodes are joints, and a mesh without a skin moves
-// with its node.
+// Gives the skeleton of a model to the library (hf/skeleton.h). Nodes become joints; a mesh without a skin moves with
+// its node.
 #ifndef HF_SAMPLES_DEFORM_MODEL_SKELETON_H
 #define HF_SAMPLES_DEFORM_MODEL_SKELETON_H
 

@@ -1,4 +1,4 @@
-// A hundred characters of one body, each with a pose of its own, posed by all threads of the machine in every frame.
+// Poses a hundred characters that share one surface, on all threads of the machine. Each character has its own pose.
 #include <hf/hf.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
 
   std::vector<Character> crowd(100);
   for (Character& character : crowd) {
-    ok(hf_pose_clone(first, &character.pose));  // shares what does not move with the first one
+    ok(hf_pose_clone(first, &character.pose));  // shares the fields and factors of the first pose
     character.positions.resize(3 * static_cast<size_t>(mesh.vertex_count));
   }
 
@@ -47,13 +47,13 @@ int main(int argc, char** argv) {
         ok(hf_deform(crowd[i].pose, crowd[i].positions.data(), nullptr));
       }
     };
-    std::vector<std::thread> others;  // an engine gives its own workers here; examples/jobs.cpp has a few
+    std::vector<std::thread> others;  // an engine uses its own workers here, as examples/jobs.cpp does
     for (unsigned t = 1; t < threads; ++t) others.emplace_back(work);
     work();
     for (std::thread& other : others) other.join();
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  std::printf("100 characters of %u vertices on %u threads: %.1f ms a frame\n", mesh.vertex_count, threads,
+  std::printf("100 characters of %u vertices on %u threads: %.1f ms per frame\n", mesh.vertex_count, threads,
               1000 * seconds / frames);
 
   for (Character& character : crowd) hf_pose_destroy(character.pose);

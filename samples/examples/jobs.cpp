@@ -1,4 +1,4 @@
-// The library in an engine: it works on the engine's job system and lives in an arena of fixed size.
+// Gives the library the job system of an engine, and an arena of fixed size for all its memory.
 #include <hf/hf.h>
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace {
 
-// Some threads that wait for work. run() does all jobs of a list and returns when the last one is done.
+// Keeps threads that wait for work. run() does all jobs of a list and returns when the last job is done.
 class JobSystem {
  public:
   explicit JobSystem(unsigned threads) {
@@ -30,7 +30,7 @@ class JobSystem {
     for (std::thread& worker : workers_) worker.join();
   }
 
-  // The library may call this from several of your threads at once; here one list is done after the other.
+  // The library may call this from several of your threads at once. Here a list waits until the list before is done.
   static void run(void* self, uint32_t count, void (*job)(void*, uint32_t), void* data) {
     static_cast<JobSystem*>(self)->do_all(count, job, data);
   }
@@ -81,8 +81,8 @@ class JobSystem {
   bool over_ = false;
 };
 
-// One block of memory. Pieces have sizes of powers of two, and a released piece serves the next of its size. When the
-// arena is full, the call of the library fails with HF_ERROR_OUT_OF_MEMORY, and its objects are as before.
+// Cuts one block of memory into pieces whose sizes are powers of two. A released piece is used again for its size. When
+// the arena is full, the call of the library fails with HF_ERROR_OUT_OF_MEMORY and leaves its objects as they were.
 class Arena {
  public:
   explicit Arena(size_t bytes) : memory_(new unsigned char[bytes + largest_alignment]), end_(bytes) {
@@ -145,7 +145,7 @@ int main(int argc, char** argv) {
   hf_surface_desc desc = HF_INIT(hf_surface_desc);
   desc.positions = HF_ARRAY(mesh.positions, mesh.vertex_count);
   desc.triangles = HF_ARRAY(mesh.triangles, mesh.triangle_count);
-  desc.thread_count = 4;  // how many jobs the library makes of a call, at most
+  desc.thread_count = 4;  // the library divides a call into at most this many jobs
   desc.job_runner.run = JobSystem::run;
   desc.job_runner.user = &jobs;
   desc.allocator.allocate = Arena::allocate;

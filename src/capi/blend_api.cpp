@@ -1,4 +1,4 @@
-// Implements the blend of hf/pose.h: what a shader needs to compute the vertices of a pose.
+// Implements the functions of hf/pose.h that give a pose to a shader: info, rows and transforms of the blend.
 #include <algorithm>
 #include <limits>
 
@@ -14,16 +14,17 @@ namespace {
 const Pose& blended_pose(const PoseStack& stack) {
   if (stack.has_layers())
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "the pose has handles on higher layers; the surface they make is not a blend of clusters, use hf_deform");
+         "the pose has handles on higher layers, so its surface is not a blend of clusters; use hf_deform");
   if (stack.needs_surface())
     fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-         "the pose has rigid pieces or limbs with steps; that surface is not a blend of clusters, use hf_deform");
+         "the pose has rigid pieces or handles with limb_refine, so its surface is not a blend of clusters; use "
+         "hf_deform");
   if (stack.handle_count() == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
   require_float_positions(stack.core().mesh);
   return stack.base();
 }
 
-// The clusters and, if some vertices have no handle, one that never moves.
+// Returns the count of clusters. If some vertices have no handle, a last cluster that never moves is counted too.
 std::uint32_t blend_clusters(const Pose& pose) noexcept {
   const ClusterWeights& weights = *pose.weights();
   const bool still = weights.unreached_vertex_count > 0 || !pose.core().mesh.isolated.empty();
@@ -62,7 +63,7 @@ void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
     entries += length(inner);
   });
   if (entries > std::numeric_limits<std::uint32_t>::max())
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the blend has more entries than 32 bits count; use fewer handles");
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the blend has more entries than a 32-bit count holds; use fewer handles");
   out.vertex_count = mesh.report.vertex_count;
   out.entry_count = static_cast<std::uint32_t>(entries);
   write_struct(inout, out);
@@ -120,7 +121,7 @@ void write_blend_transforms(const Pose& pose, float* out) noexcept {
     const bool still = !pose.posed() || c >= static_cast<std::uint32_t>(pose.weights()->cluster_count);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 4; ++j) {
-        const double unit = j == 3 ? pose.core().mesh.scale : 1;  // of translations
+        const double unit = j == 3 ? pose.core().mesh.scale : 1;  // translations are in the unit of the mesh
         *out++ = static_cast<float>(still ? (i == j) : unit * moved[c].a[i][j]);
       }
     }

@@ -313,17 +313,17 @@ constexpr std::size_t least_region = 6;
 // How much follows a proposed handle that is dragged. A hand pulled up by a quarter of the box moves the head of 15
 // bipeds that stand on their feet by at most 0.02 of it; with 1 by up to 0.43.
 constexpr double tip_following = 0.25;
-// Roles are known with this confidence; below, they are guesses.
+// Roles of at least this confidence count as known. Below it they are guesses.
 constexpr double sure_roles = 0.5;
-// A vertex is of a head, a hand or a foot that has more than this share of its weight. More leaves horns out whose
-// weights are smooth, less takes in the neck.
+// A vertex belongs to a head, a hand or a foot that has more than this share of its weight. A larger share leaves out
+// horns of smooth weights, a smaller share takes in the neck.
 constexpr double part_share = 0.5;
 // A trunk that rises by this cosine is upright: 53 degrees. Its hands do not stand.
 constexpr double upright_trunk = 0.6;
-// A larger part of the surface is no head, hand or foot, but a body that has one joint.
+// A part with a larger share of the surface is no head, hand or foot, but a body with one joint.
 constexpr double most_part_share = 0.8;
-// Edges between a head and the trunk that holds. With none a head without a neck leaves its body; more leave small
-// trunks nothing to hold.
+// Edges between a head and the pinned trunk. With 0 a head without a neck tears off its body. With more a small trunk
+// has no vertices left.
 constexpr int free_rings = 2;
 // Vertices: a smaller part is too coarse for a region of its own.
 constexpr std::size_t least_part = 3;

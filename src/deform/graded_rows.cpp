@@ -61,7 +61,7 @@ double add_triangle(const Mesh& mesh, const ClusterWeights& weights, std::int32_
   const double length = norm(area);
   if (!(length > 0)) return 0;
   for (int j = 0; j < 3; ++j) {
-    // of the function that is 1 at corner j
+    // gradient of the linear function that is 1 at corner j and 0 at the others
     const Vec3 gradient = (1 / length) * cross(area, p[(j + 2) % 3] - p[(j + 1) % 3]);
     for (std::int32_t k = weights.start[corner[j]]; k < weights.start[corner[j] + 1]; ++k)
       sums.add(weights.cluster[k], static_cast<double>(weights.weight[k]) * gradient);
@@ -86,7 +86,7 @@ GradedRows graded_rows(const Mesh& mesh, const ClusterWeights& weights, Memory& 
     const double unit = twice_area > 0 ? 1 / twice_area : 0;
     double largest = 0;
     for (const Vec3& sum : sums.sums()) largest = std::max(largest, norm(sum));
-    Vec3 left;  // what small ones had goes to those of the vertex
+    Vec3 left;  // sum of the gradients left out; the clusters of the vertex get it, so that all still sum to 0
     const std::size_t own = static_cast<std::size_t>(last - first);
     for (std::size_t i = 0; i < sums.sums().size(); ++i) {
       const Vec3 sum = sums.sums()[i];

@@ -87,7 +87,8 @@ void MovedParts::for_joints(std::int32_t v, Visit&& visit) const {
 
 bool MovedParts::knows_roles() const noexcept { return known_.character.role_confidence >= sure_roles; }
 
-// What hangs on the trunk is a limb of its own, so it has no role.
+// A joint without a role takes the role of its parent. But a joint that hangs on the trunk begins a limb of its own, so
+// it keeps no role.
 void MovedParts::read_roles() {
   const Character& character = known_.character;
   role_ = character.roles;
@@ -104,8 +105,8 @@ void MovedParts::read_roles() {
   }
 }
 
-// Chains of one part follow each other: a jaw hangs on a head. Fingers without a hand are one part. A single joint
-// without a role on a head, a brow for example, is of the head; a row of them is hair.
+// A chain joins the part of the chain that it hangs on: a jaw joins a head. Fingers without a hand are one part. A
+// single joint without a role on a head, such as a brow, belongs to the head; a row of such joints is hair.
 void MovedParts::read_chains() {
   const Character& character = known_.character;
   const Vector<Chain>& chains = character.chains;
@@ -139,8 +140,8 @@ void MovedParts::read_chains() {
   }
 }
 
-// A joint that no skin names, with none that a skin names above it, is a control. A mesh whose larger part hangs on
-// such nodes is moved by them.
+// A joint is a control if no skin names it or a joint above it. If controls move more than half of a mesh, they count
+// as its joints.
 void MovedParts::find_unmoved() {
   const std::size_t size = at(core_.size());
   unmoved_.assign(size, 0);

@@ -1,13 +1,12 @@
-// What the skin of a character says about regions of a mesh: the joint that moves most of a region, the role of that
-// joint, and the rigid part that the region belongs to.
+// Finds the joint, the role and the part of a region of the mesh, from the skin of a character.
 //
-// A joint moves what it moves itself and what the joints below it move. The lowest joint that moves more than half of a
-// region is the joint of the region: a hand, not one of its fingers. The role of a region is the one that has most of
-// its weights. A joint without a role has that of the limb it hangs on.
+// A joint also moves the vertices that the joints below it move. The joint of a region is the lowest joint that moves
+// more than half of it: a hand, not one of its fingers. The role of a region is the role that has most of its weights.
+// A joint without a role takes the role of the limb it hangs on.
 //
 // A part is a head with jaw and eyes, a hand with its fingers, or a foot with its toes. A vertex belongs to the part
-// that has more than half of its weight. The trunk that holds becomes a part too. Cost: a pass over the weights; a pass
-// over the joints for each region.
+// that has more than half of its weight. The pinned trunk becomes a part too (add_trunk). Cost: a pass over the weights
+// when it is made; a pass over the joints for each region. Throws only if memory runs out.
 #pragma once
 #include <cstdint>
 
@@ -26,10 +25,10 @@ struct BodyRole {
 
 class MovedParts {
  public:
-  // known: if it has a skin, that has the vertices of the mesh as given. It outlives this object.
+  // If the skeleton has a skin, the skin has the vertices of the mesh as given. Both arguments outlive this object.
   MovedParts(const Core& core, const KnownSkeleton& known);
 
-  // Whether roles are known well enough to decide what holds.
+  // Whether roles are known well enough to decide which handles are pinned.
   bool knows_roles() const noexcept;
   // Returns no_joint where no joint moves more than half of the region.
   std::uint32_t joint_of(Span<const std::int32_t> region);
@@ -37,20 +36,22 @@ class MovedParts {
   BodyRole role_of(std::uint32_t joint) const noexcept {
     return joint == no_joint ? BodyRole() : BodyRole{role_[joint], side_[joint]};
   }
-  // The role and side that have most of the weights in a region.
+  // Returns the role and side that have most of the weights in a region.
   BodyRole main_role_of(Span<const std::int32_t> region) const noexcept;
-  // Whether what has this role moves freely: an arm, a head, a tail. The hands of a body that is not upright may stand.
+  // Whether a limb of this role moves freely: an arm, a head, a tail. stands: the limb is on the ground; arms of a body
+  // that is not upright may then be front legs, and do not move freely.
   bool hangs_free(Role role, bool stands) const noexcept;
   // The chain (skeleton/character.h) of a joint, or of the joint it hangs on; -1: none.
   std::int32_t chain_of(std::uint32_t joint) const noexcept { return joint == no_joint ? -1 : chain_[joint]; }
-  // Whether a chain goes on in a foot.
+  // Whether a foot hangs on a chain.
   bool has_foot(std::int32_t chain) const noexcept { return chain >= 0 && has_foot_[static_cast<std::size_t>(chain)]; }
   // Whether no joint of the skin moves most of a region: the box of a control.
   bool is_unmoved(Span<const std::int32_t> region) const noexcept;
+  // Whether the mesh has vertices that no joint of the skin moves.
   bool has_unmoved() const noexcept { return has_unmoved_; }
 
   std::size_t part_count() const noexcept { return part_role_.size(); }
-  // The part that has most vertices of a region, or -1.
+  // The part that has more than half of the vertices of a region, or -1.
   std::int32_t part_of(Span<const std::int32_t> region) const;
   Span<const std::int32_t> vertices_of(std::size_t part) const noexcept {
     return {vertex_.data() + start_[part], static_cast<std::size_t>(start_[part + 1] - start_[part])};
@@ -58,10 +59,10 @@ class MovedParts {
   BodyRole role_of_part(std::size_t part) const noexcept { return {part_role_[part], side_[part_joint_[part]]}; }
   // The joint that the part begins with.
   std::uint32_t joint_of_part(std::size_t part) const noexcept { return part_joint_[part]; }
-  // Makes a part of ascending vertices that are of no part, and returns its number.
+  // Adds a part of the role spine and returns its number. vertices: ascending, in no part yet.
   std::int32_t add_trunk(Span<const std::int32_t> vertices);
-  // Whether the spine moves a vertex that is not beside a part: between a trunk that holds and a head, a neck stays
-  // free.
+  // Whether the spine moves a vertex, and no head, hand or foot is within free_rings edges or a link of it. So a neck
+  // between a pinned trunk and a head stays free.
   bool is_of_spine(std::int32_t vertex) const noexcept {
     return beside_[static_cast<std::size_t>(vertex)] == 0 && main_role_of({&vertex, 1}).role == Role::spine;
   }
@@ -93,7 +94,7 @@ class MovedParts {
   Vector<std::int32_t> vertex_part_;     // by inner vertex, or -1
   Vector<std::uint8_t> beside_;          // by inner vertex: 1 in a part, and free_rings edges or a link around it
   Vector<std::int32_t> start_, vertex_;  // vertices of part p: vertex_[start_[p] .. start_[p + 1])
-  Vector<double> moved_;                 // by joint, of the region at hand
+  Vector<double> moved_;                 // by joint: scratch of joint_of
 };
 
 }  // namespace hf_inner

@@ -220,8 +220,8 @@ class Proposer {
     found_.push_back(out);
   }
 
-  // What holds of the trunk is what the spine moves near its middle. A middle on a thigh or a neck goes to that of what
-  // the spine moves.
+  // Pins the vertices near the middle of the trunk that the spine moves. If the middle is on a thigh or a neck, it
+  // moves to the middle of the vertices that the spine moves.
   void place_trunk(MovedParts& parts) {
     const auto middle = std::find_if(found_.begin(), found_.end(),
                                      [](const Candidate& other) { return other.reason == HandleReason::middle; });

@@ -23,7 +23,7 @@ struct CharacterArrays {
   bool declared = false;  // the file or the caller says what some joints are
   bool faces = false;     // the file says where forward is
 
-  // Vertices that are loose in the mesh are left out. pose: the pose of the mesh's positions.
+  // Leaves loose vertices of the mesh out. pose: the pose in which the positions of the mesh are.
   CharacterArrays(const Model& model, const FlatMesh& mesh, const Pose& pose);
   CharacterArrays(const Model& model, const FlatMesh& mesh) : CharacterArrays(model, mesh, rest_pose(model)) {}
   CharacterArrays(const CharacterArrays&) = delete;

@@ -1,4 +1,4 @@
-// See named_chains.h.
+// Reads named chains from JSON, finds their joints by name and writes them into the models.
 #include "gltf/named_chains.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ bool is_in_the_middle(Role role) {
   return role == Role::spine || role == Role::neck || role == Role::head || role == Role::jaw || role == Role::tail;
 }
 
-// "left arm", "right leg 2", "tail": a side, a part and a number that tells chains of one part apart.
+// Reads a side, a part and perhaps a number: "left arm", "right leg 2", "tail". Returns false for any other name.
 bool read_name(NamedChain& chain) {
   std::istringstream words(chain.name);
   std::string word, number, more;
@@ -44,7 +44,7 @@ bool read_name(NamedChain& chain) {
 std::vector<std::string> read_joints(const JsonReader& json) {
   std::vector<std::string> out;
   for (size_t i = 0; i < json.size(); ++i) out.push_back(json.at(i).string());
-  if (out.empty()) json.fail("the chain has no joint");
+  if (out.empty()) json.fail("the chain has no joint; name one or more");
   return out;
 }
 
@@ -82,9 +82,9 @@ std::vector<NamedChain> read_chains(const JsonReader& json) {
           chain.name + "\"");
     for (const NamedChain& other : out)
       if (other.name == chain.name)
-        entry.at("name").fail("the name \"" + chain.name + "\" is taken by an earlier chain; put a number behind it");
+        entry.at("name").fail("the name \"" + chain.name + "\" is taken by an earlier chain; append a number");
     if (entry.has("both") && (entry.has("source") || entry.has("target")))
-      entry.fail("give \"both\", or \"source\" and \"target\"");
+      entry.fail("give \"both\", or \"source\" and \"target\", but not all");
     if (!entry.has("both") && !entry.has("source") && !entry.has("target"))
       entry.fail("give \"both\", \"source\" or \"target\": the joints of the chain");
     if (entry.has("both")) chain.source = chain.target = read_joints(entry.at("both"));

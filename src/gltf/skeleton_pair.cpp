@@ -1,4 +1,4 @@
-// See skeleton_pair.h.
+// Pairs two bodies by joints, plays clips of one on the other and measures how well the limbs agree.
 #include "gltf/skeleton_pair.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ int middle_of(const BodyLimb& limb, const BodyLimb& partner) {
 
 const char* side_word(Side side) { return side == Side::left ? "left " : side == Side::right ? "right " : ""; }
 
-// The chain of a joint as role, side and place among its like; null: it is of none.
+// Returns the chain of a joint; null: the joint is in no chain.
 const Chain* chain_of(const SkeletonBody& body, int node) {
   const std::int32_t chain = body.character->joint_chains[static_cast<size_t>(node)];
   return chain < 0 ? nullptr : &body.character->chains[static_cast<size_t>(chain)];
@@ -38,7 +38,7 @@ std::string chain_text(const Chain* chain) {
   return std::string(side_word(chain->side)) + role_name(chain->role) + " " + std::to_string(chain->number + 1);
 }
 
-// A chain that is named on both bodies must be one that pairs: the same part, side and place among its like.
+// A chain that is named on both bodies must pair with itself: the same part, side and number on both.
 void check_named(const SkeletonBody& a, const SkeletonBody& b) {
   if (!a.character || !b.character) return;
   const std::vector<SaidJoint>& others = b.side.model.said;
@@ -79,7 +79,8 @@ struct SkeletonPair::Inside {
   bool understood() const {
     return source.character && target.character && source.doubt.empty() && target.doubt.empty();
   }
-  // Limbs aside of the trunk that are of no known part. They may be arms; a body without them has none to move.
+  // Counts the limbs at the sides of the trunk whose part is not known. Each may be an arm that nothing leads. A body
+  // without such limbs has no arm to lead.
   size_t unknown_limbs() const {
     const Character& c = *target.character;
     return static_cast<size_t>(std::count_if(c.chains.begin(), c.chains.end(), [&](const Chain& chain) {

@@ -52,19 +52,19 @@ struct LimbFit {
   double mean = 0, worst = 0;
 };
 struct PoseFit {
-  std::vector<LimbFit> limbs;                 // those with a partner
+  std::vector<LimbFit> limbs;                 // limbs with a partner
   size_t compared = 0;                        // limbs with a bone whose both ends are joints
   double degrees = -1, worst = 0;             // mean over them, below 0: unknown; worst frame of the worst limb
   double trunk_degrees = 0, trunk_worst = 0;  // hips to neck, since rest
   size_t source_limbs = 0, target_limbs = 0;  // arms and legs
-  // Of these, as a share of the body that has more: those of the target that nothing leads, and those of the source for
-  // which the target has a limb whose part is not known.
+  // Arms and legs of the target that nothing leads, and arms and legs of the source without a partner for which the
+  // target has a limb of unknown part. A share of the arms and legs of the body that has more.
   double unmatched = 0;
 };
 
 class SkeletonPair {
  public:
-  // Throws std::runtime_error if a chain that the caller named on both is another part on each.
+  // Throws std::runtime_error if a chain that is named on both bodies has another part, side or number on each.
   SkeletonPair(const JointSide& source, const JointSide& target);
   ~SkeletonPair();
   // Why joints cannot lead, a sentence; empty: they can.

@@ -1,4 +1,4 @@
-// See stance.h.
+// Compares the pose of the nodes with the bound pose and with the poses at both ends of clips.
 #include "gltf/stance.h"
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace {
 // A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half would
 // refuse bodies that shift their weight to one leg; double would take a stride for a stance.
 constexpr double even = 0.08;
-// A leg whose lowest vertex is higher than this is in the air, a share of the height: twice what counts as standing.
+// A leg is in the air if its lowest vertex is higher than this share of the height. It is twice the height at which a
+// limb still counts as standing.
 constexpr double lifted = 0.12;
 // A file may hold hundreds of clips, and thousands of loose joints. Clips of one body begin alike, and joints of one
 // skin are bound alike. More cost time.
@@ -56,16 +57,16 @@ double unevenness(const Character& c) {
   return sum / count / c.height;
 }
 
-// Whether a body that is said to face somewhere is seen to face there.
+// Returns whether a body faces its declared direction, as far as its shape shows where it faces.
 bool faces_as_said(hf_inner::CharacterInput input, hf_inner::Memory& memory) {
-  constexpr double near = 0.7;  // a cosine: 45 degrees
+  constexpr double near = 0.7;  // a cosine, 45 degrees: beyond, another axis of the body is nearer
   const glm::dvec3 said(input.forward[0], input.forward[1], input.forward[2]);
   input.forward = nullptr;
   const Character c = know_character(input, memory);
   return c.forward_confidence < enough || glm::dot(vector_of(c.forward), said) >= near * glm::length(said);
 }
 
-// of_file: the pose is that of the file, which axes and the file's own words are about.
+// of_file: the pose is the pose of the file. Given axes and declarations of the file hold in that pose.
 Look look_at(const Model& model, const FlatMesh& mesh, const Pose& pose, const Axes* axes, bool of_file) {
   const CharacterArrays arrays(model, mesh, pose);
   auto input = arrays.input<hf_inner::CharacterInput>();

@@ -17,10 +17,9 @@ struct Stance {
   std::string from;     // "as bound", "as at the start of the clip \"idle\""
 };
 
-// Returns a pose of the file in which the body stands better: its joints mirror each other, its parts are understood.
-// It is the pose in which the skin was bound, else the pose at the start or the end of a clip. None: the pose of the
-// nodes is good enough, or no pose is better.
-// axes: given by the caller, or null.
+// Returns a pose of the file in which the body stands better: its joints mirror each other, its parts are understood,
+// its legs are on the ground. It is the pose in which the skin was bound, else the pose at the start or the end of a
+// clip. None: the pose of the nodes is good enough, or no pose is better. axes: given by the caller, or null.
 std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, const Axes* axes);
 
 // The mesh with its positions in a pose.

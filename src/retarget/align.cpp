@@ -37,7 +37,7 @@ Vec3 hinge_side(const Rig& rig, const Segments& chain, Vec3 line) noexcept {
 }
 
 // A knee that stands aside of its hinge's plane is the build of a body, not its pose: thighs of stout bodies run
-// outward to legs that are apart. So the target keeps what is its own aside of the plane.
+// outward to legs that are apart. So the target keeps its own distance from that plane.
 Vec3 wanted_knee(const Retargeter& r, const ChainPair& pair, Turn turn, Vec3 whole) noexcept {
   const Vec3 by = segment_place(r.source, pair.source, 1) - segment_place(r.source, pair.source, 0);
   const Vec3 knee = r.across * by;

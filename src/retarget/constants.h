@@ -47,8 +47,8 @@ constexpr double least_fold = 0.3;
 constexpr double most_drop = 0.25;
 // A knee keeps bending to the side of its rest by this share of the thigh.
 constexpr double knee_side = 0.1;
-// The angle is between the axis of a knee and the line from hip to ankle. The axis counts in full above the first sine
-// and not at all below the second: an axis along that line has no side.
+// Sines of the angle between the axis of a knee and the line from hip to ankle. The axis counts in full above the first
+// sine and not at all below the second: an axis along that line has no side.
 constexpr double side_seen = 0.5, side_unseen = 0.25;
 // Steps of a leg of three segments, and their damping as a share of its squared length. Eight steps meet a goal that is
 // a tenth of the leg away to a thousandth.

@@ -54,7 +54,7 @@ double follows_down(const Retargeter& r, FootPair& foot) {
   return 1 - smooth_step(0, free_lift, lift / leg.length);
 }
 
-// Where the leg stands before it is bent, and what the sole of the source does.
+// Reads where the leg is before it is bent, and how the sole of the source moves.
 void read_foot(const Retargeter& r, FootPair& foot, double seconds) {
   const RigLeg &by = r.source.legs[at(foot.source)], &leg = r.target.legs[at(foot.target)];
   read_sole(by, r.from, foot.source_now);
@@ -80,7 +80,7 @@ double highest_ankle(const Retargeter& r, const FootPair& foot, Vec3 turned) noe
   return dot(hip, r.target.up) - std::sqrt(least * least - aside * aside);
 }
 
-// Sets the goal of the ankle. A standing sole is as high as that of the source; one in the air is not lower.
+// Sets the goal of the ankle. A standing sole is as high as the sole of the source. A sole in the air is not lower.
 void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
   const Rig& rig = r.target;
   const RigLeg& leg = rig.legs[at(foot.target)];

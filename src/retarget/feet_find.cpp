@@ -14,7 +14,7 @@ Vec3 hip_to_foot(const Rig& rig, const RigLeg& leg) noexcept {
 // In the axes of the body: x to the left.
 Vec3 in_axes(const Rig& rig, Vec3 v) noexcept { return {dot(v, rig.left), dot(v, rig.up), dot(v, rig.forward)}; }
 
-// What the target's own stance adds: over the ground, and the same for left and right.
+// Returns the offset that the stance of the target adds: level, and mirrored between left and right.
 Vec3 stance_of(const Retargeter& r, std::size_t pair) {
   const auto difference = [&](const FootPair& foot) {
     return in_axes(r.target, hip_to_foot(r.target, r.target.legs[at(foot.target)]) -
@@ -40,8 +40,8 @@ Vec3 knee_side_of(const Rig& rig, const RigLeg& leg, Turn align) noexcept {
 
 }  // namespace
 
-// Legs pair from behind, each with one of its side. A leg without a foot has no goal: its boot tilts with the shin, so
-// that a knee that bends to lift the toes puts them deeper. It lifts the body instead.
+// Legs pair from behind, each with a leg of its side. A leg without a foot gets no goal. Its boot tilts with the shin,
+// so a knee that bends to lift the toes pushes them deeper. Such a leg lifts the body instead.
 void Retargeter::find_feet() {
   for (std::size_t t = 0; t < target.legs.size(); ++t) {
     const RigLeg& leg = target.legs[t];

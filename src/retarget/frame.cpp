@@ -90,7 +90,7 @@ void Retargeter::find_root() {
   }
 }
 
-// What takes the line from root to tip of a limb of the source from where its first bone turned it to where it is.
+// Returns the turn of the line from root to tip of a limb of the source, beyond the turn of its first bone.
 Turn Retargeter::line_turn(const Segments& limb) const {
   const std::size_t root = at(limb.joints[0]);
   const Vec3 was = source.tip_place(limb.tip, source.rest) - source.rest.place[root];
@@ -115,7 +115,7 @@ void Retargeter::turn_joints() {
   }
 }
 
-// The hips of the target, in the middle of its thighs, go where those of the source are.
+// Moves the hips of the target, in the middle of its thighs, to the scaled place of the hips of the source.
 void Retargeter::move_root() {
   mover_place = target.rest.place[at(target.mover)];
   target.place(wanted, mover_place, to);

@@ -1,4 +1,4 @@
-// Keeps trunk, neck, tail and hands over the ground. A part may sink as deep as that of the source does.
+// Keeps trunk, neck, tail and hands over the ground. A part may sink as deep as the same part of the source.
 #include <algorithm>
 #include <cmath>
 

@@ -40,8 +40,8 @@ std::size_t segment_end(const Segments& chain, std::size_t k) {
   return k + 1 < chain.count() ? at(chain.starts[k + 1]) : chain.joints.size();
 }
 
-// Where the joints of a segment stand along it, and its end, as shares of its length. A last piece whose end is not
-// known counts as long as the one before.
+// Returns the places of the joints along a segment, then the place of its end, as shares of its length. If the end of
+// the last piece is not known, the piece counts as long as the piece before.
 Vector<double> piece_places(const Rig& rig, const Segments& chain, std::size_t k, Memory& memory) {
   const std::size_t first = at(chain.starts[k]), end = segment_end(chain, k), joints = chain.joints.size();
   const auto place = [&](std::size_t i) {
@@ -58,7 +58,7 @@ Vector<double> piece_places(const Rig& rig, const Segments& chain, std::size_t k
   return places;
 }
 
-// Pieces of one bone: each follows the piece of the source in which its middle lies. A joint in the place where the
+// Makes each piece of a bone follow the piece of the source in which its middle lies. A joint in the place where the
 // bone ends, such as a control of the heel, is a piece of no length: nothing follows it.
 void follow_pieces(Matcher& m, const ChainPair& pair, std::size_t k) {
   const Vector<double> from = piece_places(m.r.source, pair.source, k, m.memory),
@@ -75,8 +75,8 @@ void follow_pieces(Matcher& m, const ChainPair& pair, std::size_t k) {
   }
 }
 
-// Chains of unequal length: the turn of a segment of the target is that of the source at the same share of arc length,
-// between the turns at the ends of its segments. What carries the chain turns at share 0.
+// Pairs chains of unequal length. A segment of the target turns as the source does at the same share of arc length,
+// between the turns at the ends of its segments. The joint that carries the chain has share 0.
 void follow_arcs(Matcher& m, const ChainPair& pair) {
   Vector<double> u(&m.memory), v(&m.memory);
   arc_shares(m.r.source, pair.source, u);
@@ -160,7 +160,7 @@ const Chain* next_of(const Character& c, const Chain& chain, Role role) {
 
 }  // namespace
 
-// Hands, feet and toes: what goes on from a limb.
+// Pairs the chains that continue a limb: hands, feet and toes.
 void Matcher::add_next(const Chain& a, const Chain& b, Role role, Turn align) {
   ChainPair pair(memory);
   pair.role = role;

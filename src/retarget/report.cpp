@@ -1,4 +1,4 @@
-// How far bones of limbs are off those of the source.
+// Measures how far bones of limbs point away from the bones of the source.
 #include <algorithm>
 
 #include "retarget/match.h"

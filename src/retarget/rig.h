@@ -83,7 +83,7 @@ struct Rig {
   void read_pose(const double* trs, Stance& stance) const;
   // Places joints whose turns are given: turns[j] is wanted where wanted[j] is not 0; others keep their rest.
   void place(const Vector<std::uint8_t>& wanted, Vec3 mover_place, Stance& stance) const;
-  // The rotation of a joint relative to its parent, from those of both.
+  // Returns the rotation of a joint relative to its parent, from the rotations of both.
   Turn local_turn(Index joint, const Stance& stance) const noexcept;
   // Where a tip is.
   Vec3 tip_place(const Tip& tip, const Stance& stance) const noexcept;
@@ -102,7 +102,8 @@ void find_trunk(Rig& rig, const Character& character);
 Segments cut_chain(const Rig& rig, const Character& character, const Chain& chain, Memory& memory);
 void find_legs(Rig& rig, const Character& character, Memory& memory);
 void find_soles(Rig& rig, const RetargetSide& side, Memory& memory);
-// Twice the way from each joint to the middle of the vertices that it moves most. Legs end where their ankles would be.
+// Sets `ends`: twice the way from each joint to the middle of the vertices that it moves most. A leg without a foot
+// ends where its ankle would be.
 void find_ends(Rig& rig, const RetargetSide& side, Memory& memory);
 // The outermost points that the joints marked in `part` own.
 Vector<SkinPoint> outer_points(const Rig& rig, const RetargetSide& side, const Vector<std::uint8_t>& part,

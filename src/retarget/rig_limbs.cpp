@@ -15,7 +15,7 @@ const Chain* find_chain(const Character& character, Role role, Side side, std::u
 
 namespace {
 
-// The chain that goes on from the tip of another, or null.
+// Returns the chain that begins at the tip of another, or null.
 const Chain* next_chain(const Character& character, const Chain& chain, Role role) {
   const Index index = static_cast<Index>(&chain - character.chains.data());
   for (const Chain& next : character.chains) {

@@ -100,7 +100,7 @@ void add_bare_sole(const Rig& rig, const Stance& rest, RigLeg& leg) {
 
 }  // namespace
 
-// The lowest points of what the foot owns, and of what the shin owns below the ankle. A shin without a foot stands on
+// Finds the lowest vertices that the foot owns, and that the shin owns below the ankle. A shin without a foot stands on
 // its lower half.
 void find_soles(Rig& rig, const RetargetSide& side, Memory& memory) {
   const Stance& file_rest = rig.file_rest;
@@ -121,7 +121,7 @@ void find_soles(Rig& rig, const RetargetSide& side, Memory& memory) {
 
 namespace {
 
-// Visits each vertex with the joint that moves it most, as seen from that joint.
+// Calls visit(joint, way) for each vertex: the joint that moves it most, and the way from that joint to the vertex.
 template <class Visit>
 void each_from_joint(const Rig& rig, const CharacterInput& in, Visit visit) {
   for (std::uint32_t v = 0; in.positions && v < in.vertex_count; ++v) {
@@ -131,7 +131,8 @@ void each_from_joint(const Rig& rig, const CharacterInput& in, Visit visit) {
   }
 }
 
-// How far forward of each joint its sole begins: its lowest vertices.
+// Returns how far forward of each joint its sole begins. The sole is the lowest vertices of the joint. 1e300: no
+// vertex.
 Vector<double> find_heels(const Rig& rig, const CharacterInput& in, Memory& memory) {
   Vector<double> lows(at(rig.count), 1e300, &memory), heels(at(rig.count), 1e300, &memory);
   each_from_joint(rig, in, [&](std::size_t j, Vec3 p) { lows[j] = std::min(lows[j], dot(p, rig.up)); });
@@ -154,7 +155,7 @@ void find_ends(Rig& rig, const RetargetSide& side, Memory& memory) {
     if (counts[j] > 0) rig.ends[j] = (2 / counts[j]) * rig.ends[j];
   }
   // A body stands over its ankles, but the middle of a boot lies toward the toes. A leg without a foot ends at the
-  // place of its sole that is nearest to the one under the hip.
+  // place of its sole that is nearest to the point under the hip.
   const Vector<double> heels = find_heels(rig, side.input, memory);
   for (const Chain& chain : side.character.chains) {
     if (chain.role != Role::leg) continue;

@@ -1,4 +1,5 @@
-// Two equal skeletons: names, tree and rests are those of each other, but for one transform. Then keys are copied.
+// Finds out whether two skeletons are equal, and then copies keys. Equal skeletons have the same names and tree, and
+// their rests differ by one transform.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

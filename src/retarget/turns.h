@@ -31,7 +31,8 @@ inline Turn turn_about(Vec3 unit_axis, double angle) noexcept {
   const double s = sine(0.5 * angle);
   return {s * unit_axis.x, s * unit_axis.y, s * unit_axis.z, cosine(0.5 * angle)};
 }
-// The shortest turn that takes the direction of a to that of b. Opposite directions turn about any axis across them.
+// Returns the shortest turn from the direction of a to the direction of b. Opposite directions turn about any axis
+// across them.
 inline Turn shortest_turn(Vec3 a, Vec3 b) noexcept {
   a = unit_vector(a);
   b = unit_vector(b);

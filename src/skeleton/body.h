@@ -1,4 +1,4 @@
-// What the steps of know_character share: the joints and vertices of one character, and what was found so far.
+// Holds the joints and vertices of one character and the results so far, for the steps of know_character.
 #pragma once
 #include <algorithm>
 #include <limits>
@@ -90,7 +90,7 @@ struct Body {
   double offset = 0;  // of the plane along left
   Vector<Index> mates;
   bool sides_named = false;     // left is known by names or declarations
-  bool sides_doubtful = false;  // the rest transforms mirror: names may be those of the other side
+  bool sides_doubtful = false;  // the rest transforms mirror: names may name the other side
   double mirror_score = 0, mirror_margin = 1;
 
   Vector<Limb> limbs;
@@ -148,7 +148,7 @@ void read_vertices(Body& body);                          // intake.cpp
 void find_owners(Body& body);                            // owners.cpp
 void read_names(Body& body);                             // names.cpp
 void find_mirror(Body& body);                            // mirror.cpp
-void join_pieces(Body& body);                           // pieces.cpp
+void join_pieces(Body& body);                            // pieces.cpp
 void build_tree(Body& body);                             // pieces.cpp
 void find_limbs(Body& body);                             // limbs.cpp
 void find_up(Body& body);                                // up.cpp

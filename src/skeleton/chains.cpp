@@ -81,8 +81,8 @@ void number_chains(const Body& body, Character& out) {
         counts[static_cast<std::size_t>(out.chains[c].role)][static_cast<std::size_t>(out.chains[c].side)]++;
 }
 
-// Where a leg without a foot ends: on its sole, as near as that comes to the place under the hip. A body stands over
-// its ankles; the middle of a boot lies toward the toes.
+// Returns the place where a leg without a foot ends: the point of its sole nearest to the point under the hip. A body
+// stands over its ankles; the middle of a boot lies toward the toes.
 Vec3 ankle_of_sole(const Body& body, Index joint, Vec3 hip) {
   const double low = body.lowest_below(joint, body.up);
   double back = 1e300, front = -1e300, left = -1e300, right = 1e300;

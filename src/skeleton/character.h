@@ -44,7 +44,7 @@ enum class Role : std::int32_t {
 constexpr std::int32_t role_count = 18;
 const char* role_name(Role role) noexcept;
 
-// Of the character, not of the person who looks at it.
+// Left and right are sides of the character, not of the person who looks at it.
 enum class Side : std::int32_t { middle, left, right };
 
 // body: it carries the body. helper: control, pole, target, root: it carries nothing. end: marks the tip of a chain.
@@ -91,7 +91,7 @@ struct Chain {
   std::int32_t parent = -1;  // the chain it hangs on
   std::uint32_t first = 0, count = 0;  // its joints in Character::chain_joints, root to tip
   double length = 0;                   // along the joints, up to the first joint of the chain at its tip
-  double low = 0;                      // of the lowest vertex that it and what hangs on it own, over the ground
+  double low = 0;  // height over the ground of the lowest vertex of the chain and of all joints below it
 };
 
 // Where a joint rests in the space of the model: a rotation as columns, and a place.
@@ -130,7 +130,7 @@ struct Character {
   Vector<std::int32_t> mates;         // its mirror image, or -1
   Vector<RestFrame> frames;
 
-  // Lengths in units of the model; 0: there is none. Of legs: the hindmost pair that stands.
+  // Lengths in units of the model; 0: there is none. Lengths of legs are measured on the hindmost pair that stands.
   double height = 0, ground = 0;  // along up; ground is the lowest vertex
   double leg_length = 0;          // hip, knee, foot, and the height of the foot
   double hip_height = 0;          // of the thigh's joint over the ground
@@ -140,7 +140,7 @@ struct Character {
   double trunk = 1;
 
   Vector<char> why;  // sentences, one a line
-  // What speaks for the axes, in a few words: "legs down, head up".
+  // The reasons for the axes in a few words: "legs down, head up".
   Vector<char> up_why, forward_why;
 };
 

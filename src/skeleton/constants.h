@@ -27,7 +27,7 @@ constexpr double ankle_height = 0.5;
 constexpr double upright_trunk = 0.6;
 // A clip that leads less far leads nowhere.
 constexpr double travelled = 0.2;
-// What +y and +z are ahead of other axes as up, where nothing is declared: half of what legs that are known say.
+// If no up is declared, +y and +z get this much more than other axes: half as much as known legs give.
 constexpr double customary_up = 0.5;
 
 // Bounds on work, which no character of ours comes near. Samples of the skin that are reflected, vertices among which

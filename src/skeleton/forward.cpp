@@ -216,7 +216,7 @@ void take_declared_forward(Body& body) {
   }
 }
 
-// What speaks for forward as it was taken.
+// Writes the reasons for the forward that was chosen.
 void give_reasons(Body& body, const Facts& facts, Vec3 looked_at) {
   const double sign = dot(body.forward, looked_at) > 0 ? 1 : -1;
   if (body.input.forward && body.forward_confidence > 0.5) add_reason(body.forward_why, "as declared");

@@ -46,7 +46,7 @@ Index named_head(const Body& body) {
   return best;
 }
 
-// How much an end looks like a head: high over what stands, large, with pairs on it.
+// Returns how much an end looks like a head: high over the limbs that stand, large, with pairs on it.
 double likeness(const Body& body, Index end, Vec3 base) {
   Vec3 sum;
   double squares = 0;

@@ -7,7 +7,7 @@
 namespace hf_inner {
 namespace {
 
-// The class that most joints of a limb have; that of its root if at least half as many have it.
+// Finds the class that most joints of a limb have, or the class of its root if at least half as many have that one.
 class ClassCount {
  public:
   void add(NameClass c) noexcept { ++counts_[static_cast<std::size_t>(c)]; }

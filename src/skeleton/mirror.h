@@ -13,7 +13,8 @@ struct Plane {
 
 class MirrorSearch {
  public:
-  // Joints are compared by their pivots and by the means of what they own. pivots may be others than the body's.
+  // Joints are compared by their pivots and by the means of the vertices that they own. pivots: may differ from the
+  // pivots of the body.
   MirrorSearch(const Body& body, Index main, const Vector<Vec3>& pivots, const Vector<Vec3>& means);
   // with_skin: the reflected skin counts too. all: every joint votes and gets its mate.
   Plane look(Vec3 left, bool with_skin, bool all = false);

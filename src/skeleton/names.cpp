@@ -1,4 +1,4 @@
-// Reads the names of joints. Words in most of them are dropped; what is left says the class, the part and the side.
+// Reads the names of joints. Words that most names have are dropped; the other words give the class, part and side.
 #include "skeleton/names.h"
 
 #include <algorithm>

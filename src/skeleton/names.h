@@ -1,4 +1,4 @@
-// Words of the names of joints: what they are parts of, and on which side.
+// Reads from the words in the name of a joint the part of the body and its side.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -107,7 +107,7 @@ void keep_inner_joints(Body& body, const Vector<std::uint8_t>& below) {
   }
 }
 
-// What was not kept: the tips of chains, and helpers.
+// Sets the kinds of joints that were not kept: ends of chains, and helpers.
 void name_kinds(Body& body, const Vector<std::uint8_t>& below) {
   std::uint32_t helpers = 0;
   body.kinds.assign(at(body.count), JointKind::helper);

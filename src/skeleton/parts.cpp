@@ -16,7 +16,7 @@ void set_from(Body& body, const Vector<Index>& path, std::size_t first, std::siz
   for (std::size_t k = first; k < last && k < path.size(); ++k) body.roles[at(path[k])] = role;
 }
 
-// What hangs on a limb but is not on its path: fingers or toes.
+// Gives a role to the joints that hang on a limb but are not on its path: fingers or toes.
 void set_digits(Body& body, const Limb& limb, int side, Role role) {
   const auto& path = limb.paths[side];
   for (const Index j : body.subtree(limb.roots[side])) {
@@ -48,8 +48,8 @@ bool has_collar(const Body& body, const Limb& limb, const Vector<Index>& path, s
   return hand == 3 || bone(body, path, 0) < 0.6 * bone(body, path, 1);
 }
 
-// The hand: the first with its name, else the last joint before fingers; the length of the path: the arm ends without,
-// as one of two joints does.
+// Returns the place of the hand in the path of an arm: the first joint with its name, else the last joint before
+// fingers. The length of the path means that the arm has no hand, as an arm of two joints.
 std::size_t find_hand(const Body& body, const Limb& limb, const Vector<Index>& path) {
   const std::size_t collars = leads_out(body, limb) ? 1 : 0;
   for (std::size_t k = 0; k < path.size() && body.named; ++k) {
@@ -77,8 +77,8 @@ std::size_t find_hand(const Body& body, const Limb& limb, const Vector<Index>& p
 void assign_leg(Body& body, const Limb& limb, int side) {
   const auto& path = limb.paths[side];
   const JointName& first_name = body.names[at(path[0])];
-  // A joint of the pelvis or a shoulder blade above the leg. Where the whole leg has the name of the trunk, the name
-  // tells them apart no more.
+  // A joint of the pelvis or a shoulder blade above the leg. If the whole leg has the name of the trunk, the name
+  // does not tell pelvis and leg apart.
   const bool pelvis = first_name.named == NameClass::trunk && limb.named != NameClass::trunk;
   const bool named = path.size() > 2 && (pelvis || (first_name.collar && body.named));
   const std::size_t first = named || leads_out(body, limb) ? 1 : 0;

@@ -179,7 +179,7 @@ class Adoption {
     bounds_[at(root)] = best.touches > 0 ? -1 : (1 + 1e-9) * best.distance * best.distance;
   }
 
-  // What hangs on one unowned joint, all of it on one side, goes together.
+  // Hangs all loose joints of one unowned parent on the same carrier, if all are on one side.
   void hang_brothers(Index root, Index carrier) {
     const Index p = body_.parents[at(root)];
     if (p < 0 || carrier < 0) return;

@@ -77,12 +77,12 @@ Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count
       return Role::antenna;
     case NameClass::leg:
       return Role::leg;
-    // On four legs what stands is a leg, whatever its name: the front legs of a fox have hands. What ends in a foot is
-    // one, too, while the body rears.
+    // On four legs a limb that stands is a leg, even if its name says arm: the front legs of a fox have hands. A limb
+    // that ends in a foot is a leg too, also while the body rears.
     case NameClass::arm:
       if (ends_in_foot(body, limb)) return Role::leg;
       return limb.stands && !upright && standing_count > 1 ? Role::leg : Role::arm;
-    // No trunk reaches the ground: bones that were drawn out of the back have its name.
+    // A trunk does not stand on the ground. A leg can have its name if its bones were extruded from the back.
     case NameClass::trunk:
       return limb.stands ? Role::leg : Role::other;
     case NameClass::none:
@@ -227,8 +227,8 @@ void assign_rest(Body& body, Vector<std::uint8_t>& given) {
   }
 }
 
-// Declared roles win; joints along a bone take its role. Sides of pairs are those of their places: a declaration may be
-// that of the body before it was mirrored.
+// Declared roles win; joints along a bone take its role. The sides of a pair follow from its places, because a
+// declaration may be older than a mirroring of the body.
 void take_declared_roles(Body& body) {
   for (Index j = 0; j < body.count; ++j) {
     const Index p = body.carriers[at(j)];

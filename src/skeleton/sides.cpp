@@ -62,7 +62,8 @@ void pair_declared(Body& body) {
   }
 }
 
-// From the right joint of a pair to the left one, by pivots or by what they own, whichever is farther apart.
+// Returns the way from the right joint of a pair to the left one. It uses the pivots or the means of the vertices that
+// they own, whichever are farther apart.
 Vec3 across(const Body& body, Index left) {
   const Index right = body.mates[at(left)];
   const Vec3 pivots = body.pivots[at(left)] - body.pivots[at(right)],
@@ -217,8 +218,8 @@ Vec3 narrowest(const Body& body, const Vector<Vec3>& candidates, bool level) {
   return best;
 }
 
-// A clip leads along the plane of symmetry: what it adds to the score of a plane, as much as two planes that are not
-// sure are apart.
+// Returns the number that clips add to the score of a plane, because a clip leads along the plane of symmetry. It is at
+// most the difference between two planes that are not sure.
 double travel_bonus(const Body& body, Vec3 left) {
   double across = 0, count = 0;
   for (std::uint32_t k = 0; k < body.input.travel_count; ++k) {

@@ -16,7 +16,7 @@ struct Extent {
   double size() const noexcept { return high - low; }
 };
 
-// What has weight: vertices, or the pivots of a body without.
+// Visits the points that have weight: the vertices, or the pivots of a body without vertices.
 template <class Visit>
 void for_mass(const Body& body, Visit visit) {
   for (std::size_t v = 0; v < body.points.size(); ++v) visit(body.points[v], body.owners[v]);
@@ -89,7 +89,7 @@ Vec3 direction_of(const Body& body, NameClass named) {
   return unit_vector(sum);
 }
 
-// From the root of the body to what is named head.
+// Returns the direction from the root of the body to the joints that are named head.
 Vec3 head_direction(const Body& body) {
   Vec3 sum;
   for (const Index j : body.tree) {

@@ -1,5 +1,5 @@
-// Rigid pieces of the target (deform/rigid_pieces.h): a sword moves as one. They come last in a frame, after the
-// ground, and are joints of their own in the skin.
+// Keeps pieces of the target rigid, such as a sword (deform/rigid_pieces.h). This is the last step of a frame, after
+// the rules of the ground. Each piece is one joint of the skin. A failed call leaves the previous pieces.
 #include "base/index.h"
 #include "transfer/constants.h"
 #include "transfer/prepared.h"
@@ -9,7 +9,7 @@ namespace hf_inner {
 void Transfer::set_rigid_pieces(Span<const std::int32_t> vertices) {
   Memory& memory = *target_core_->memory;
   std::shared_ptr<const RigidPieces> rigid;
-  // links are those of the surface as made
+  // the core that was factorised has the links
   if (!vertices.empty())
     rigid = make_shared_in<RigidPieces>(memory, *target_factor_, vertices, target_core_->mesh, memory);
   Buffer<Vec3> scratch(memory, rigid ? rigid->scratch_size() : 0);

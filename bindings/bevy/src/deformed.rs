@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 const SETTLED: f64 = 1e-5;
 /// 1 minus the cosine of half an angle. An entity that turns by more was turned: single precision rounds by less.
 const TURNED: f64 = 1e-11;
-/// The least steps that hf_pose_set_limb_refine gives for lengths.
+/// The fewest steps with which hf_pose_set_limb_refine keeps lengths.
 const LENGTH_STEPS: i32 = 8;
 
 /// A mesh of the surface.
@@ -54,7 +54,7 @@ struct Grip {
     turned: bool,
     /// the rotation of the region where the entity has none
     offset: DQuat,
-    /// what the pose was told
+    /// the limb options that the pose has
     limb: HandleLimb,
     /// the place of its entity was refused
     failed: bool,

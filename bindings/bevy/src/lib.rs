@@ -92,7 +92,7 @@ impl DeformHandle {
     }
 }
 
-/// How much follows a tip: its limb, and a quarter of what the body would lean. hf_deform_script takes the same.
+/// The following of a tip that is dragged: its limb follows and the body hardly leans. hf_surface_propose_handles proposes the same number.
 pub const TIP_FOLLOWING: f64 = 0.25;
 
 /// How the surface follows a [`DeformHandle`] of layer 0. Handles of other layers ignore it.

@@ -21,8 +21,8 @@ impl Plugin for RetargetPlugin {
 
 /// The joints of one skeleton follow those of another in every frame. Put it on any entity.
 ///
-/// A skeleton is the entity of its topmost joint and all entities below, with their `Name`. Both stand at rest when the
-/// component comes; it waits until both are there. The entity then has [`Retargeted`], or a [`DeformError`] that says why not.
+/// A skeleton is the entity of its topmost joint and all entities below, with their `Name`. Both must be at rest when the
+/// component is inserted; it waits until both exist. The entity then has [`Retargeted`], or a [`DeformError`] that says why not.
 /// Animate the source as you like; nothing else may move the target. Insert the component again to pair again.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Retarget {
@@ -39,12 +39,12 @@ pub struct Retarget {
 pub struct Retargeted {
     source: Vec<Entity>,
     target: Vec<Entity>,
-    /// how far they fit, and where a clip jumps: `reset`
+    /// `info` says how well the skeletons fit; call `reset` where a clip jumps
     pub retarget: hf::Retarget,
     pose: Vec<f32>,
 }
 
-/// A joint as the library wants it: translation, rotation x y z w, scale.
+/// A joint as 10 numbers: translation, rotation x y z w, scale.
 fn numbers(joint: &Transform) -> [f32; 10] {
     let ([x, y, z], [a, b, c, d], [u, v, w]) = (joint.translation.into(), joint.rotation.into(), joint.scale.into());
     [x, y, z, a, b, c, d, u, v, w]
@@ -58,7 +58,7 @@ struct Joints {
 
 type Below<'w, 's> = Query<'w, 's, (&'static Transform, Option<&'static Name>, Option<&'static Children>)>;
 
-/// A skeleton from its topmost joint; `None` while it is not there.
+/// Reads a skeleton from its topmost joint; `None` while the entity or its children do not exist.
 fn joints(top: Entity, below: &Below) -> Option<hf::Result<Joints>> {
     below.get(top).ok()?.2?;
     let (mut stack, mut entities, mut parents, mut rest, mut names) = (vec![(top, hf::raw::HF_NO_INDEX)], vec![], vec![], vec![], vec![]);
@@ -116,7 +116,7 @@ fn play(mut playing: Query<&mut Retargeted>, mut joints: Query<&mut Transform>, 
     }
 }
 
-/// A retarget is new or is another: it is paired again.
+/// Removes the old pair or error when a [`Retarget`] is inserted, so that the skeletons are paired again.
 fn on_insert(inserted: On<Insert, Retarget>, mut commands: Commands) {
     commands.entity(inserted.entity).try_remove::<(Retargeted, DeformError)>();
 }

@@ -1,6 +1,6 @@
 """Plays an armature on another, live: in every frame the bones of the target follow those of the source (hf/retarget.h).
 
-The scene is the truth: Object.hf_source of the target names the source. A player is made at the first frame.
+Object.hf_source of the target names the source and is stored with the scene. A player is made at the first frame.
 """
 
 import bpy
@@ -11,14 +11,15 @@ import hf
 
 from . import mesh_data, skinning
 
-# Frames that are farther apart, in seconds, are no motion: the clip has jumped, and planted feet are forgotten.
+# Seconds. Frames that are farther apart count as a jump of the clip, and planted feet are forgotten. Playback shows more
+# than one frame per second.
 JUMP = 1.0
 
 players = {}  # name of the target -> Player
 
 
 def numbers_of(matrix):
-    """A transform as the library wants it: translation, rotation x y z w, scale."""
+    """Returns a transform as 10 numbers: translation, rotation x y z w, scale."""
     place, turn, scale = matrix.decompose()
     return (*place, turn.x, turn.y, turn.z, turn.w, *scale)
 
@@ -54,7 +55,7 @@ class Joints:
 
 
 def skin_of(armature, names):
-    """The meshes that an armature moves, at rest: they say where soles and heads end. None without such a mesh."""
+    """Returns the meshes that an armature moves, at rest, as one skin for soles; None without such a mesh."""
     found, count = [], 0
     for obj in bpy.data.objects:
         if obj.type != "MESH" or skinning.armature_of(obj) != armature or not len(obj.data.vertices):
@@ -103,7 +104,7 @@ def forget(name=None):
 
 
 def start(source, target):
-    """The target follows the source from now on."""
+    """Makes the target follow the source from now on. Raises HfError, and changes nothing, if they do not pair."""
     made = Player(source, target)
     forget(target.name)
     players[target.name], target.hf_source = made, source
@@ -111,7 +112,7 @@ def start(source, target):
 
 
 def play(scene, depsgraph):
-    """A frame of every armature that follows another. Returns whether there is one."""
+    """Plays a frame on every armature that follows another, and prints errors. Returns whether one was posed."""
     played = False
     for target in scene.objects:
         source = target.hf_source if target.type == "ARMATURE" else None

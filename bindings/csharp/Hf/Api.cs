@@ -134,8 +134,8 @@ namespace Hf
         Tip = Constants.HF_HANDLE_REASON_TIP,
         /// <summary>one of the two ends of a component without feet or tips</summary>
         End = Constants.HF_HANDLE_REASON_END,
-        /// <summary>a joint of the given skeleton: an end, or where it branches; a head or a hand that is no tip of the
-        /// surface</summary>
+        /// <summary>a joint of the given skeleton: an end, or where it branches. Or a head, hand or foot that is no tip of
+        /// the surface</summary>
         Joint = Constants.HF_HANDLE_REASON_JOINT,
         /// <summary>the trunk of the largest component: the chest of a biped; pinned, inside the surface</summary>
         Middle = Constants.HF_HANDLE_REASON_MIDDLE,
@@ -624,7 +624,7 @@ namespace Hf
         public double Percentile95;
         /// <summary>the widest gap of a link; 0 without links</summary>
         public double Worst;
-        /// <summary>its number in Surface.Links; uint.MaxValue without links</summary>
+        /// <summary>position in Surface.Links of the link with that gap; uint.MaxValue without links</summary>
         public uint WorstLink;
         /// <summary>as in LinksInfo; the fields above leave contacts out</summary>
         public uint ContactCount;
@@ -728,8 +728,8 @@ namespace Hf
         public uint Triangle;
         /// <summary>its corner nearest to the hit, as given, of welded copies the first</summary>
         public uint Vertex;
-        /// <summary>the point hit: corners of the triangle (the first of welded copies) and their barycentrics. In a face of
-        /// more corners: the three corners of the triangle of its cut that the ray hits</summary>
+        /// <summary>the point hit: corners of the triangle (the first of welded copies) and their barycentrics. A face of
+        /// more corners is cut into triangles; these are the corners of the triangle hit</summary>
         public Place Place;
         /// <summary>in the unit of the positions</summary>
         public double[] Position = new double[3];
@@ -1160,16 +1160,17 @@ namespace Hf
         }
     }
 
-    /// <summary>The blend of a pose in the last frame.</summary>
+    /// <summary>Pose.BlendInfo writes here how the last frame of a pose is blended.</summary>
     public sealed unsafe partial class BlendInfo
     {
-        /// <summary>of Pose.BlendTransforms</summary>
+        /// <summary>transforms that Pose.BlendTransforms writes</summary>
         public uint ClusterCount;
         /// <summary>changes when rows or offsets change: call Pose.BlendRows again</summary>
         public uint Revision;
-        /// <summary>0 to 1; 0 unless handles were added in place or rotations freed. It falls as handles move</summary>
+        /// <summary>0 to 1: share of its offset that a vertex gets. 0 unless handles were added in place or rotations freed;
+        /// it falls as handles move</summary>
         public double OffsetShare;
-        /// <summary>positions are relative to this point</summary>
+        /// <summary>in the unit and frame of the mesh; positions are relative to this point</summary>
         public double[] Centre = new double[3];
 
         internal BlendInfo(hf_blend_info* raw)
@@ -1182,8 +1183,8 @@ namespace Hf
     }
 
     /// <summary>One proposed handle. position and radius are as in HandlesDesc: the regions of all proposals are disjoint.
-    /// With a skeleton whose roles are known, the region in regions is all that a head, a hand or a foot moves. The
-    /// region of position and radius is then a part of that.</summary>
+    /// If a skeleton with known roles is given, regions has all vertices of a head, a hand or a foot. The region of
+    /// position and radius is then a part of these vertices.</summary>
     public sealed unsafe partial class HandleProposal
     {
         /// <summary>nearest to the position; as given, of welded copies the first</summary>
@@ -1193,11 +1194,11 @@ namespace Hf
         public HandleReason Reason;
         /// <summary>1: add it at once, it holds the body; 0: offer it, and add it when it is dragged</summary>
         public bool Pinned;
-        /// <summary>with a skin: the first joint of a whole head, hand or foot, else the lowest joint that moves most of the
-        /// region, together with the joints below it. Without a skin: the end joint nearby, or the joint proposed.
-        /// uint.MaxValue = none</summary>
+        /// <summary>with a skin: the first joint of a head, hand or foot; for another region the lowest joint that moves
+        /// more than half of it, together with the joints below. Without a skin: the end joint nearby, or the joint
+        /// proposed. uint.MaxValue = none</summary>
         public uint Joint;
-        /// <summary>Role that has most of the weights in the region. A sword has the role of the hand</summary>
+        /// <summary>Role that has most of the weights in the region. A sword has the role of its hand</summary>
         public Role Role;
         /// <summary>BodySide of the same joints</summary>
         public Side Side;
@@ -1580,8 +1581,8 @@ namespace Hf
         }
     }
 
-    /// <summary>What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and
-    /// the result is continuous in each dial.</summary>
+    /// <summary>Dials that an animator turns while a transfer plays. Neutral dials give the bits of a transfer without
+    /// dials, and the result is continuous in each dial.</summary>
     public sealed unsafe partial class TransferDials
     {
         /// <summary>the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted
@@ -1855,22 +1856,23 @@ namespace Hf
         public uint InfluenceCount;
     }
 
-    /// <summary>Receives the rows of a blend. The arrays are yours; each may be null.</summary>
+    /// <summary>Receives the rows of a blend. The arrays are yours; each may be null. Positions and offsets are in the unit
+    /// of the mesh, gradients per unit of the mesh.</summary>
     public sealed class BlendRows
     {
         /// <summary>[vertexCapacity x 2] number of the first entry of the vertex, and count of its entries</summary>
         public uint[] Rows;
-        /// <summary>[entryCapacity]</summary>
+        /// <summary>[entryCapacity] each below the count of clusters</summary>
         public ushort[] Clusters;
-        /// <summary>[entryCapacity] multiples of 2^-24; those of a vertex sum to 1</summary>
+        /// <summary>[entryCapacity] multiples of 2^-24; the weights of a vertex sum to 1</summary>
         public float[] Weights;
         /// <summary>[entryCapacity x 3] of the weights along the rest surface, for normals</summary>
         public float[] Gradients;
-        /// <summary>[vertexCapacity x 3] at rest</summary>
+        /// <summary>[vertexCapacity x 3] at rest, relative to centre</summary>
         public float[] Positions;
         /// <summary>[vertexCapacity x 3] unit, at rest</summary>
         public float[] Normals;
-        /// <summary>[vertexCapacity x 3]</summary>
+        /// <summary>[vertexCapacity x 3] 0 unless handles were added in place or rotations freed</summary>
         public float[] Offsets;
         /// <summary>entries of the vertex that has the most</summary>
         public uint LongestRow;
@@ -2823,20 +2825,22 @@ namespace Hf
         /// <summary>Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned
         /// proposals come first, then the others, each group by length, the longest first. The places do not depend
         /// on the order of the vertices. They follow translation and scale. A skeleton gives each proposal the
-        /// joint that moves it, and a role and a side. If its roles are known, feet and the trunk hold. Hands,
-        /// heads and tails do not hold, nor does what hangs on them. Each head, hand, foot, tail, ear and wing gets
-        /// one proposal. A part that no joint of the skin moves, such as the box of a control, gets none.
+        /// joint that moves it, a role and a side. If its roles are known, feet and the trunk are pinned. Hands,
+        /// heads, tails and pieces that hang on them, such as a sword, are not. Each head, hand, foot, tail, ear
+        /// and wing gets at most one proposal. A part that no joint of the skin moves, such as the box of a
+        /// control, gets none.
         ///
         /// joints: [jointCount x 3] their places at rest, in the unit and frame of the mesh
         /// parents: [jointCount] position of each joint's parent in the list; uint.MaxValue for a root
-        /// skeleton: the character of the mesh, instead of joints and parents: it rests in the unit and frame of
-        ///     the mesh. Its skin, if it has one, has the vertices of the mesh
-        /// up: direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0
+        /// skeleton: the skeleton of the mesh, instead of joints and parents. It rests in the unit and frame of the
+        ///     mesh. If it has a skin, the skin has the vertices of the mesh
+        /// up: direction away from the ground, of any length; 0 0 0 = up of the skeleton where it is known, else 0
+        ///     1 0
         /// leastLengthShare: as in ExtremitiesDesc; 0 = 0.05
         /// limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
         /// progress: an object to poll and cancel through
-        /// regions: [vertexCount]: for each vertex the number of the proposal whose region it is in, uint.MaxValue
-        ///     for a vertex in none
+        /// regions: [vertexCount]: position in the list of the proposal whose region has the vertex; uint.MaxValue
+        ///     for a vertex of no region
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.</summary>
         public HandleProposal[] ProposeHandles(double[] joints = null, uint[] parents = null, Skeleton skeleton = null,
@@ -4240,8 +4244,9 @@ namespace Hf
         /// does not change. When you free a rotation on layer 0, the surface stays as it is. It releases the old
         /// rotation as handles move, as with in_place; so move the handles after this call. On a higher layer a
         /// changed handle moves the surface at the next frame. A handle alone in its component keeps its rotation.
-        /// The first frame of a pose, and a frame with restart, take free handles to their places in 8 steps, as a
-        /// drag does; such a frame costs about 8 more. refine keeps the rotation of the smooth pose.
+        /// The first frame of a pose, and a frame with restart, move free handles to their places in 8 steps, as a
+        /// drag does. Such a frame takes the time of about 8 pose solves. refine keeps the rotation of the smooth
+        /// pose.
         ///
         /// handles: [handleCount].
         /// freeRotation: 1: the solve finds the rotations; 0: you give them.
@@ -4258,10 +4263,10 @@ namespace Hf
         }
 
         /// <summary>Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the surface where it
-        /// would be without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field
-        /// of the handle is, the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the
-        /// body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is
-        /// too short gets longer. The next Pose.Deform shows a change at once, but a handle that was just added in
+        /// would be without these handles. So a body does not lean after a dragged hand. Where the field of the
+        /// handle is near 1, the pins are weak, so the limb stays free. Keep 1 for the handles that hold the body,
+        /// and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is too
+        /// short gets longer. The next Pose.Deform shows a change at once. But a handle that was just added in
         /// place leaves the surface where it stands until a handle moves. Full-mesh steps (refine) ignore the pins.
         /// Repeated steps (refine_from_last) let the body lean again.
         ///
@@ -4651,8 +4656,9 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last
-        /// cluster that never moves holds them.
+        /// <summary>Writes the arrays that a shader needs once for each `revision`. Call it without arrays for the counts,
+        /// then with arrays. If handles do not reach some vertices, a last cluster that never moves holds those
+        /// vertices.
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
         public BlendRows BlendRows()
@@ -4694,10 +4700,11 @@ namespace Hf
             }
         }
 
-        /// <summary>Solves the pose as Pose.Deform does, and writes no vertex: the work of a frame whose vertices a shader
-        /// computes.
+        /// <summary>Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
+        /// Pose.Deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as
+        /// much as Pose.Deform.
         ///
-        /// iterationCount: 1 to 1000; 0 = the pose's.
+        /// iterationCount: 1 to 1000; 0 = as in PoseDesc.
         /// restart: 1: as in DeformDesc.
         /// info: filled in when given
         ///
@@ -4713,7 +4720,8 @@ namespace Hf
         }
 
         /// <summary>Writes the transforms of the clusters in the last Pose.Solve or Pose.Deform, without its refine. Before
-        /// the first, and after handles were added or removed, they are identities. The call allocates nothing.
+        /// the first solve they are identities. After handles were added or removed, solve before you read them:
+        /// they may be identities until then. The call allocates nothing.
         ///
         /// Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
         public float[] BlendTransforms()
@@ -5065,7 +5073,7 @@ namespace Hf
     /// Creates a region without vertices.
     ///
     /// positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. A morph of weight 0
-    ///     writes their bits. null: the positions of the mesh, to 1e-15 of the box. The call copies the array
+    ///     writes the same bits. null: the positions of the mesh, to 1e-15 of the box. The call copies the array
     /// @base: Base. If the surface has no factor for it yet, it is made now
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Region : Recorded
@@ -5075,7 +5083,8 @@ namespace Hf
         /// <summary>Creates a region without vertices.
         ///
         /// positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. A morph of weight 0
-        ///     writes their bits. null: the positions of the mesh, to 1e-15 of the box. The call copies the array
+        ///     writes the same bits. null: the positions of the mesh, to 1e-15 of the box. The call copies the
+        ///     array
         /// @base: Base. If the surface has no factor for it yet, it is made now
         /// progress: an object to poll and cancel through
         ///
@@ -6040,12 +6049,12 @@ namespace Hf
         }
 
         /// <summary>Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh.
+        /// Each frame moves a rigid piece by the rigid motion that fits the piece best, as Pose.SetRigidPieces
+        /// does. This fit is the last step of a frame. So a hold on a part of a rigid piece may miss its position,
+        /// and a rigid piece may sink into the ground.
         ///
         /// vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid.
-        ///     The list replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits
-        ///     the piece best, as Pose.SetRigidPieces does. This comes last in a frame: a hold on a part of a rigid
-        ///     piece may miss its place, and a rigid piece may sink into the ground. The pieces move from the next
-        ///     frame on. Does not factorise.
+        ///     The list replaces the previous list and applies from the next frame on. The call does not factorise.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.</summary>
         public void SetRigidPieces(uint[] vertices)
@@ -6065,16 +6074,16 @@ namespace Hf
         ///
         /// The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc
         /// alone. Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a
-        /// played one. The result changes as little as the source does: a source that stands still, but for noise,
+        /// played one. The result changes as little as the source does: a source that stands still except for noise
         /// gives a target that stands still.
         ///
         /// The ground counts too if the mode is TransferMode.Fields and some pairs are anchors (their target region
         /// follows the path of the source's region). While a foot of the source stands on the ground, the target's
-        /// foot follows its scaled path exactly. No part of the target sinks deeper into the ground than the
-        /// source, scaled, but for those of Transfer.Sinking. What would sink bends up. The ground does not move
-        /// regions that you hold. A lying target rests on the parts that the source rests on. A rigid motion of the
-        /// whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off switches them
-        /// off.
+        /// foot follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the
+        /// source, scaled, except the vertices of Transfer.Sinking. A part that would sink bends up. The ground
+        /// does not move regions that you hold. A lying target rests on the parts that the source rests on. A rigid
+        /// motion of the whole source is copied unchanged. All rules of the ground come in continuously. Ground.Off
+        /// switches them off.
         ///
         /// sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
         /// holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a
@@ -6206,8 +6215,8 @@ namespace Hf
         }
 
         /// <summary>Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the
-        /// skin replays Transfer.Apply exactly, because that function also uses the four largest weights. A rigid
-        /// piece is one joint; these joints come last.
+        /// skin replays Transfer.Apply exactly, because that function also uses the four largest weights. Each
+        /// rigid piece is one joint. These joints come after the joints of clusters.
         ///
         /// influenceCount: joints per vertex, 4 or 8; 0 = 4
         /// scales: [jointCapacity x 3] along the axes in the last frame; null = joints are rigid

@@ -29,7 +29,7 @@ static func mesh_in(node):
 			return found
 	return null
 
-# The least steps that hf_pose_set_limb_refine gives for lengths.
+# The fewest steps with which hf_pose_set_limb_refine keeps lengths.
 const LENGTH_STEPS = 8
 
 # Makes the surface, which factorises once. Returns true, or false with a warning that says why not.
@@ -71,19 +71,19 @@ func add_handle(point, radius, layer = 0, in_place = false):
 	add_child(handle)
 	return handle
 
-# A handle where the library proposes one, a row of surface.propose_handles(): it holds, or it is a tip to drag.
+# Adds a handle that the library proposes. row: of surface.propose_handles(). Returns the node, or null with a warning.
 func add_proposed(row):
 	var handle = add_handle(arrays[Mesh.ARRAY_VERTEX][row.vertex], row.radius)
 	if handle != null and row.following < 1:
 		set_following(handle, row.following)
 	return handle
 
-# How much of the surface follows a handle of layer 0: 1 all of it, 0 its limb alone.
+# Sets how much of the surface follows a handle of layer 0: 1: all of it, 0: its limb alone. Warns if it fails.
 func set_following(handle, following):
 	if said(surface.set_following([handles[handle].number], following)):
 		handles[handle].following = following
 
-# The limb of a handle of layer 0 keeps its lengths and bends like two bones; the rest stays as it is.
+# Keeps the lengths of the limb of a handle of layer 0: it bends like two bones. The rest of the surface stays as it is.
 func keep_lengths(handle, keep = true):
 	var steps = LENGTH_STEPS if keep else 0
 	if said(surface.set_limb_refine([handles[handle].number], steps)):

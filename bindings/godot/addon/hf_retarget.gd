@@ -42,7 +42,7 @@ func said(surface, result):
 		push_warning("hf: " + surface.get_error().get("message", "not bound"))
 	return result != null
 
-# Names, one in a line, parents, and rests.
+# Returns the names (one per line), the parents and the rests of the bones.
 func joints_of(skeleton):
 	var names = ""
 	var parents = []
@@ -54,7 +54,7 @@ func joints_of(skeleton):
 		put(rests, 10 * bone, skeleton.get_bone_rest(bone))
 	return [names.trim_suffix("\n"), parents, rests]
 
-# Translation, rotation x y z w and scale, from a place of a list on.
+# Writes translation, rotation x y z w and scale of a transform into a list, from position `at` on.
 func put(list, at, transform):
 	var turn = transform.basis.get_rotation_quaternion()
 	var size = transform.basis.get_scale()
@@ -66,11 +66,11 @@ func put(list, at, transform):
 	list[at + 5] = turn.z
 	list[at + 6] = turn.w
 
-# The clip jumps: planted feet are forgotten.
+# Forgets planted feet; call it where the clip jumps, after bind().
 func reset():
 	retarget.retarget_reset()
 
-# A frame. seconds: since the last one.
+# Plays one frame. seconds: time since the last frame. If it fails, it warns and the target keeps its pose.
 func play(seconds):
 	for bone in from.get_bone_count():
 		put(pose, 10 * bone, pose_of(from, bone))
@@ -81,7 +81,7 @@ func play(seconds):
 			write(to, bone, Vector3(posed[i], posed[i + 1], posed[i + 2]), Quaternion(posed[i + 3], posed[i + 4], posed[i + 5],
 				posed[i + 6]), Vector3(posed[i + 7], posed[i + 8], posed[i + 9]))
 
-# The transform of a bone from its parent.
+# Returns the transform of a bone relative to its parent.
 func pose_of(skeleton, bone):
 	return skeleton.get_bone_pose(bone)
 

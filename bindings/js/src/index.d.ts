@@ -175,7 +175,7 @@ export interface GapsInfo {
   percentile95: number;
   /** the widest gap of a link; 0 without links */
   worst: number;
-  /** its number in Surface.links; constants.HF_NO_INDEX without links */
+  /** position in Surface.links of the link with that gap; constants.HF_NO_INDEX without links */
   worstLink: number;
   /** as in LinksInfo; the fields above leave contacts out */
   contactCount: number;
@@ -239,8 +239,8 @@ export interface Hit {
   /** its corner nearest to the hit, as given, of welded copies the first */
   vertex: number;
   /**
-   * the point hit: corners of the triangle (the first of welded copies) and their barycentrics. In a face of more
-   * corners: the three corners of the triangle of its cut that the ray hits
+   * the point hit: corners of the triangle (the first of welded copies) and their barycentrics. A face of more
+   * corners is cut into triangles; these are the corners of the triangle hit
    */
   place: Place;
   /** in the unit of the positions */
@@ -575,7 +575,7 @@ export interface PoseStatistics {
  * that scale, and the inverse bind matrix takes p to B^-1 (p - pivot). The arrays are yours; each may be null.
  */
 export interface SkinInfo {
-  /** joints, one per cluster of vertices */
+  /** joints, one per cluster of vertices and per rigid piece of a transfer */
   jointCount: number;
   vertexCount: number;
   /** [jointCapacity x 3] rest centroid of what each joint moves */
@@ -594,44 +594,52 @@ export interface SkinInfo {
   vertexWeights: Float32Array;
 }
 
-/** The blend of a pose in the last frame. */
+/** Pose.blendInfo writes here how the last frame of a pose is blended. */
 export interface BlendInfo {
-  /** of Pose.blendTransforms */
+  /** transforms that Pose.blendTransforms writes */
   clusterCount: number;
   /** changes when rows or offsets change: call Pose.blendRows again */
   revision: number;
-  /** 0 to 1; 0 unless handles were added in place or rotations freed. It falls as handles move */
+  /**
+   * 0 to 1: share of its offset that a vertex gets. 0 unless handles were added in place or rotations freed; it
+   * falls as handles move
+   */
   offsetShare: number;
-  /** positions are relative to this point */
+  /** in the unit and frame of the mesh; positions are relative to this point */
   centre: number[];
 }
 
-/** Receives the rows of a blend. The arrays are yours; each may be null. */
+/**
+ * Receives the rows of a blend. The arrays are yours; each may be null. Positions and offsets are in the unit of
+ * the mesh, gradients per unit of the mesh.
+ */
 export interface BlendRows {
+  /** as given to the surface */
   vertexCount: number;
+  /** entries of all rows together */
   entryCount: number;
   /** entries of the vertex that has the most */
   longestRow: number;
   /** [vertexCapacity x 2] number of the first entry of the vertex, and count of its entries */
   rows: Uint32Array;
-  /** [entryCapacity] */
+  /** [entryCapacity] each below the count of clusters */
   clusters: Uint16Array;
-  /** [entryCapacity] multiples of 2^-24; those of a vertex sum to 1 */
+  /** [entryCapacity] multiples of 2^-24; the weights of a vertex sum to 1 */
   weights: Float32Array;
   /** [entryCapacity x 3] of the weights along the rest surface, for normals */
   gradients: Float32Array;
-  /** [vertexCapacity x 3] at rest */
+  /** [vertexCapacity x 3] at rest, relative to centre */
   positions: Float32Array;
   /** [vertexCapacity x 3] unit, at rest */
   normals: Float32Array;
-  /** [vertexCapacity x 3] */
+  /** [vertexCapacity x 3] 0 unless handles were added in place or rotations freed */
   offsets: Float32Array;
 }
 
 /**
  * One proposed handle. position and radius are as in hf_handles_desc: the regions of all proposals are disjoint.
- * With a skeleton whose roles are known, the region in regions is all that a head, a hand or a foot moves. The
- * region of position and radius is then a part of that.
+ * If a skeleton with known roles is given, regions has all vertices of a head, a hand or a foot. The region of
+ * position and radius is then a part of these vertices.
  */
 export interface HandleProposal {
   /** nearest to the position; as given, of welded copies the first */
@@ -643,12 +651,12 @@ export interface HandleProposal {
   /** 1: add it at once, it holds the body; 0: offer it, and add it when it is dragged */
   pinned: number;
   /**
-   * with a skin: the first joint of a whole head, hand or foot, else the lowest joint that moves most of the
-   * region, together with the joints below it. Without a skin: the end joint nearby, or the joint proposed.
+   * with a skin: the first joint of a head, hand or foot; for another region the lowest joint that moves more than
+   * half of it, together with the joints below. Without a skin: the end joint nearby, or the joint proposed.
    * constants.HF_NO_INDEX = none
    */
   joint: number;
-  /** HF_ROLE_* that has most of the weights in the region. A sword has the role of the hand */
+  /** HF_ROLE_* that has most of the weights in the region. A sword has the role of its hand */
   role: number;
   /** HF_SIDE_* of the same joints */
   side: number;
@@ -879,8 +887,8 @@ export interface TransferStatistics {
 }
 
 /**
- * What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the
- * result is continuous in each dial.
+ * Dials that an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials,
+ * and the result is continuous in each dial.
  */
 export interface TransferDials {
   /**
@@ -1365,21 +1373,21 @@ export interface Surface extends Handle {
   /**
    * Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals
    * come first, then the others, each group by length, the longest first. The places do not depend on the order of
-   * the vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, and a
-   * role and a side. If its roles are known, feet and the trunk hold. Hands, heads and tails do not hold, nor does
-   * what hangs on them. Each head, hand, foot, tail, ear and wing gets one proposal. A part that no joint of the
-   * skin moves, such as the box of a control, gets none.
+   * the vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, a
+   * role and a side. If its roles are known, feet and the trunk are pinned. Hands, heads, tails and pieces that
+   * hang on them, such as a sword, are not. Each head, hand, foot, tail, ear and wing gets at most one proposal. A
+   * part that no joint of the skin moves, such as the box of a control, gets none.
    *
    * joints: [jointCount x 3] their places at rest, in the unit and frame of the mesh
    * parents: [jointCount] position of each joint's parent in the list; constants.HF_NO_INDEX for a root
-   * skeleton: the character of the mesh, instead of joints and parents: it rests in the unit and frame of the
-   *     mesh. Its skin, if it has one, has the vertices of the mesh
-   * up: direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0
+   * skeleton: the skeleton of the mesh, instead of joints and parents. It rests in the unit and frame of the mesh.
+   *     If it has a skin, the skin has the vertices of the mesh
+   * up: direction away from the ground, of any length; 0 0 0 = up of the skeleton where it is known, else 0 1 0
    * leastLengthShare: as in hf_extremities_desc; 0 = 0.05
    * limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
    * progress: an object to poll and cancel through
-   * regions: [vertexCount]: for each vertex the number of the proposal whose region it is in,
-   *     constants.HF_NO_INDEX for a vertex in none
+   * regions: [vertexCount]: position in the list of the proposal whose region has the vertex;
+   *     constants.HF_NO_INDEX for a vertex of no region
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
    */
@@ -1900,8 +1908,8 @@ export interface Pose extends Recorded {
    * When you free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move,
    * as with in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at
    * the next frame. A handle alone in its component keeps its rotation. The first frame of a pose, and a frame
-   * with restart, take free handles to their places in 8 steps, as a drag does; such a frame costs about 8 more.
-   * refine keeps the rotation of the smooth pose.
+   * with restart, move free handles to their places in 8 steps, as a drag does. Such a frame takes the time of
+   * about 8 pose solves. refine keeps the rotation of the smooth pose.
    *
    * handles: [handleCount].
    * freeRotation: 1: the solve finds the rotations; 0: you give them.
@@ -1911,10 +1919,10 @@ export interface Pose extends Recorded {
   setFreeRotations(handles: Rows, freeRotation?: boolean | number): void;
   /**
    * Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the surface where it would be
-   * without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field of the handle
-   * is, the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the body, and set less for
-   * a handle that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next
-   * Pose.deform shows a change at once, but a handle that was just added in place leaves the surface where it
+   * without these handles. So a body does not lean after a dragged hand. Where the field of the handle is near 1,
+   * the pins are weak, so the limb stays free. Keep 1 for the handles that hold the body, and set less for a
+   * handle that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next
+   * Pose.deform shows a change at once. But a handle that was just added in place leaves the surface where it
    * stands until a handle moves. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let
    * the body lean again.
    *
@@ -2030,17 +2038,18 @@ export interface Pose extends Recorded {
    */
   readonly blendInfo: BlendInfo;
   /**
-   * Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last cluster
-   * that never moves holds them.
+   * Writes the arrays that a shader needs once for each `revision`. Call it without arrays for the counts, then
+   * with arrays. If handles do not reach some vertices, a last cluster that never moves holds those vertices.
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   blendRows(): BlendRows;
   /**
-   * Solves the pose as Pose.deform does, and writes no vertex: the work of a frame whose vertices a shader
-   * computes.
+   * Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
+   * Pose.deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
+   * Pose.deform.
    *
-   * iterationCount: 1 to 1000; 0 = the pose's.
+   * iterationCount: 1 to 1000; 0 = as in hf_pose_desc.
    * restart: 1: as in hf_deform_desc.
    * info: filled in when given
    *
@@ -2049,7 +2058,8 @@ export interface Pose extends Recorded {
   solve(iterationCount?: number, restart?: boolean | number): void;
   /**
    * Writes the transforms of the clusters in the last Pose.solve or Pose.deform, without its refine. Before the
-   * first, and after handles were added or removed, they are identities. The call allocates nothing.
+   * first solve they are identities. After handles were added or removed, solve before you read them: they may be
+   * identities until then. The call allocates nothing.
    *
    * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
@@ -2189,7 +2199,7 @@ export interface FlowClass {
  * Creates a region without vertices.
  *
  * positions: [vertexCount x 3] of float or double: positions of the mesh or of a pose. A morph of weight 0 writes
- *     their bits. null: the positions of the mesh, to 1e-15 of the box. The call copies the array
+ *     the same bits. null: the positions of the mesh, to 1e-15 of the box. The call copies the array
  * base: HF_BASE_*. If the surface has no factor for it yet, it is made now
  * progress: an object to poll and cancel through
  */
@@ -2481,13 +2491,13 @@ export interface Transfer extends Handle {
   /** Writes the dials; stride is never 0. */
   readonly dials: TransferDials;
   /**
-   * Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh.
+   * Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh. Each
+   * frame moves a rigid piece by the rigid motion that fits the piece best, as Pose.setRigidPieces does. This fit
+   * is the last step of a frame. So a hold on a part of a rigid piece may miss its position, and a rigid piece may
+   * sink into the ground.
    *
    * vertices: [vertexCount], one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
-   *     replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best,
-   *     as Pose.setRigidPieces does. This comes last in a frame: a hold on a part of a rigid piece may miss its
-   *     place, and a rigid piece may sink into the ground. The pieces move from the next frame on. Does not
-   *     factorise.
+   *     replaces the previous list and applies from the next frame on. The call does not factorise.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE.
    */
@@ -2498,15 +2508,15 @@ export interface Transfer extends Handle {
    *
    * The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
    * Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The
-   * result changes as little as the source does: a source that stands still, but for noise, gives a target that
+   * result changes as little as the source does: a source that stands still except for noise gives a target that
    * stands still.
    *
    * The ground counts too if the mode is HF_TRANSFER_FIELDS and some pairs are anchors (their target region
    * follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
-   * follows its scaled path exactly. No part of the target sinks deeper into the ground than the source, scaled,
-   * but for those of Transfer.sinking. What would sink bends up. The ground does not move regions that you hold. A
-   * lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
-   * unchanged. All rules of the ground come in continuously. HF_GROUND_OFF switches them off.
+   * follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the source, scaled,
+   * except the vertices of Transfer.sinking. A part that would sink bends up. The ground does not move regions
+   * that you hold. A lying target rests on the parts that the source rests on. A rigid motion of the whole source
+   * is copied unchanged. All rules of the ground come in continuously. HF_GROUND_OFF switches them off.
    *
    * sourcePositions: [source.vertexCount x 3] of float or double: the posed source, its own vertex order
    * holdPairs: [holdCount] each pair at most once A hold puts the target region of a pair exactly at a position of
@@ -2529,8 +2539,8 @@ export interface Transfer extends Handle {
   sinking(): Uint8Array;
   /**
    * Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
-   * replays Transfer.apply exactly, because that function also uses the four largest weights. A rigid piece is one
-   * joint; these joints come last.
+   * replays Transfer.apply exactly, because that function also uses the four largest weights. Each rigid piece is
+   * one joint. These joints come after the joints of clusters.
    *
    * influenceCount: joints per vertex, 4 or 8; 0 = 4
    * scales: [jointCapacity x 3] along the axes in the last frame; null = joints are rigid

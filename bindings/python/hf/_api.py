@@ -194,7 +194,8 @@ class HandleReason(IntEnum):
     END = _raw.HF_HANDLE_REASON_END
     """one of the two ends of a component without feet or tips"""
     JOINT = _raw.HF_HANDLE_REASON_JOINT
-    """a joint of the given skeleton: an end, or where it branches; a head or a hand that is no tip of the surface"""
+    """a joint of the given skeleton: an end, or where it branches. Or a head, hand or foot that is no tip of the surface
+    """
     MIDDLE = _raw.HF_HANDLE_REASON_MIDDLE
     """the trunk of the largest component: the chest of a biped; pinned, inside the surface"""
 
@@ -556,22 +557,24 @@ class SkinInfo(NamedTuple):
 
 
 class BlendRows(NamedTuple):
-    """Receives the rows of a blend. The arrays are yours; each may be None."""
+    """Receives the rows of a blend. The arrays are yours; each may be None. Positions and offsets are in the unit of the
+    mesh, gradients per unit of the mesh.
+    """
 
     rows: np.ndarray
     """(vertex_capacity, 2) number of the first entry of the vertex, and count of its entries"""
     clusters: np.ndarray
-    """(entry_capacity,)"""
+    """(entry_capacity,) each below the count of clusters"""
     weights: np.ndarray
-    """(entry_capacity,) multiples of 2^-24; those of a vertex sum to 1"""
+    """(entry_capacity,) multiples of 2^-24; the weights of a vertex sum to 1"""
     gradients: np.ndarray
     """(entry_capacity, 3) of the weights along the rest surface, for normals"""
     positions: np.ndarray
-    """(vertex_capacity, 3) at rest"""
+    """(vertex_capacity, 3) at rest, relative to centre"""
     normals: np.ndarray
     """(vertex_capacity, 3) unit, at rest"""
     offsets: np.ndarray
-    """(vertex_capacity, 3)"""
+    """(vertex_capacity, 3) 0 unless handles were added in place or rotations freed"""
     longest_row: int
     """entries of the vertex that has the most"""
 
@@ -1488,21 +1491,21 @@ class Surface(Object):
             limit: int = 0, progress: Optional[Progress] = None, regions: Optional[np.ndarray] = None) -> np.ndarray:
         """Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals
         come first, then the others, each group by length, the longest first. The places do not depend on the order of
-        the vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, and a
-        role and a side. If its roles are known, feet and the trunk hold. Hands, heads and tails do not hold, nor does
-        what hangs on them. Each head, hand, foot, tail, ear and wing gets one proposal. A part that no joint of the
-        skin moves, such as the box of a control, gets none.
+        the vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, a
+        role and a side. If its roles are known, feet and the trunk are pinned. Hands, heads, tails and pieces that
+        hang on them, such as a sword, are not. Each head, hand, foot, tail, ear and wing gets at most one proposal. A
+        part that no joint of the skin moves, such as the box of a control, gets none.
 
         joints: (joint_count, 3) their places at rest, in the unit and frame of the mesh
         parents: (joint_count,) position of each joint's parent in the list; NO_INDEX for a root
-        skeleton: the character of the mesh, instead of joints and parents: it rests in the unit and frame of the
-            mesh. Its skin, if it has one, has the vertices of the mesh
-        up: direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0
+        skeleton: the skeleton of the mesh, instead of joints and parents. It rests in the unit and frame of the mesh.
+            If it has a skin, the skin has the vertices of the mesh
+        up: direction away from the ground, of any length; 0 0 0 = up of the skeleton where it is known, else 0 1 0
         least_length_share: as in hf_extremities_desc; 0 = 0.05
         limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
         progress: an object to poll and cancel through
-        regions: (vertex_count,): for each vertex the number of the proposal whose region it is in, NO_INDEX for a
-            vertex in none
+        regions: (vertex_count,): position in the list of the proposal whose region has the vertex; NO_INDEX for a
+            vertex of no region
 
         Raises CancelledError, InvalidArgumentError, NonFiniteError, OutOfRangeError.
         """
@@ -2264,8 +2267,8 @@ class Pose(Recorded):
         When you free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move,
         as with in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at
         the next frame. A handle alone in its component keeps its rotation. The first frame of a pose, and a frame
-        with restart, take free handles to their places in 8 steps, as a drag does; such a frame costs about 8 more.
-        refine keeps the rotation of the smooth pose.
+        with restart, move free handles to their places in 8 steps, as a drag does. Such a frame takes the time of
+        about 8 pose solves. refine keeps the rotation of the smooth pose.
 
         handles: (handle_count,).
         free_rotation: 1: the solve finds the rotations; 0: you give them.
@@ -2279,10 +2282,10 @@ class Pose(Recorded):
 
     def set_following(self, handles: ArrayLike, following: float = 0.0) -> None:
         """Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the surface where it would be
-        without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field of the handle
-        is, the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the body, and set less for
-        a handle that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next
-        Pose.deform shows a change at once, but a handle that was just added in place leaves the surface where it
+        without these handles. So a body does not lean after a dragged hand. Where the field of the handle is near 1,
+        the pins are weak, so the limb stays free. Keep 1 for the handles that hold the body, and set less for a
+        handle that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next
+        Pose.deform shows a change at once. But a handle that was just added in place leaves the surface where it
         stands until a handle moves. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let
         the body lean again.
 
@@ -2465,8 +2468,8 @@ class Pose(Recorded):
         return info
 
     def blend_rows(self) -> BlendRows:
-        """Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last cluster
-        that never moves holds them.
+        """Writes the arrays that a shader needs once for each `revision`. Call it without arrays for the counts, then
+        with arrays. If handles do not reach some vertices, a last cluster that never moves holds those vertices.
 
         Raises EmptyError, TooLargeError, UnsupportedError.
         """
@@ -2486,10 +2489,11 @@ class Pose(Recorded):
         return BlendRows(longest_row=rows.longest_row, **found)
 
     def solve(self, iteration_count: int = 0, restart: bool = False, *, info: Optional[DeformInfo] = None) -> None:
-        """Solves the pose as Pose.deform does, and writes no vertex: the work of a frame whose vertices a shader
-        computes.
+        """Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
+        Pose.deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
+        Pose.deform.
 
-        iteration_count: 1 to 1000; 0 = the pose's.
+        iteration_count: 1 to 1000; 0 = as in hf_pose_desc.
         restart: 1: as in hf_deform_desc.
         info: filled in when given
 
@@ -2501,7 +2505,8 @@ class Pose(Recorded):
 
     def blend_transforms(self) -> np.ndarray:
         """Writes the transforms of the clusters in the last Pose.solve or Pose.deform, without its refine. Before the
-        first, and after handles were added or removed, they are identities. The call allocates nothing.
+        first solve they are identities. After handles were added or removed, solve before you read them: they may be
+        identities until then. The call allocates nothing.
 
         Raises EmptyError, TooLargeError, UnsupportedError.
         """
@@ -2707,7 +2712,7 @@ class Region(Recorded):
     Creates a region without vertices.
 
     positions: (vertex_count, 3) of float or double: positions of the mesh or of a pose. A morph of weight 0 writes
-        their bits. None: the positions of the mesh, to 1e-15 of the box. The call copies the array
+        the same bits. None: the positions of the mesh, to 1e-15 of the box. The call copies the array
     base: Base. If the surface has no factor for it yet, it is made now
     progress: an object to poll and cancel through
     """
@@ -3242,13 +3247,13 @@ class Transfer(Object):
         return dials
 
     def set_rigid_pieces(self, vertices: ArrayLike) -> None:
-        """Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh.
+        """Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh. Each
+        frame moves a rigid piece by the rigid motion that fits the piece best, as Pose.set_rigid_pieces does. This
+        fit is the last step of a frame. So a hold on a part of a rigid piece may miss its position, and a rigid piece
+        may sink into the ground.
 
         vertices: (vertex_count,), one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The
-            list replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece
-            best, as Pose.set_rigid_pieces does. This comes last in a frame: a hold on a part of a rigid piece may
-            miss its place, and a rigid piece may sink into the ground. The pieces move from the next frame on. Does
-            not factorise.
+            list replaces the previous list and applies from the next frame on. The call does not factorise.
 
         Raises InvalidArgumentError, OutOfRangeError, TooLargeError.
         """
@@ -3265,15 +3270,15 @@ class Transfer(Object):
 
         The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
         Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The
-        result changes as little as the source does: a source that stands still, but for noise, gives a target that
+        result changes as little as the source does: a source that stands still except for noise gives a target that
         stands still.
 
         The ground counts too if the mode is TransferMode.FIELDS and some pairs are anchors (their target region
         follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
-        follows its scaled path exactly. No part of the target sinks deeper into the ground than the source, scaled,
-        but for those of Transfer.sinking. What would sink bends up. The ground does not move regions that you hold. A
-        lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
-        unchanged. All rules of the ground come in continuously. Ground.OFF switches them off.
+        follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the source, scaled,
+        except the vertices of Transfer.sinking. A part that would sink bends up. The ground does not move regions
+        that you hold. A lying target rests on the parts that the source rests on. A rigid motion of the whole source
+        is copied unchanged. All rules of the ground come in continuously. Ground.OFF switches them off.
 
         source_positions: (source.vertex_count, 3) of float or double: the posed source, its own vertex order
         hold_pairs: (hold_count,) each pair at most once A hold puts the target region of a pair exactly at a position
@@ -3308,8 +3313,8 @@ class Transfer(Object):
 
     def skin(self, influence_count: int = 0, *, scales: bool = False) -> SkinInfo:
         """Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
-        replays Transfer.apply exactly, because that function also uses the four largest weights. A rigid piece is one
-        joint; these joints come last.
+        replays Transfer.apply exactly, because that function also uses the four largest weights. Each rigid piece is
+        one joint. These joints come after the joints of clusters.
 
         influence_count: joints per vertex, 4 or 8; 0 = 4
         scales: (joint_capacity, 3) along the axes in the last frame; None = joints are rigid

@@ -923,7 +923,7 @@ class hf_skin_info(Struct):
 
 
 class hf_blend_info(Struct):
-    """The blend of a pose in the last frame."""
+    """hf_pose_get_blend_info writes here how the last frame of a pose is blended."""
     struct_size: int
     cluster_count: int
     revision: int
@@ -1364,7 +1364,7 @@ class hf_transfer_statistics(Struct):
 
 
 class hf_transfer_dials(Struct):
-    """What an animator turns while a transfer plays."""
+    """Dials that an animator turns while a transfer plays."""
     struct_size: int
     reserved: int
     stride: float

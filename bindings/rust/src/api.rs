@@ -620,10 +620,10 @@ pub struct HandleProposalsOptions<'a> {
     pub joints: Option<&'a [f64]>,
     /// `[joint_count]` position of each joint's parent in the list; [`raw::HF_NO_INDEX`] for a root
     pub parents: Option<&'a [u32]>,
-    /// `None`, or the character of the mesh, instead of joints and parents: it rests in the unit and frame of the mesh.
-    /// Its skin, if it has one, has the vertices of the mesh
+    /// `None`, or the skeleton of the mesh, instead of joints and parents. It rests in the unit and frame of the mesh. If
+    /// it has a skin, the skin has the vertices of the mesh
     pub skeleton: Option<&'a Skeleton>,
-    /// direction away from the ground, of any length; 0 0 0 = that of the skeleton, or 0 1 0
+    /// direction away from the ground, of any length; 0 0 0 = up of the skeleton where it is known, else 0 1 0
     pub up: Option<[f64; 3]>,
     /// as in [`ExtremitiesOptions`]; 0 = 0.05
     pub least_length_share: f64,
@@ -730,7 +730,7 @@ impl<'a> QuadsOptions<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RegionOptions<'a> {
     /// `None`, or `[vertex_count x 3]` of float or double: positions of the mesh or of a pose. A morph of weight 0 writes
-    /// their bits. `None`: the positions of the mesh, to 1e-15 of the box. The call copies the array
+    /// the same bits. `None`: the positions of the mesh, to 1e-15 of the box. The call copies the array
     pub positions: Option<Reals<'a>>,
     /// `HF_BASE_*`. If the surface has no factor for it yet, it is made now
     pub base: i32,
@@ -1076,8 +1076,8 @@ impl<'a> Pairs<'a> {
     }
 }
 
-/// What an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the result
-/// is continuous in each dial.
+/// Dials that an animator turns while a transfer plays. Neutral dials give the bits of a transfer without dials, and the
+/// result is continuous in each dial.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TransferDials {
     /// the paths of feet and trunk along the ground count this many times, 0.1 to 4; 0 = 1, neutral. A planted foot does
@@ -1396,22 +1396,23 @@ pub struct SkinInfo {
     pub influence_count: u32,
 }
 
-/// Receives the rows of a blend. The arrays are yours; each may be `None`.
+/// Receives the rows of a blend. The arrays are yours; each may be `None`. Positions and offsets are in the unit of the
+/// mesh, gradients per unit of the mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BlendRows {
     /// `[vertex_capacity x 2]` number of the first entry of the vertex, and count of its entries
     pub rows: Vec<u32>,
-    /// `[entry_capacity]`
+    /// `[entry_capacity]` each below the count of clusters
     pub clusters: Vec<u16>,
-    /// `[entry_capacity]` multiples of 2^-24; those of a vertex sum to 1
+    /// `[entry_capacity]` multiples of 2^-24; the weights of a vertex sum to 1
     pub weights: Vec<f32>,
     /// `[entry_capacity x 3]` of the weights along the rest surface, for normals
     pub gradients: Vec<f32>,
-    /// `[vertex_capacity x 3]` at rest
+    /// `[vertex_capacity x 3]` at rest, relative to centre
     pub positions: Vec<f32>,
     /// `[vertex_capacity x 3]` unit, at rest
     pub normals: Vec<f32>,
-    /// `[vertex_capacity x 3]`
+    /// `[vertex_capacity x 3]` 0 unless handles were added in place or rotations freed
     pub offsets: Vec<f32>,
     /// entries of the vertex that has the most
     pub longest_row: u32,
@@ -1900,13 +1901,13 @@ impl Surface {
 
     /// Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals come
     /// first, then the others, each group by length, the longest first. The places do not depend on the order of the
-    /// vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, and a role
-    /// and a side. If its roles are known, feet and the trunk hold. Hands, heads and tails do not hold, nor does what
-    /// hangs on them. Each head, hand, foot, tail, ear and wing gets one proposal. A part that no joint of the skin
-    /// moves, such as the box of a control, gets none.
+    /// vertices. They follow translation and scale. A skeleton gives each proposal the joint that moves it, a role and a
+    /// side. If its roles are known, feet and the trunk are pinned. Hands, heads, tails and pieces that hang on them,
+    /// such as a sword, are not. Each head, hand, foot, tail, ear and wing gets at most one proposal. A part that no
+    /// joint of the skin moves, such as the box of a control, gets none.
     ///
-    /// regions: `[vertex_count]`: for each vertex the number of the proposal whose region it is in, [`raw::HF_NO_INDEX`]
-    /// for a vertex in none
+    /// regions: `[vertex_count]`: position in the list of the proposal whose region has the vertex; [`raw::HF_NO_INDEX`]
+    /// for a vertex of no region
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`].
@@ -2809,8 +2810,8 @@ impl Pose {
     /// free a rotation on layer 0, the surface stays as it is. It releases the old rotation as handles move, as with
     /// in_place; so move the handles after this call. On a higher layer a changed handle moves the surface at the next
     /// frame. A handle alone in its component keeps its rotation. The first frame of a pose, and a frame with restart,
-    /// take free handles to their places in 8 steps, as a drag does; such a frame costs about 8 more. refine keeps the
-    /// rotation of the smooth pose.
+    /// move free handles to their places in 8 steps, as a drag does. Such a frame takes the time of about 8 pose solves.
+    /// refine keeps the rotation of the smooth pose.
     ///
     /// handles: `[handle_count]`.
     /// free_rotation: 1: the solve finds the rotations; 0: you give them.
@@ -2826,11 +2827,11 @@ impl Pose {
     }
 
     /// Sets how much of the surface follows handles of layer 0. Below 1, soft pins hold the surface where it would be
-    /// without these handles. So a body does not lean after a dragged hand. The nearer to 1 the field of the handle is,
-    /// the weaker the pins are: the limb stays free. Keep 1 for the handles that hold the body, and set less for a handle
-    /// that is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next Pose.deform
-    /// shows a change at once, but a handle that was just added in place leaves the surface where it stands until a
-    /// handle moves. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let the body lean again.
+    /// without these handles. So a body does not lean after a dragged hand. Where the field of the handle is near 1, the
+    /// pins are weak, so the limb stays free. Keep 1 for the handles that hold the body, and set less for a handle that
+    /// is dragged. Every handle still lands exactly, and a limb that is too short gets longer. The next Pose.deform shows
+    /// a change at once. But a handle that was just added in place leaves the surface where it stands until a handle
+    /// moves. Full-mesh steps (refine) ignore the pins. Repeated steps (refine_from_last) let the body lean again.
     ///
     /// handles: `[handle_count]`.
     /// following: 0 to 1. At 1 all of the surface follows the handle; a new handle has 1. At 0 only the limb of the
@@ -3056,8 +3057,8 @@ impl Pose {
         Ok(info)
     }
 
-    /// Writes what a shader needs once for a set of handles. If handles do not reach some vertices, a last cluster that
-    /// never moves holds them.
+    /// Writes the arrays that a shader needs once for each `revision`. Call it without arrays for the counts, then with
+    /// arrays. If handles do not reach some vertices, a last cluster that never moves holds those vertices.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn blend_rows(&self) -> Result<BlendRows> {
@@ -3099,10 +3100,11 @@ impl Pose {
             gradients: all_gradients, positions: all_positions, normals: all_normals, offsets: all_offsets })
     }
 
-    /// Solves the pose as `Pose::deform` does, and writes no vertex: the work of a frame whose vertices a shader
-    /// computes.
+    /// Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
+    /// `Pose::deform`. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
+    /// Pose.deform.
     ///
-    /// iteration_count: 1 to 1000; 0 = the pose's.
+    /// iteration_count: 1 to 1000; 0 = as in [`PoseOptions`].
     /// restart: 1: as in [`DeformOptions`].
     /// info: filled in when given
     ///
@@ -3116,7 +3118,8 @@ impl Pose {
     }
 
     /// Writes the transforms of the clusters in the last `Pose::solve` or Pose.deform, without its refine. Before the
-    /// first, and after handles were added or removed, they are identities. The call allocates nothing.
+    /// first solve they are identities. After handles were added or removed, solve before you read them: they may be
+    /// identities until then. The call allocates nothing.
     ///
     /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn blend_transforms(&self) -> Result<Vec<f32>> {
@@ -3891,12 +3894,13 @@ impl Transfer {
         Ok(dials)
     }
 
-    /// Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh.
+    /// Names the rigid pieces of the target, such as a sword. A piece is an edge-connected part of the mesh. Each frame
+    /// moves a rigid piece by the rigid motion that fits the piece best, as `Pose::set_rigid_pieces` does. This fit is
+    /// the last step of a frame. So a hold on a part of a rigid piece may miss its position, and a rigid piece may sink
+    /// into the ground.
     ///
     /// vertices: `[vertex_count]`, one or more vertices of each rigid piece; vertex_count 0: no piece is rigid. The list
-    /// replaces the previous list. Each frame moves a rigid piece by the rigid motion that fits the piece best, as
-    /// `Pose::set_rigid_pieces` does. This comes last in a frame: a hold on a part of a rigid piece may miss its
-    /// place, and a rigid piece may sink into the ground. The pieces move from the next frame on. Does not factorise.
+    /// replaces the previous list and applies from the next frame on. The call does not factorise.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`].
     pub fn set_rigid_pieces(&mut self, vertices: &[u32]) -> Result<()> {
@@ -3913,14 +3917,15 @@ impl Transfer {
     ///
     /// The bits of a frame depend on the pairs, in the order of their numbers, on the dials and on this desc alone.
     /// Removed pairs and earlier frames have no effect, so a scrubbed timeline gives the bits of a played one. The result
-    /// changes as little as the source does: a source that stands still, but for noise, gives a target that stands still.
+    /// changes as little as the source does: a source that stands still except for noise gives a target that stands
+    /// still.
     ///
     /// The ground counts too if the mode is [`raw::HF_TRANSFER_FIELDS`] and some pairs are anchors (their target region
     /// follows the path of the source's region). While a foot of the source stands on the ground, the target's foot
-    /// follows its scaled path exactly. No part of the target sinks deeper into the ground than the source, scaled, but
-    /// for those of `Transfer::sinking`. What would sink bends up. The ground does not move regions that you hold. A
-    /// lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied unchanged.
-    /// All rules of the ground come in continuously. [`raw::HF_GROUND_OFF`] switches them off.
+    /// follows its scaled path exactly. No vertex of the target sinks deeper into the ground than the source, scaled,
+    /// except the vertices of `Transfer::sinking`. A part that would sink bends up. The ground does not move regions that
+    /// you hold. A lying target rests on the parts that the source rests on. A rigid motion of the whole source is copied
+    /// unchanged. All rules of the ground come in continuously. [`raw::HF_GROUND_OFF`] switches them off.
     ///
     /// source_positions: `[source.vertex_count x 3]` of float or double: the posed source, its own vertex order
     /// out: `[target.vertex_count x 3]` of float or double
@@ -3966,8 +3971,8 @@ impl Transfer {
     }
 
     /// Writes the transfer as a skin (hf/pose.h), with the motion of the last frame. With influence_count 4 the skin
-    /// replays `Transfer::apply` exactly, because that function also uses the four largest weights. A rigid piece is one
-    /// joint; these joints come last.
+    /// replays `Transfer::apply` exactly, because that function also uses the four largest weights. Each rigid piece is
+    /// one joint. These joints come after the joints of clusters.
     ///
     /// influence_count: joints per vertex, 4 or 8; 0 = 4
     /// scales: `[joint_capacity x 3]` along the axes in the last frame; `None` = joints are rigid

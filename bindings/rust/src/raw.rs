@@ -918,7 +918,7 @@ pub struct hf_skin_info {
     pub vertex_weights: *mut f32,
 }
 
-/// The blend of a pose in the last frame.
+/// hf_pose_get_blend_info writes here how the last frame of a pose is blended.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_blend_info {
@@ -1334,7 +1334,7 @@ pub struct hf_transfer_statistics {
     pub target_factorisation_count: u32,
 }
 
-/// What an animator turns while a transfer plays.
+/// Dials that an animator turns while a transfer plays.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_transfer_dials {

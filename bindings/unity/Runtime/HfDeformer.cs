@@ -143,10 +143,10 @@ namespace Hf.Unity
             return motion * Matrix4x4.Translate(centre) * Matrix4x4.Rotate(handle.turn) * Matrix4x4.Translate(-centre);
         }
 
-        /// <summary>The least steps that hf_pose_set_limb_refine gives for lengths.</summary>
+        /// <summary>The fewest steps with which hf_pose_set_limb_refine keeps lengths.</summary>
         const int LengthSteps = 8;
 
-        /// <summary>How much follows a handle, and whether its limb keeps its lengths, where that has changed.</summary>
+        /// <summary>Tells the pose the following and limb steps of a handle, if they have changed.</summary>
         void SetLimb(HfHandle handle)
         {
             if (handle.layer != 0) return;

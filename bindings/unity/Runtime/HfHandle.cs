@@ -27,8 +27,8 @@ namespace Hf.Unity
             + "Above layer 0 Automatic is Given")]
         public HfRotation rotation;
 
-        /// <summary>How much follows a tip that is dragged: its limb, and a quarter of what the body would lean.
-        /// hf_deform_script takes the same.</summary>
+        /// <summary>The following of a tip that is dragged: its limb follows and the body hardly leans.
+        /// hf_surface_propose_handles proposes the same number.</summary>
         public const float TipFollowing = 0.25f;
 
         [Tooltip("How much follows. 1: the whole mesh, as for a handle that holds. 0: the limb of this handle alone. "
@@ -41,8 +41,8 @@ namespace Hf.Unity
         internal bool bound;
         internal Vector3 centroid; // of the region at rest
         internal bool free; // of the handle of the pose
-        internal float told; // how much follows it there
-        internal int steps; // on its limb there
+        internal float told; // the following that the pose has
+        internal int steps; // the limb steps that the pose has
         internal Matrix4x4 seen; // the motion of the last frame
         internal Quaternion turn = Quaternion.identity; // the rotation of the handle where the transform has none
         internal Matrix4x4 restLocal; // of the handle in the mesh's frame when it was bound

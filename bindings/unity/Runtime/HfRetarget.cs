@@ -16,7 +16,7 @@ namespace Hf.Unity
         [Tooltip("Which bone gets the travel over the ground")]
         public RootMotion rootMotion;
 
-        /// <summary>The bones of a skeleton, and their pose as the library wants it.</summary>
+        /// <summary>The bones of a skeleton and their pose: translation, rotation x y z w and scale per bone.</summary>
         sealed class Bones
         {
             public readonly List<Transform> transforms = new List<Transform>();
@@ -69,6 +69,7 @@ namespace Hf.Unity
         Bones from, to;
         Retarget retarget;
 
+        /// <summary>The message of the last failure; null after a success.</summary>
         public string LastError { get; private set; }
         /// <summary>How well the skeletons fit; null before they are bound.</summary>
         public RetargetInfo Info { get { return retarget == null ? null : retarget.Info; } }
@@ -80,7 +81,7 @@ namespace Hf.Unity
             retarget = null;
         }
 
-        /// <summary>Pairs the bones. Call it while both skeletons are at rest.</summary>
+        /// <summary>Pairs the bones. Call it while both skeletons are at rest. LastError says why it failed.</summary>
         public void Bind()
         {
             OnDisable();
@@ -96,7 +97,7 @@ namespace Hf.Unity
             catch (HfException failure) { Say(failure); }
         }
 
-        /// <summary>The clip jumps: planted feet are forgotten.</summary>
+        /// <summary>Forgets planted feet. Call it where a clip jumps.</summary>
         public void ResetFeet() { if (retarget != null) retarget.Reset(); }
 
         // A frame allocates nothing.
@@ -117,7 +118,7 @@ namespace Hf.Unity
         void Say(HfException failure)
         {
             if (LastError != failure.Message) Debug.LogWarning("hf: " + failure.Message, this);
-            LastError = failure.Message; // the target stays; said once
+            LastError = failure.Message; // the target keeps its pose; a repeated message is logged once
         }
     }
 }
