@@ -193,7 +193,7 @@ class Proposer {
     }
   }
 
-  double area_near(Vec3 place, double radius) const {
+  double area_near(Vec3 place, double radius) {
     double area = 0;
     for (const Index v : search_.near(place, radius)) area += core_.areas[at(v)];
     return area;
