@@ -117,7 +117,7 @@ class ObjReader {
 
   void build() {
     if (texcoords_ > 0) mesh_.ignored.push_back("texture coordinates");
-    if (normals_ > 0) mesh_.ignored.push_back("normals");
+    if (normals_ > 0) mesh_.ignored.push_back("normals of corners");
     if (materials_) mesh_.ignored.push_back("materials");
     if (lines_) mesh_.ignored.push_back("lines, points or curves");
     if (!mesh_.colors.empty()) mesh_.colors.resize(mesh_.positions.size(), glm::vec4(1));

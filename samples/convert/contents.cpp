@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gltf/gltf_write.h"
+
 namespace samples {
 namespace {
 
@@ -26,9 +28,13 @@ size_t seen_through(const SurfaceMesh& mesh) {
       std::count_if(mesh.colors.begin(), mesh.colors.end(), [](const glm::vec4& c) { return c.w != 1; }));
 }
 
+// STL repeats a vertex at each corner, so the numbers of the vertices are lost.
+const char* const vertex = "vertex (only its corners stay)";
+const char* const vertices_of = "vertices (only their corners stay)";
+
 }  // namespace
 
-Contents contents_of(const Model& model) {
+Contents contents_of(const Model& model, const FlatMesh* surface) {
   size_t vertices = 0, triangles = 0, normals = 0, colors = 0, lines = 0, points = 0, texcoords = 0, targets = 0;
   size_t joints = 0, instances = 0;
   for (const MeshData& mesh : model.meshes) {
@@ -43,9 +49,16 @@ Contents contents_of(const Model& model) {
     }
     if (!mesh.primitives.empty()) targets += mesh.primitives[0].targets.size();
   }
+  if (surface) {  // nodes that share a mesh each have its vertices
+    vertices = surface->vertex_count();
+    triangles = surface->triangle_count();
+    const auto is_some = [](const glm::vec3& n) { return n != glm::vec3(0); };
+    normals = static_cast<size_t>(std::count_if(surface->normals.begin(), surface->normals.end(), is_some));
+    colors = surface->colors.size();
+  }
   for (const Skin& skin : model.skins) joints += skin.joints.size();
   for (const Node& node : model.nodes) instances += node.instances ? 1 : 0;
-  return {{vertices, "vertex", "vertices", to_all},
+  return {{vertices, vertex, vertices_of, to_all & ~to_stl},
           {triangles, "triangle", "triangles", to_all},
           {normals, "normal", "normals", to_gltf | to_obj | to_off | to_ply},
           {colors, "vertex colour", "vertex colours", to_gltf | to_obj | to_off | to_ply},
@@ -55,6 +68,7 @@ Contents contents_of(const Model& model) {
           {model.animations.size(), "clip", "clips", to_gltf},
           {targets, "morph target", "morph targets", to_gltf},
           {model.materials.size(), "material", "materials", to_gltf},
+          {image_count(model), "image", "images", to_gltf},
           {texcoords, "set of texture coordinates", "sets of texture coordinates", to_gltf},
           {lines, "set of lines", "sets of lines", to_gltf},
           {points, "set of points", "sets of points", to_gltf},
@@ -64,7 +78,7 @@ Contents contents_of(const Model& model) {
 
 Contents contents_of(const SurfaceMesh& mesh) {
   Contents out = {
-      {mesh.positions.size(), "vertex", "vertices", to_all},
+      {mesh.positions.size(), vertex, vertices_of, to_all & ~to_stl},
       {mesh.face_count(), "face", "faces", to_all},
       {polygons(mesh), "polygon (cut into triangles)", "polygons (cut into triangles)", to_obj | to_off | to_ply},
       {mesh.group_names.size(), "group", "groups", to_obj},

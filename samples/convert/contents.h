@@ -20,7 +20,8 @@ struct Content {
 };
 using Contents = std::vector<Content>;
 
-Contents contents_of(const Model& model);
+// surface: the triangles at rest where they are written alone, NULL where the whole model is.
+Contents contents_of(const Model& model, const FlatMesh* surface);
 Contents contents_of(const SurfaceMesh& mesh);
 
 // "1 skin, 3 clips": the contents that `format` holds, or those that it does not hold. Without contents: "".

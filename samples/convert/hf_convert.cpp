@@ -64,15 +64,16 @@ void run(const Command& command) {
   const Format format = format_of(command.out);
   if (is_model(kind_of_file(command.in))) {
     const Model model = read_gltf(command.in);
+    FlatMesh surface;
     if (format == to_gltf) {
       write_gltf(model, command.out);
     } else {
-      const FlatMesh surface = flatten(model);
+      surface = flatten(model);
       if (surface.triangles.empty())
         throw std::runtime_error(command.in.string() + " has no triangles; write its nodes and clips as .glb");
       write_mesh_file(to_surface_mesh(surface), command.out);
     }
-    say(command.out, contents_of(model), format, model.warnings);
+    say(command.out, contents_of(model, format == to_gltf ? nullptr : &surface), format, model.warnings);
     return;
   }
   const SurfaceMesh mesh = read_mesh_file(command.in);

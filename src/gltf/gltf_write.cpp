@@ -451,6 +451,8 @@ bool is_binary_name(const std::filesystem::path& file) {
                            ": models are written as glTF; give a name that ends in .glb, .gltf or .vrm.");
 }
 
+size_t image_count(const Model& model) { return model.appearance ? model.appearance->images.size() : 0; }
+
 void write_gltf(const Model& model, const std::filesystem::path& file) {
   const bool binary = is_binary_name(file);
   const std::string& extensions = model.carried.extensions;

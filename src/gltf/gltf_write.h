@@ -29,6 +29,9 @@ bool is_binary_name(const std::filesystem::path& file);
 // The bytes of the file, binary or text.
 std::string gltf_bytes(const Model& model, bool binary);
 
+// Number of images that the file holds or names.
+size_t image_count(const Model& model);
+
 // Throws std::runtime_error naming the first element that cannot be written.
 void check_model(const Model& model);
 

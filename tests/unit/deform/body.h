@@ -61,7 +61,7 @@ struct Body {
   Region region_at(const char* joint, double radius = 0.05) const {
     const Mesh& mesh = creature.core->mesh;
     const Vector<std::int32_t> found =
-        region_near(*creature.core, mesh.to_inner(creature.joints.at(joint)), radius, *creature.core->memory);
+        RegionSearch(*creature.core).near(mesh.to_inner(creature.joints.at(joint)), radius);
     return {found.begin(), found.end()};
   }
   void put(std::uint32_t handle, const HandleTransform& t) { pose->set_transforms({&handle, 1}, {&t, 1}); }

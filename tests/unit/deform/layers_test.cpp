@@ -419,11 +419,11 @@ TEST(SkinExport, VerticesOutOfReachHangOnAJointThatStays) {
 TEST(Regions, APointAndARadiusTakeWhatHangsTogether) {
   const auto core = hf_test::make_core(plain(samples::plane(41, 41)));
   const Vec3 at = core->mesh.to_inner({0.31, 0.4, 0.2});
-  const Vector<std::int32_t> one = region_near(*core, at, 0, *core->memory);
+  RegionSearch search(*core);
+  const Vector<std::int32_t> one = search.near(at, 0);
   ASSERT_EQ(one.size(), 1u);
   EXPECT_LT(norm(core->mesh.to_given(core->mesh.positions[one[0]]) - Vec3{0.3, 0, 0.2}), 0.03);
-  const Vector<std::int32_t> disc =
-      region_near(*core, core->mesh.to_inner({0, 0, 0}), 0.3 / core->mesh.scale, *core->memory);
+  const Vector<std::int32_t> disc = search.near(core->mesh.to_inner({0, 0, 0}), 0.3 / core->mesh.scale);
   EXPECT_EQ(std::vector<std::int32_t>(disc.begin(), disc.end()), select(*core, [](Vec3 p) { return norm(p) <= 0.3; }));
 }
 

@@ -68,8 +68,7 @@ std::vector<HandleProposal> of(const std::vector<HandleProposal>& list, HandleRe
 void expect_list(const hf_inner::Core& core, const std::vector<HandleProposal>& list) {
   std::vector<int> owners(static_cast<std::size_t>(core.size()), 0);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const auto region =
-        region_near(core, core.mesh.to_inner(list[i].position), list[i].radius / core.mesh.scale, *core.memory);
+    const auto region = RegionSearch(core).near(core.mesh.to_inner(list[i].position), list[i].radius / core.mesh.scale);
     for (const std::int32_t v : region) ++owners[static_cast<std::size_t>(v)];
     EXPECT_GE(region.size(), 1u);
     if (i == 0) continue;
@@ -139,7 +138,7 @@ TEST(HandleProposals, the_region_of_the_trunk_goes_around_the_axis) {
   const auto trunk = of(propose(*core, plain()), HandleReason::middle);
   ASSERT_EQ(trunk.size(), 1u);
   const auto region =
-      region_near(*core, core->mesh.to_inner(trunk[0].position), trunk[0].radius / core->mesh.scale, *core->memory);
+      RegionSearch(*core).near(core->mesh.to_inner(trunk[0].position), trunk[0].radius / core->mesh.scale);
   double low = 0, high = 0;
   for (const std::int32_t v : region) {
     const Vec3 p = core->mesh.to_given(core->mesh.positions[static_cast<std::size_t>(v)]);

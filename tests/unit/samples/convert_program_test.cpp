@@ -56,7 +56,9 @@ TEST_F(ConvertProgram, SaysWhatAFormatKeepsAndLoses) {
   expect_said("a.ply: kept 6 vertices, 3 faces, 1 polygon, ");
   expect_said("lost 2 groups, texture coordinates, materials\n");
   ASSERT_EQ(convert("a.obj", "a.stl"), 0);
-  expect_said("lost 1 polygon (cut into triangles), 2 groups, 1 isolated vertex, digits of positions beyond float");
+  expect_said(
+      "lost 6 vertices (only their corners stay), 1 polygon (cut into triangles), 2 groups, 1 isolated vertex, digits "
+      "of positions beyond float");
   ASSERT_EQ(convert("a.ply", "b.ply"), 0);
   expect_said("lost nothing");
   std::ofstream(path("c.ply")) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -103,6 +105,37 @@ TEST_F(ConvertProgram, AModelKeepsItsSkinAndClips) {
   EXPECT_EQ(read_bytes(path("a.glb"), 1 << 20), read_bytes(path("c.glb"), 1 << 20));
   ASSERT_EQ(convert("a.glb", "a.obj"), 0) << said_;
   expect_said("lost 2 nodes, 1 skin, 1 joint, 1 clip");
+}
+
+TEST_F(ConvertProgram, AMeshOfTwoNodesCountsTwiceWhereItIsWrittenTwice) {
+  Model model = make_model("twin", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
+  model.nodes.push_back(model.nodes[0]);
+  model.nodes[1].translation = {0, 0, 3};
+  model.scene_roots.push_back(1);
+  write_gltf(model, path("a.glb"));
+  ASSERT_EQ(convert("a.glb", "b.glb"), 0) << said_;
+  expect_said("kept 3 vertices, 1 triangle, 3 normals");
+  ASSERT_EQ(convert("a.glb", "b.ply"), 0) << said_;
+  expect_said("kept 6 vertices, 2 triangles, 6 normals; lost 2 nodes");
+  ASSERT_EQ(convert("a.glb", "b.stl"), 0) << said_;
+  expect_said("kept 2 triangles; lost 6 vertices (only their corners stay), 6 normals, 2 nodes");
+}
+
+TEST_F(ConvertProgram, NamesImagesAndNormalsOfCorners) {
+  const std::string pixel =
+      "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==";
+  write_gltf(make_model("plain", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}), path("plain.gltf"));
+  const std::vector<uint8_t> bytes = read_bytes(path("plain.gltf"), 1 << 20);
+  std::string text(bytes.begin(), bytes.end());
+  text.insert(text.find('{') + 1, "\"images\":[{\"uri\":\"data:image/png;base64," + pixel + "\"}],");
+  std::ofstream(path("seen.gltf")) << text;
+  ASSERT_EQ(convert("seen.gltf", "seen.glb"), 0) << said_;
+  expect_said("1 image");
+  ASSERT_EQ(convert("seen.gltf", "seen.obj"), 0) << said_;
+  expect_said("1 image");
+  std::ofstream(path("n.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n";
+  ASSERT_EQ(convert("n.obj", "n.glb"), 0) << said_;
+  expect_said("lost normals of corners");
 }
 
 TEST_F(ConvertProgram, AnAvatarStaysOneAndNothingElseBecomesOne) {
