@@ -8,6 +8,7 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { load } from '../../bindings/js/src/web.js';
 import { fieldOf } from './src/worker_field.js';
+import { proposalsOf, surfaceOf } from './src/worker_open.js';
 import { poseOf } from './src/worker_pose.js';
 
 /** What the module may use, as bindings/js/wasm/CMakeLists.txt builds it. */
@@ -51,6 +52,18 @@ function body(faults) {
   return { positions: Float32Array.from(positions), triangles: Uint32Array.from(triangles) };
 }
 
+/** Joints along the first tube, each with the vertices up to the next, and one for the second tube. */
+function skeletonAlong(positions) {
+  const names = ['Hips', 'Spine', 'Neck', 'Head', 'LeftHand'];
+  const at = [0, 0.8, 2.4, 3.4];
+  const rest = names.flatMap((_, i) => [i === 4 ? 1 : at[i] - (at[i - 1] ?? 0), i === 4 ? 1.5 : 0, 0, 0, 0, 0, 1, 1, 1, 1]);
+  const moving = Uint16Array.from({ length: positions.length / 3 }, (_, v) =>
+    v >= 80 * 33 ? 4 : at.findLastIndex((x) => positions[3 * v] >= x || x === 0),
+  );
+  const weights = Float32Array.from(moving, () => 1);
+  return { names, parents: [0xffffffff, 0, 1, 2, 0], rest: Float32Array.from(rest), moving, weights };
+}
+
 function refused(act) {
   try {
     act();
@@ -63,6 +76,10 @@ function refused(act) {
 /** What the Worker asks for before any other tool is opened. */
 function firstMinute(hf, faults) {
   const { positions, triangles } = body(faults);
+  const character = { positions, triangles, skeleton: skeletonAlong(positions) };
+  const skinned = surfaceOf(hf, character);
+  proposalsOf(hf, skinned, character);
+  skinned.close();
   const surface = new hf.Surface(positions, triangles, { linkPieces: true });
   const [pose, field] = [poseOf, fieldOf].map((make) => make({ hf, surface, positions }));
   void [surface.report, surface.linksInfo, surface.components(), surface.statistics];

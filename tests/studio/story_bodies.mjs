@@ -26,6 +26,16 @@ async function nearPairs(studio) {
   await studio.tool('pose');
 }
 
+/** The skeleton of the file names the handles, and only feet and the trunk hold. */
+async function namedBySkeleton(studio) {
+  const offers = await studio.page.evaluate(() => window.hfStudio.tools.pose.offers.map(({ label, pinned }) => ({ label, pinned })));
+  const named = (word) => offers.filter(({ label }) => label.startsWith(word));
+  for (const word of ['head', 'left hand', 'right hand', 'left foot', 'right foot'])
+    assert.equal(named(word).length, 1, `${word} of ${offers.map(({ label }) => label)}`);
+  assert.equal(offers.filter(({ pinned }) => pinned).length, 3);
+  for (const word of ['left foot', 'right foot']) assert.ok(named(word)[0].pinned, word);
+}
+
 export default async function story(host) {
   await check('two starts give the same picture, byte by byte', async () => {
     const drawn = async () => {
@@ -57,7 +67,10 @@ export default async function story(host) {
       );
       const stem = file.replace(/\.\w+$/, '');
       const told = await studio.told();
-      if (file.includes('Woman')) await nearPairs(studio);
+      if (file.includes('Woman')) {
+        await namedBySkeleton(studio);
+        await nearPairs(studio);
+      }
       await studio.picture(`body_${stem}_first`, { kept: false });
       const more = await tried(studio, stem);
       assert.deepEqual(studio.complaints, []);

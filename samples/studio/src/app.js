@@ -2,7 +2,7 @@
 import { Client } from './client.js';
 import { History } from './history.js';
 import { ModelError } from './model_error.js';
-import { readModel } from './model.js';
+import { readModel, skeletonOf } from './model.js';
 import { Marks } from './marks.js';
 import { Timeline } from './timeline.js';
 import { ramp, STRIPS } from './skin_view.js';
@@ -68,6 +68,7 @@ export class App {
     try {
       const body = await readModel(bytes, name, (data) => this.client.ask('read', { bytes: data, name }));
       const { positions, triangles, fileNormals } = body;
+      const skeleton = skeletonOf(body);
       // the tree for picking is made beside the factorisation, or after the first picture: the first pull needs none
       const apart = body.vertexCount > TREE_APART;
       this.treeJob?.cancel();
@@ -75,7 +76,7 @@ export class App {
       this.treeJob?.answer.catch(() => {});
       showing = this.view.ready(body);
       showing.catch(() => {});
-      const opened = await this.client.ask('open', { positions, triangles, fileNormals });
+      const opened = await this.client.ask('open', { positions, triangles, fileNormals, skeleton });
       const skin = await showing;
       showing = null;
       skin.group.visible = true;

@@ -18,7 +18,7 @@ import {
   KHRMaterialsPBRSpecularGlossiness,
   EXTTextureWebP,
 } from '@gltf-transform/extensions';
-import { Matrix4, Vector3 } from 'three';
+import { Matrix4, Quaternion, Vector3 } from 'three';
 import { ModelError } from './model_error.js';
 
 /** Larger models are refused: WebAssembly has 2 GB, and a factor of 2 million vertices takes more. */
@@ -325,4 +325,38 @@ export function bonesOf(body) {
     return above ? joints.indexOf(above) : 0xffffffff;
   });
   return { joints, heads, parents, names: joints.map((joint, i) => joint.getName() || `bone ${i}`) };
+}
+
+/**
+ * The skeleton of the file for the library: names, parents and rests of its joints, and the joints that move each vertex.
+ * A part that has no skin follows the joint it hangs on. null: the file has no skin.
+ */
+export function skeletonOf(body) {
+  const { joints, parents, names } = bonesOf(body);
+  if (!joints.length) return null;
+  const number = new Map(joints.map((joint, i) => [joint, i]));
+  const worlds = joints.map((joint) => new Matrix4().fromArray(joint.getWorldMatrix()));
+  const [place, turn, scale] = [new Vector3(), new Quaternion(), new Vector3()];
+  const rest = worlds.flatMap((world, i) => {
+    const above = worlds[parents[i]]?.clone().invert() ?? new Matrix4();
+    above.multiply(world).decompose(place, turn, scale);
+    return [...place.toArray(), ...turn.toArray(), ...scale.toArray()];
+  });
+  const size = Math.max(4, ...body.parts.map((part) => (part.skin ? influencesOf(part).size : 0)));
+  const [moving, weights] = [new Uint16Array(size * body.vertexCount), new Float32Array(size * body.vertexCount)];
+  for (const part of body.parts) {
+    let above = part.node;
+    while (above && !number.has(above)) above = above.getParentNode();
+    const skin = part.skin?.listJoints().map((joint) => number.get(joint));
+    const own = skin && influencesOf(part);
+    for (let v = 0; v < part.count; ++v) {
+      const at = size * (part.first + v);
+      for (let i = 0; own && i < own.size; ++i) {
+        moving[at + i] = skin[own.joints[v * own.size + i]] ?? 0;
+        weights[at + i] = own.weights[v * own.size + i];
+      }
+      if (!own && above) [moving[at], weights[at]] = [number.get(above), 1];
+    }
+  }
+  return { names: names.map((name) => name.replace(/\n/g, ' ')), parents, rest: Float32Array.from(rest), moving, weights };
 }

@@ -4,6 +4,7 @@ import createHf from 'hf-glue';
 import { load } from '../../../bindings/js/src/web.js';
 import { readMesh } from './mesh_files.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
+import { proposalsOf, surfaceOf } from './worker_open.js';
 import { poseOf } from './worker_pose.js';
 import { fieldOf } from './worker_field.js';
 import { awayOf, detailOf } from './worker_detail.js';
@@ -68,16 +69,15 @@ const tasks = {
     return [mesh, [mesh.positions.buffer, mesh.triangles.buffer]];
   },
   /** Opens a body: factorises once. Answers with what the page can offer at once. */
-  async open({ positions, triangles, fileNormals }) {
+  async open({ positions, triangles, fileNormals, skeleton }) {
     const [hf, threads] = await ready(positions.length / 3);
     const begin = performance.now();
-    // the pieces of one character are linked: hair, eyes and clothes follow the body
-    const surface = new hf.Surface(positions, triangles, { linkPieces: true, ...threads });
+    const surface = surfaceOf(hf, { positions, triangles, skeleton }, threads);
     const sums = normalSums(triangles, normalGroups(positions, fileNormals));
     const next = { hf, threads, surface, positions, triangles, sums, normals: new Float32Array(positions.length) };
-    const proposals = surface.proposeHandles();
+    const { proposals, regions } = proposalsOf(hf, surface, { positions, triangles, skeleton });
     closeBody();
-    body = next;
+    body = Object.assign(next, { proposals, regions });
     body.pose = poseOf(body);
     body.field = fieldOf(body);
     body.detail = detailOf(body);

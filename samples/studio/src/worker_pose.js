@@ -27,12 +27,33 @@ const SETTINGS = [
 
 const sameRegion = (a, b) => a.id === b.id && a.radius === b.radius && a.position.every((x, k) => x === b.position[k]);
 
+/** The regions of heads, hands and feet as the library proposes them: the proposal of each handle that was not changed. */
+function proposedRegions({ proposals = [], regions }) {
+  const at = ({ position, radius }) => [...position, radius].join();
+  const lists = new Map(proposals.map((proposal) => [at(proposal), []]));
+  const byNumber = [...lists.values()];
+  regions?.forEach((number, v) => byNumber[number]?.push(v));
+  return (handle) => {
+    const list = lists.get(at(handle));
+    return list?.length ? list : null;
+  };
+}
+
 export function poseOf(body) {
   const { hf, surface } = body;
+  const regionOf = proposedRegions(body);
   let pose = null;
   let held = []; // { id, position, radius, number, and what the pose was told of it (SETTINGS) }
   let told = {};
   let grabbed = false; // since the last deform
+
+  /** Adds handles that have all a region, or have none and take what lies within their radius. */
+  const add = (some, inPlace) => {
+    const lists = some.map(regionOf);
+    const points = some.flatMap(({ position }) => position);
+    const radii = some.map(({ radius }) => radius);
+    return lists[0] ? pose.addHandles(lists, { inPlace }) : pose.addHandles(null, { points, radii, inPlace });
+  };
 
   /** Handles up to the first difference stay; the others are removed and added in order, so that order decides the bits. */
   const hold = (handles, inPlace = false) => {
@@ -43,13 +64,12 @@ export function poseOf(body) {
       pose.removeHandles(held.slice(same).map(({ number }) => number));
       held.length = same;
     }
-    if (same < handles.length) {
-      const added = handles.slice(same);
-      const numbers = pose.addHandles(null, {
-        points: added.flatMap(({ position }) => position),
-        radii: added.map(({ radius }) => radius),
-        inPlace,
-      });
+    while (held.length < handles.length) {
+      const next = handles.slice(held.length);
+      const kind = !regionOf(next[0]);
+      const other = next.findIndex((handle) => !regionOf(handle) !== kind);
+      const added = other < 0 ? next : next.slice(0, other);
+      const numbers = add(added, inPlace);
       added.forEach(({ id, position, radius }, i) =>
         held.push({ id, position, radius, number: numbers[i], fresh: true, free: 0, following: 1, limb: 0 }),
       );

@@ -7,6 +7,12 @@ import { Gizmo } from '../gizmo.js';
 import { Mirror, mirrorChoice } from '../mirror.js';
 
 const reasons = ['foot', 'tip', 'end', 'joint', 'middle'];
+/** Words of HF_ROLE_* and HF_SIDE_*; 0 says nothing. */
+const roles = [
+  ...['', 'spine', 'neck', 'head', 'jaw', 'shoulder', 'arm', 'hand', 'finger', 'leg', 'foot', 'toe', 'tail', 'wing', 'ear'],
+  ...['eye', 'antenna', 'fin'],
+];
+const sides = ['', 'left ', 'right '];
 /** Gaps between pieces below this part of the box are not said: a newcomer does not see them. */
 const GAP_SAID = 0.005;
 /** A key moves a handle by this part of the size of the body, and turns it by so many radians. */
@@ -50,13 +56,13 @@ export class PoseTool {
     this.mirror.opened();
     this.chosen = null;
     this.pulled = false;
-    this.offers = this.app.opened.proposals.map(({ position, radius, reason, pinned, following, vertex }, i) => ({
+    this.offers = this.app.opened.proposals.map(({ position, radius, reason, role, side, pinned, following, vertex }, i) => ({
       id: `p${i}`,
       position,
       radius,
       pinned: Boolean(pinned),
       following,
-      label: `${reasons[reason]} ${i + 1}`,
+      label: `${roles[role] ? sides[side] + roles[role] : reasons[reason]} ${i + 1}`,
       vertex,
       ...rest,
     }));
