@@ -176,6 +176,19 @@ assert went > 0.5 and late < 0.05 * went, (went, late)
 assert bpy.ops.hf.unbind() == {"FINISHED"}
 bpy.data.objects.remove(body)
 
+# ---- the bones name the handles that are proposed on the mesh they move; feet hold, and a foot is the whole box
+bpy.context.view_layer.objects.active = shoe
+for obj in bpy.data.objects:
+    obj.select_set(obj == shoe)
+assert bpy.ops.hf.propose() == {"FINISHED"}
+offered = {o.name[len("boxes "):]: o for o in bpy.data.objects if o.type == "EMPTY" and o.get("hf_key") == shoe["hf_key"]}
+assert {"left_foot", "right_foot", "head"} <= set(offered), list(offered)
+for name in ("left_foot", "right_foot", "head"):
+    first = 8 * list(PLACES).index(name)
+    assert list(offered[name]["hf_vertices"]) == list(range(first, first + 8)), (name, list(offered[name]["hf_vertices"]))
+    assert (offered[name].empty_display_type == "CUBE") == name.endswith("foot")
+assert bpy.ops.hf.unbind() == {"FINISHED"}
+
 # ---- another bone in the target pairs again; a cleared source leaves the bones as they stand; a saved file goes on
 kept = retarget.players["robot"]
 bpy.context.view_layer.objects.active = robot

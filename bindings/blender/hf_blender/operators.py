@@ -6,7 +6,7 @@ import bpy
 
 import hf
 
-from . import carriers, mesh_data, retarget, rig, session, skinning
+from . import carriers, mesh_data, proposals, retarget, rig, session, skinning
 
 _busy = 0
 
@@ -162,7 +162,7 @@ class HF_OT_propose(bpy.types.Operator):
         obj = mesh_of(context)
         session.session_of(obj, context.window_manager)
         with quiet():
-            made = session.add_proposals(obj, self.holding)
+            made = proposals.add_proposals(obj, self.holding)
         refresh(obj)
         held = sum(1 for carrier in made if not carriers.waits(carrier))
         self.report({"INFO"}, f"{len(made)} handles, {held} of them hold; move one of the others")

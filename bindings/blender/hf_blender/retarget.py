@@ -39,6 +39,19 @@ class Joints:
     def skeleton(self, armature):
         return hf.Skeleton(self.names, self.parents, self.pose, skin=skin_of(armature, self.names))
 
+    def skeleton_in(self, obj, armature):
+        """The skeleton at rest in the frame of a mesh that it moves, with that mesh as its skin."""
+        to_mesh = obj.matrix_world.inverted() @ armature.matrix_world
+        rest = self.pose.copy()
+        for i, (bone, parent) in enumerate(zip(armature.data.bones, self.parents)):
+            if parent < 0:
+                rest[i] = numbers_of(to_mesh @ bone.matrix_local)
+        obj.data.calc_loop_triangles()
+        triangles = mesh_data.column(obj.data.loop_triangles, "vertices", 3).reshape(-1, 3)
+        joints, weights = skinning.group_weights(obj, self.names)
+        skin = {"positions": mesh_data.rest_of(obj.data), "triangles": triangles, "joints": joints, "weights": weights}
+        return hf.Skeleton(self.names, self.parents, rest, skin=skin)
+
     def read(self, armature):
         """The pose of an evaluated armature."""
         bones = armature.pose.bones

@@ -244,38 +244,6 @@ def add_handles(obj, regions, names, layer=0):
         name in zip(regions, names)])
 
 
-REASONS = ("foot", "tip", "end", "joint", "middle")
-
-
-def add_proposals(obj, only_pinned=False):
-    """Handles the library proposes, where no handle is yet. Those that hold come first and are drawn as cubes. The
-    others hold nothing until they are moved."""
-    session = session_of(obj)
-    session.sync(obj)
-    up = obj.matrix_world.to_3x3().inverted_safe() @ Vector((0.0, 0.0, 1.0))  # Blender's ground is below z
-    held = [*carriers.carriers_of(obj["hf_key"]).values(), *carriers.offered(obj["hf_key"])]
-    taken = {v for carrier in held for v in carrier["hf_vertices"]}
-    made = []
-    diagonal = session.surface.report.bounding_box_diagonal
-    for place in session.surface.propose_handles(up=up):
-        if only_pinned and not place["pinned"]:
-            continue
-        near = np.linalg.norm(session.rest - place["position"], axis=1) <= place["radius"]
-        region = sorted(mesh_data.connected(obj.data, int(place["vertex"]), near))  # as hf_pose_add_handle_at
-        if taken.intersection(region):
-            continue
-        taken.update(region)
-        made.append(carriers.make_empty(obj, REASONS[place["reason"]], region, session.rest, diagonal, 0))
-        if place["pinned"]:
-            made[-1].empty_display_type = "CUBE"
-        else:
-            carriers.offer(made[-1])
-        made[-1].hf_following = place["following"]
-    if not made:
-        raise hf.EmptyError(f"{obj.name} has handles at all proposed places")
-    return take_up(obj, made)
-
-
 def add_bones(obj, armature, layer=0, share=0.5):
     """The deforming bones of an armature become handles: the mesh follows them as they are posed or animated."""
     if armature is None or armature.type != "ARMATURE":

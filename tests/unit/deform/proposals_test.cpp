@@ -68,7 +68,8 @@ std::vector<HandleProposal> of(const std::vector<HandleProposal>& list, HandleRe
 void expect_list(const hf_inner::Core& core, const std::vector<HandleProposal>& list) {
   std::vector<int> owners(static_cast<std::size_t>(core.size()), 0);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const auto region = RegionSearch(core).near(core.mesh.to_inner(list[i].position), list[i].radius / core.mesh.scale);
+    const auto region =
+        hf_inner::RegionSearch(core).near(core.mesh.to_inner(list[i].position), list[i].radius / core.mesh.scale);
     for (const std::int32_t v : region) ++owners[static_cast<std::size_t>(v)];
     EXPECT_GE(region.size(), 1u);
     if (i == 0) continue;
@@ -138,7 +139,7 @@ TEST(HandleProposals, the_region_of_the_trunk_goes_around_the_axis) {
   const auto trunk = of(propose(*core, plain()), HandleReason::middle);
   ASSERT_EQ(trunk.size(), 1u);
   const auto region =
-      RegionSearch(*core).near(core->mesh.to_inner(trunk[0].position), trunk[0].radius / core->mesh.scale);
+      hf_inner::RegionSearch(*core).near(core->mesh.to_inner(trunk[0].position), trunk[0].radius / core->mesh.scale);
   double low = 0, high = 0;
   for (const std::int32_t v : region) {
     const Vec3 p = core->mesh.to_given(core->mesh.positions[static_cast<std::size_t>(v)]);
