@@ -96,9 +96,11 @@ std::int32_t Pose::require(std::uint32_t number, std::uint32_t position) const {
 void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const {
   const std::size_t added = start.size() < 2 ? 0 : start.size() - 1;
   check_region_count(handle_count(), added, "handle");
-  Vector<std::int32_t> owner(static_cast<std::size_t>(core_->size()), -1, &memory());  // -2: a handle there is
+  // by vertex: the region that has it, -1 for none, -2 - i for handle i
+  Vector<std::int32_t> owner(static_cast<std::size_t>(core_->size()), -1, &memory());
   if (layout_) {
-    for (std::int32_t v = 0; v < core_->size(); ++v) owner[v] = layout_->reach.owner[v] >= 0 ? -2 : -1;
+    for (std::int32_t v = 0; v < core_->size(); ++v)
+      if (layout_->reach.owner[v] >= 0) owner[v] = -2 - layout_->reach.owner[v];
   }
   for (std::size_t r = 0; r < added; ++r) {
     if (start[r + 1] <= start[r]) fail(HF_ERROR_EMPTY, static_cast<std::uint32_t>(r), "region %zu has no vertex", r);
@@ -108,9 +110,12 @@ void Pose::check_regions(Span<const std::uint32_t> start, Span<const std::int32_
         fail(HF_ERROR_INVALID_ARGUMENT, k, "entry %u of the regions is a vertex without a usable triangle", k);
       if (v < 0 || v >= core_->size())
         fail(HF_ERROR_OUT_OF_RANGE, k, "entry %u of the regions is no vertex of the mesh", k);
+      if (owner[v] <= -2)
+        fail(HF_ERROR_CONFLICT, k, "entry %u: the vertex belongs to handle %u already; regions must not overlap", k,
+             layout_->handles[static_cast<std::size_t>(-2 - owner[v])].number);
       if (owner[v] != -1 && owner[v] != static_cast<std::int32_t>(r))
-        fail(HF_ERROR_CONFLICT, k, "entry %u: the vertex belongs to %s already; regions must not overlap", k,
-             owner[v] == -2 ? "a handle" : "an earlier region");
+        fail(HF_ERROR_CONFLICT, k, "entry %u: the vertex belongs to region %d already; regions must not overlap", k,
+             owner[v]);
       owner[v] = static_cast<std::int32_t>(r);
     }
   }

@@ -364,6 +364,13 @@ TEST(Pose, BadInputIsNamedAndChangesNothing) {
   EXPECT_EQ(index, 3u);
   EXPECT_EQ(try_add({{7, 50}}, &index), HF_ERROR_CONFLICT);
   EXPECT_EQ(index, 1u);
+  try {
+    add(*pose, {{7, 50}});
+  } catch (const hf_inner::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("belongs to handle " + std::to_string(numbers[1]) + " already"),
+              std::string::npos)
+        << error.what();
+  }
   EXPECT_EQ(try_add({{7, Mesh::none}}, &index), HF_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(try_add({{7, core->size()}}, &index), HF_ERROR_OUT_OF_RANGE);
   EXPECT_EQ(index, 1u);
