@@ -122,7 +122,9 @@ assert radii.max() < 0.51 and np.ptp(at, axis=0).max() > 3.9, (radii.max(), np.p
 assert sorted(g.name for g in quads.vertex_groups) == sorted(g.name for g in bar.vertex_groups)
 high_end = mesh_data.group_vertices(quads, "hf high")
 assert high_end and np.linalg.norm(at[high_end].mean(0) - points[mesh_data.group_vertices(bar, "hf high")].mean(0)) < 0.1
+assert bpy.context.view_layer.objects.active == quads and bpy.context.selected_objects == [quads]
 bpy.data.objects.remove(quads)
+active(bar)
 
 # ---- quads: the mirror image of themselves; along a stroke that winds up the bar; with vertices on an edge marked as sharp
 def made_quads(*curves, **options):
@@ -131,6 +133,7 @@ def made_quads(*curves, **options):
         curve.select_set(True)
     assert bpy.ops.hf.quads(faces=600, **options) == {"FINISHED"}
     made = bpy.data.objects["bar quads"]
+    active(bar)
     at, edges = mesh_data.positions_of(made.data), mesh_data.column(made.data.edges, "vertices", 2).reshape(-1, 2)
     bpy.data.objects.remove(made)
     return at, edges

@@ -133,6 +133,14 @@ for h in (0.5, 1.0, 1.5, 1.8):
     assert abs(ring[round(4 - h, 3)] - other_ring[h]) < 0.02, (h, ring[round(4 - h, 3)], other_ring[h])
 assert "paired by name" in arm_mesh["hf_weights_note"]
 
+# the armature alone: all meshes that it moves get their weights
+for mesh in (arm_mesh, sleeve):
+    mesh.vertex_groups.clear()
+active(skeleton)
+assert bpy.ops.hf.weights_from_bones() == {"FINISHED"}
+for mesh in (arm_mesh, sleeve):
+    np.testing.assert_allclose(sum(table(mesh).values()), 1, atol=1e-4)
+
 # every operator is one step of undo: groups and modifier go with it
 naked, _ = cylinder("naked", 4.0, 0.4, 9, 8, (30, 0, 0))
 active(naked)

@@ -22,9 +22,11 @@ from .operators import refresh  # noqa: E402
 
 
 def follow(scene, keys=None):
-    for obj in scene.objects:
-        if obj.type != "MESH" or obj.get("hf_key") not in session.sessions or not (keys is None or obj["hf_key"] in keys):
-            continue
+    """Solves the poses of these meshes, or of all with handles. A mesh of a file that was opened binds now."""
+    if keys is None:
+        keys = carriers.carriers_in(scene.objects).keys() | session.sessions.keys()
+    # a list: a handle may go meanwhile, and its empty with it
+    for obj in [o for o in scene.objects if o.type == "MESH" and o.get("hf_key") in keys and o.mode != "EDIT"]:
         try:
             refresh(obj)
         except hf.HfError as error:
@@ -46,8 +48,6 @@ def on_depsgraph(scene, depsgraph):
                 skinning.follow_pins(key)
         except hf.HfError as error:
             print(f"hf: {error.message}")
-    if not session.sessions:
-        return
     keys = set()
     for update in depsgraph.updates:
         item = update.id
@@ -55,6 +55,14 @@ def on_depsgraph(scene, depsgraph):
             continue
         if item.type == "EMPTY" and update.is_updated_transform and "hf_key" in item:
             keys.add(item["hf_key"])
+        elif item.type == "MESH" and update.is_updated_geometry and item.get("hf_key") in session.sessions:
+            found = session.sessions[item["hf_key"]]
+            if item.original.mode == "EDIT":
+                found.editing = True
+            elif found.editing and not found.is_edited(item.original.data):
+                found.editing = False
+            elif found.editing:
+                keys.add(item["hf_key"])
         elif item.type == "ARMATURE" and item.get("hf_bones"):  # moved, or posed
             keys |= {bone["hf_key"] for bone in carriers.bones_of(item.original)}
     held = carriers.carriers_in(scene.objects)

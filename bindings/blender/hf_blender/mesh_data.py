@@ -8,6 +8,7 @@ import numpy as np
 import hf
 
 REST = "hf_rest"
+NUMBER = "hf_number"  # of each vertex when the mesh was bound, from 1; edits carry it along, 0 is a new vertex
 
 
 def positions_of(mesh):
@@ -34,6 +35,42 @@ def size_of(mesh):
 def keep_rest(mesh, rest):
     if REST not in mesh.attributes:
         mesh.attributes.new(REST, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", rest.ravel())
+
+
+def number_vertices(mesh):
+    """Gives each vertex its number, so that vertices are known again after an edit."""
+    numbers = mesh.attributes.get(NUMBER) or mesh.attributes.new(NUMBER, "INT", "POINT")
+    numbers.data.foreach_set("value", np.arange(1, len(mesh.vertices) + 1, dtype=np.int32))
+
+
+def numbers_of(mesh):
+    """The number that each vertex had when the mesh was bound, -1 for a new one; None for a mesh that was never bound."""
+    if NUMBER not in mesh.attributes or len(mesh.attributes[NUMBER].data) != len(mesh.vertices):
+        return None
+    out = np.empty(len(mesh.vertices), np.int32)
+    mesh.attributes[NUMBER].data.foreach_get("value", out)
+    return out - 1
+
+
+def take_edit(mesh, posed=None):
+    """Brings the rest shape of a bound mesh in line with an edit: vertices that were moved move at rest, and new ones are where
+    the edit put them. posed: positions before the edit. Returns what numbers_of() was."""
+    numbers, now = numbers_of(mesh), positions_of(mesh)
+    if numbers is None:
+        return None
+    if REST in mesh.attributes:
+        rest = rest_of(mesh)
+        known = np.zeros(len(numbers), bool)  # a subdivided vertex gives its number to new ones, which stand behind it
+        known[np.unique(numbers, return_index=True)[1]] = True
+        known &= numbers >= 0
+        bare = ~known & ~rest.any(1)
+        rest[bare] = now[bare]
+        if posed is not None:
+            known &= numbers < len(posed)
+            rest[known] += now[known] - posed[numbers[known]]
+        mesh.attributes[REST].data.foreach_set("vector", rest.ravel())
+    number_vertices(mesh)
+    return numbers
 
 
 def column(collection, name, count=1):

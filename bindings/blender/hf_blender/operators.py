@@ -75,7 +75,9 @@ class HF_OT_bind(bpy.types.Operator):
 
     @guarded
     def execute(self, context):
-        session.session_of(mesh_of(context), context.window_manager)
+        note = session.session_of(mesh_of(context), context.window_manager).note
+        if note:
+            self.report({"INFO"}, note)
 
 
 class HF_OT_unbind(bpy.types.Operator):
@@ -325,20 +327,38 @@ def mesh_and_armature(context):
     return obj, armature
 
 
+def meshes_and_armature(context):
+    """The selected meshes, or all that the selected armature moves or is the parent of; and the armature."""
+    armature = next((o for o in context.selected_objects if o.type == "ARMATURE"), None)
+    meshes = [o for o in context.selected_objects if o.type == "MESH"]
+    if armature and not meshes:
+        meshes = [o for o in context.scene.objects if o.type == "MESH" and armature in (o.parent, skinning.armature_of(o))]
+    if armature and meshes:
+        return meshes, armature
+    obj, armature = mesh_and_armature(context)
+    return [obj], armature
+
+
 class HF_OT_weights_from_bones(bpy.types.Operator):
-    """Skin weights for every vertex of the selected mesh from the deforming bones of the selected armature"""
+    """Skin weights for every vertex of the selected meshes from the deforming bones of the selected armature. Select the
+    armature alone for all its meshes"""
     bl_idname, bl_label, bl_options = "hf.weights_from_bones", "Compute weights", {"REGISTER", "UNDO"}
     count: bpy.props.EnumProperty(name="Bones for each vertex", items=[("4", "4", ""), ("8", "8", "")])
 
     @guarded
     def execute(self, context):
-        obj, armature = mesh_and_armature(context)
-        if obj.mode == "EDIT":
-            obj.update_from_editmode()
-        with quiet():
-            info, helpers = skinning.weights_from_bones(obj, armature, int(self.count), context.window_manager)
-        guessed = info.nearest_count + info.rigid_count + info.isolated_count
-        self.report({"INFO"}, f"{info.vertex_count} vertices, {guessed} guessed; {len(helpers)} bones look like helpers")
+        meshes, armature = meshes_and_armature(context)
+        vertices, guessed, found = 0, 0, set()
+        for obj in meshes:
+            if obj.mode == "EDIT":
+                obj.update_from_editmode()
+            with quiet():
+                info, helpers = skinning.weights_from_bones(obj, armature, int(self.count), context.window_manager)
+            vertices += info.vertex_count
+            guessed += info.nearest_count + info.rigid_count + info.isolated_count
+            found.update(helpers)
+        of = f" of {len(meshes)} meshes" if len(meshes) > 1 else ""
+        self.report({"INFO"}, f"{vertices} vertices{of}, {guessed} guessed; {len(found)} bones look like helpers")
 
 
 class HF_OT_pin_weights(bpy.types.Operator):

@@ -70,7 +70,10 @@ class HF_OT_quads(bpy.types.Operator):
         with quiet():
             made = quads.create(obj, curves, poles, context.window_manager, context.evaluated_depsgraph_get(), self.faces,
                 self.crease, self.sharp, self.symmetry)
+        for other in context.selected_objects:
+            other.select_set(False)
         made.select_set(True)
+        context.view_layer.objects.active = made
         self.report({"INFO"}, f"{made.name}: {len(made.data.polygons)} quads")
 
 

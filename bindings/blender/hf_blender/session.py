@@ -71,11 +71,30 @@ def make_surface(positions, faces, window_manager=None, meanwhile=None, **option
         **options), window_manager, meanwhile)
 
 
+def take_edit(obj, posed=None):
+    """Takes an edit of a bound mesh into its rest shape and into the regions of its handles. posed: positions before the
+    edit. Returns a sentence for the panel, "" if nothing was edited."""
+    before = mesh_data.take_edit(obj.data, posed)
+    if before is None or (posed is None and np.array_equal(before, np.arange(len(before)))):
+        return ""
+    lost = []
+    for carrier in [*carriers.carriers_of(obj["hf_key"]).values(), *carriers.offered(obj["hf_key"])]:
+        region = np.flatnonzero(np.isin(before, np.array(carrier["hf_vertices"], np.int64)))
+        if len(region):
+            carrier["hf_vertices"] = region.tolist()
+        else:
+            lost.append(carrier.name)
+            carriers.unmark(carrier)
+    return "The mesh was edited and is bound again" + (f"; {', '.join(lost)} went with its vertices" if lost else "")
+
+
 class Session:
     def __init__(self, obj, window_manager=None, meanwhile=None):
         mesh = obj.data
         begin = time.perf_counter()
-        self.rest = rest_of(mesh)
+        self.note = take_edit(obj) if "hf_key" in obj else ""  # of an edit since the last bind
+        self.rest, self.faces = rest_of(mesh), faces_of(mesh)
+        self.editing = False  # the mesh is or was in Edit Mode, and has not been looked at since
         self.surface = make_surface(self.rest, faces_of(mesh), window_manager, meanwhile, link_pieces=True)
         self.light = self.surface.pieces()[1]
         self.info = hf.DeformInfo()
@@ -87,6 +106,7 @@ class Session:
         self.placed = {}  # hf_id -> matrix of the last update
         self.posed = self.rest.copy()
         obj["hf_key"] = obj.get("hf_key") or uuid.uuid4().hex
+        mesh_data.number_vertices(mesh)
         figures["bind_ms"] = 1e3 * (time.perf_counter() - begin)
 
     def close(self):
@@ -148,7 +168,12 @@ class Session:
         for carrier in found.values():
             if np.mean(self.light[np.array(carrier["hf_vertices"], np.uint32)]) > 0.5:
                 out.append(f"{carrier.name} lies on a light piece: it hardly pulls the rest")
-        return out
+        return [self.note] * bool(self.note) + out
+
+    def is_edited(self, mesh):
+        """Whether Edit Mode has changed a mesh that was posed."""
+        same = len(mesh.vertices) == len(self.posed) and all(map(np.array_equal, self.faces, faces_of(mesh)))
+        return not (same and np.array_equal(mesh_data.positions_of(mesh), self.posed))
 
     def update(self, obj, write=True):
         """The pose from where the carriers stand, into the mesh."""
@@ -165,6 +190,7 @@ class Session:
             self.pose.deform(self.posed, info=self.info, refine=steps)
             self.remarks = self.remarks_of(found)
             moved = any(not np.array_equal(self.placed.get(i, IDENTITY), m) for i, m in zip(found, matrices))
+            self.note = "" if moved else self.note  # it was shown until now
             self.placed = dict(zip(found, matrices))
         else:
             self.posed[:] = self.rest
@@ -190,7 +216,14 @@ def session_of(obj, window_manager=None, bind=True, meanwhile=None):
     if obj is None or obj.type != "MESH":
         raise hf.InvalidArgumentError("select a mesh object")
     found = sessions.get(obj.get("hf_key"))
-    if found and len(found.rest) == len(obj.data.vertices):
+    if found and obj.mode != "EDIT" and (found.editing or len(found.rest) != len(obj.data.vertices)):
+        found.editing = False
+        if found.is_edited(obj.data):
+            sessions.pop(obj["hf_key"]).close()
+            note = take_edit(obj, found.posed)
+            found = sessions[obj["hf_key"]] = Session(obj, window_manager)
+            found.note = note
+    if found and (obj.mode == "EDIT" or len(found.rest) == len(obj.data.vertices)):
         if meanwhile:
             meanwhile()
         return found
@@ -212,8 +245,9 @@ def forget(obj):
     for carrier in [*carriers.carriers_of(key).values(), *carriers.offered(key)]:
         carriers.unmark(carrier)
     obj.data.vertices.foreach_set("co", rest.ravel())
-    if mesh_data.REST in obj.data.attributes:
-        obj.data.attributes.remove(obj.data.attributes[mesh_data.REST])
+    for name in (mesh_data.REST, mesh_data.NUMBER):
+        if name in obj.data.attributes:
+            obj.data.attributes.remove(obj.data.attributes[name])
     obj.data.update()
     if "hf_key" in obj:
         del obj["hf_key"]
