@@ -189,6 +189,18 @@ class Steps:
         return lines + [f"found['{name}'] = found['{name}'] != 0" for name, item, _ in arrays if item.get("flag") and not into]
 
 
+TOLD = '''def told(of: Any, counts: Sequence[str], report: str = "") -> str:
+    """The repr of an object: its counts, and those of its report that are not 0."""
+    if of.closed:
+        return f"<hf.{type(of).__name__} closed>"
+    shown = [(name, getattr(of, name)) for name in counts]
+    found = getattr(of, report) if report else None
+    for name, *_ in found._fields_ if found else ():
+        if name.endswith("_count") and name not in counts and getattr(found, name):
+            shown.append((name, getattr(found, name)))
+    return f"<hf.{type(of).__name__}{''.join(f' {name}={value}' for name, value in shown)}>"'''.split("\n")
+
+
 class Writer:
     def __init__(self, api):
         self.api = api
@@ -340,6 +352,9 @@ class Writer:
         for count in counts:
             what = "Vertices of the surface, as given." if count == "vertex_count" else "As it was made with."
             out += ["", "    @property", f"    def {count}(self) -> int:", f'        """{what}"""', f"        return self._n.get({count!r}, 0)"]
+        told = [*counts, *(m.title() for m in methods if m.is_property() and m.title().endswith("_count"))]
+        report = ", 'report'" if any(m.title() == "report" for m in methods) else ""
+        out += ["", "    def __repr__(self) -> str:", f"        return told(self, {tuple(told)!r}{report})"]
         for m in methods:
             out += [""] + self.method(m) if m.kind != "destroy" else []
         return out
@@ -365,6 +380,7 @@ class Writer:
                 "from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union", "", "import numpy as np", "",
                 "from . import _raw", "from ._library import ArrayLike, Call, Object, Recorded, address, call, handle_of, library, number, place, ref",
                 "from ._library import PlaceLike"]
+        head += ["", "", *TOLD]
         text = head + self.aliases() + self.enums() + self.result_classes() + fillers + bodies
         repeated = sorted({n for n in self.names if self.names.count(n) > 1})
         if repeated:

@@ -27,6 +27,54 @@ def mesh(name, dtype=np.float32):
         np.uint32).reshape(-1, 3)
 
 
+class Repr(unittest.TestCase):
+    def test_an_object_shows_its_counts_and_what_is_wrong_with_its_mesh(self):
+        surface = hf.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 5]], [[0, 1, 2], [0, 1, 2]])
+        self.assertEqual(repr(surface), "<hf.Surface vertex_count=4 triangle_count=2 welded_vertex_count=4 component_count=1 "
+            "isolated_vertex_count=1 duplicate_triangle_count=1 boundary_edge_count=3>")
+        solver = hf.Solver(surface)
+        solver.add_sites([0], [1.0])
+        self.assertIn("site_count=1", repr(solver))
+        surface.close()
+        self.assertEqual(repr(surface), "<hf.Surface closed>")
+
+
+class OtherPackages(unittest.TestCase):
+    """The lines of bindings/python/README.md, where the packages are there."""
+
+    def solved(self, surface):
+        with hf.Solver(surface) as solver:
+            solver.add_sites([0, 1], [0.0, 1.0])
+            return solver.solve()
+
+    def package(self, name):
+        try:
+            return __import__(name)
+        except ImportError:
+            self.skipTest(f"no {name} here")
+
+    def test_trimesh(self):
+        ball = self.package("trimesh").creation.icosphere(2)
+        surface = hf.Surface(ball.vertices, ball.faces)
+        pose = hf.Pose(surface)
+        pose.add_handles([[0]])
+        ball.vertices = pose.deform()
+        self.assertEqual(surface.vertex_count, len(ball.vertices))
+
+    def test_meshio(self):
+        meshio = self.package("meshio")
+        mesh = meshio.Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), [("triangle", np.array([[0, 1, 2]]))])
+        surface = hf.Surface(mesh.points, mesh.cells_dict["triangle"])
+        mesh.point_data["field"] = self.solved(surface)
+        self.assertEqual(mesh.point_data["field"].shape, (3,))
+
+    def test_pyvista(self):
+        mesh = self.package("pyvista").Sphere()
+        surface = hf.Surface(mesh.points, mesh.regular_faces)
+        mesh["field"] = self.solved(surface)
+        self.assertEqual(len(mesh["field"]), surface.vertex_count)
+
+
 class Layout(unittest.TestCase):
     def test_ctypes_lays_structs_out_as_the_compiler_does(self):
         """layout.py is held against the compiler by tests/api, whose programs do not compile otherwise."""

@@ -14,6 +14,18 @@ from ._library import ArrayLike, Call, Object, Recorded, address, call, handle_o
 from ._library import PlaceLike
 
 
+def told(of: Any, counts: Sequence[str], report: str = "") -> str:
+    """The repr of an object: its counts, and those of its report that are not 0."""
+    if of.closed:
+        return f"<hf.{type(of).__name__} closed>"
+    shown = [(name, getattr(of, name)) for name in counts]
+    found = getattr(of, report) if report else None
+    for name, *_ in found._fields_ if found else ():
+        if name.endswith("_count") and name not in counts and getattr(found, name):
+            shown.append((name, getattr(found, name)))
+    return f"<hf.{type(of).__name__}{''.join(f' {name}={value}' for name, value in shown)}>"
+
+
 Link = _raw.hf_link
 SurfaceInfo = _raw.hf_surface_info
 SurfaceReport = _raw.hf_surface_report
@@ -1045,6 +1057,9 @@ class Progress(Object):
     _destroy = 'hf_progress_destroy'
     _counts = ()
 
+    def __repr__(self) -> str:
+        return told(self, ())
+
     def __init__(self) -> None:
         c = Call()
         self._own('hf_progress_create', c)
@@ -1108,6 +1123,9 @@ class Surface(Object):
     def vertex_count(self) -> int:
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
+
+    def __repr__(self) -> str:
+        return told(self, ('vertex_count',), 'report')
 
     def __init__(self, positions: Optional[ArrayLike] = None, triangles: Optional[ArrayLike] = None, *,
             weld: int = Weld.EXACT, faces: Any = None, weld_tolerance: float = 0.0,
@@ -1550,6 +1568,9 @@ class Solver(Recorded):
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
 
+    def __repr__(self) -> str:
+        return told(self, ('channel_count', 'vertex_count', 'site_count'))
+
     def __init__(self, surface: Surface, *, field_kind: int = FieldKind.HARMONIC, channel_count: int = 0,
             site_limit: int = 0, progress: Optional[Progress] = None) -> None:
         c = Call(surface=surface)
@@ -1891,6 +1912,9 @@ class Geodesics(Object):
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
 
+    def __repr__(self) -> str:
+        return told(self, ('vertex_count',))
+
     def __init__(self, surface: Surface, *, method: int = DistanceMethod.AUTO, smoothing: float = 0.0,
             progress: Optional[Progress] = None) -> None:
         c = Call(surface=surface)
@@ -1971,6 +1995,9 @@ class Direction(Recorded):
     def vertex_count(self) -> int:
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
+
+    def __repr__(self) -> str:
+        return told(self, ('vertex_count', 'site_count'))
 
     def __init__(self, surface: Surface, *, degree: int = 0, site_limit: int = 0,
             progress: Optional[Progress] = None) -> None:
@@ -2137,6 +2164,9 @@ class Pose(Recorded):
     def vertex_count(self) -> int:
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
+
+    def __repr__(self) -> str:
+        return told(self, ('vertex_count', 'handle_count'))
 
     def __init__(self, surface: Surface, *, band_count: int = 0, iteration_count: int = 0,
             group_count: int = 0) -> None:
@@ -2573,6 +2603,9 @@ class Quads(Object):
     _destroy = 'hf_quads_destroy'
     _counts = ()
 
+    def __repr__(self) -> str:
+        return told(self, ())
+
     def __init__(self, surface: Surface, crease_edges: Optional[ArrayLike] = None,
             guide_vertices: Optional[ArrayLike] = None, guide_vectors: Optional[ArrayLike] = None,
             guide_weights: Optional[ArrayLike] = None, irregular_points: Optional[ArrayLike] = None,
@@ -2674,6 +2707,9 @@ class Flow(Object):
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
 
+    def __repr__(self) -> str:
+        return told(self, ('vertex_count',))
+
     def __init__(self, surface: Surface) -> None:
         c = Call(surface=surface)
         self._own('hf_flow_create', c, handle_of(surface, Surface, 'surface'))
@@ -2724,6 +2760,9 @@ class Region(Recorded):
     def vertex_count(self) -> int:
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
+
+    def __repr__(self) -> str:
+        return told(self, ('vertex_count',))
 
     def __init__(self, surface: Surface, positions: Optional[ArrayLike] = None, *, base: int = Base.DEFAULT,
             progress: Optional[Progress] = None) -> None:
@@ -2861,6 +2900,9 @@ class Detail(Object):
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
 
+    def __repr__(self) -> str:
+        return told(self, ('vertex_count',))
+
     def __init__(self, source: Region, target: Region, source_vertices: Optional[ArrayLike] = None,
             target_vertices: Optional[ArrayLike] = None, *, scale: float = 0.0,
             progress: Optional[Progress] = None) -> None:
@@ -2916,6 +2958,9 @@ class Retarget(Recorded):
     def joint_count(self) -> int:
         """As it was made with."""
         return self._n.get('joint_count', 0)
+
+    def __repr__(self) -> str:
+        return told(self, ('joint_count',))
 
     def __init__(self, source: Skeleton, target: Skeleton, source_rest: Optional[ArrayLike] = None,
             target_rest: Optional[ArrayLike] = None, *, root_motion: int = RootMotion.HIPS, leave_out: int = 0,
@@ -3020,6 +3065,9 @@ class Skeleton(Object):
     def joint_count(self) -> int:
         """As it was made with."""
         return self._n.get('joint_count', 0)
+
+    def __repr__(self) -> str:
+        return told(self, ('joint_count',))
 
     def ground_velocity(self, poses: ArrayLike, seconds: float) -> np.ndarray:
         """Finds the velocity of the soles where they touch the ground, for a clip on the spot: a treadmill under a walk.
@@ -3139,6 +3187,9 @@ class Transfer(Object):
     def vertex_count(self) -> int:
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
+
+    def __repr__(self) -> str:
+        return told(self, ('vertex_count',))
 
     def __init__(self, source: Surface, target: Surface, source_rest: Optional[ArrayLike] = None,
             target_rest: Optional[ArrayLike] = None, *, mode: int = TransferMode.FIELDS, cluster_count: int = 0,
@@ -3365,6 +3416,9 @@ class Weights(Recorded):
     def vertex_count(self) -> int:
         """Vertices of the surface, as given."""
         return self._n.get('vertex_count', 0)
+
+    def __repr__(self) -> str:
+        return told(self, ('vertex_count',))
 
     def __init__(self, surface: Surface, heads: Optional[ArrayLike] = None, tails: Optional[ArrayLike] = None,
             axes: Optional[ArrayLike] = None, parents: Optional[ArrayLike] = None, deforms: Optional[ArrayLike] = None,
