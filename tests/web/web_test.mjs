@@ -231,6 +231,12 @@ async function quick() {
     const main = usual['main.js'].replace('document.body.append(field(await load()));', "load({ wasm: 'hf.wasm' }).then((hf) => document.body.append(field(hf)));");
     return build('esbuild', { name: 'esbuild classic', files: { 'main.js': main }, change: (line) => line.replace('=esm', '=iife') });
   });
+  await check('esbuild makes a program for node', ['esbuild', 'koffi'], async () => {
+    const folder = folderOf('esbuild node', onConsole);
+    giveKoffi(folder);
+    for (const line of parts.esbuild.commands) await run(line.replace('--format', '--platform=node --format'), folder);
+    same((await run('node dist/main.js', folder)).text, expected('wasm'));
+  });
   await check('the types are exact', ['typescript'], async () => {
     const folder = folderOf('types', { 'types.ts': readFileSync(join(here, 'types.ts')) });
     const strict = 'tsc --strict --noEmit --noUncheckedIndexedAccess --exactOptionalPropertyTypes --target es2022 --lib es2022,dom types.ts';

@@ -1,7 +1,6 @@
 // In node: the native library through koffi, and WebAssembly where there is none. `import { load } from 'hf-fields/wasm'`
 // takes WebAssembly at once.
 import { existsSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { nativeBackend } from './native.js';
@@ -9,8 +8,8 @@ import { makeApi } from './objects.js';
 
 export { HfError } from './marshal.js';
 
-// require, so that bundlers for servers leave koffi and its binaries where they are
-const require = createRequire(import.meta.url);
+// bundlers for servers follow an imported createRequire to the binaries of koffi, and fail
+const require = process.getBuiltinModule('node:module').createRequire(import.meta.url);
 
 /**
  * Loads the library: options.library or $HF_LIBRARY and no other; else that in dist/ of this package, of the platform's
