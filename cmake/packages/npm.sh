@@ -49,7 +49,7 @@ npm_make() {
 import json, sys
 project = json.load(open(sys.argv[1]))
 system, processor = sys.argv[3:]
-package = {"name": f"hf-fields-{system}-{processor}", "version": project["version"], "license": project["license"],
+package = {"name": f"hf-fields-{system}-{processor}", "version": project["version"], **{key: project[key] for key in ("license", "keywords", "homepage", "repository")},
            "description": f"The native library of hf-fields for {system} on {processor}.", "os": [system], "cpu": [processor],
            **({"libc": ["glibc"]} if system == "linux" else {}), "files": ["*"], "preferUnplugged": True}
 json.dump(package, open(sys.argv[2] + "/package.json", "w"), indent=2)
