@@ -109,6 +109,7 @@ class Types:
             for plan in statics:
                 out += [line.replace("): void;", f"): {name};") if plan.method.kind == "create" else line for line in self.declare(plan)]
             out.append("}")
+        out += ["", "/** HF_* of the headers. */", "export interface Constants {", *[f"  readonly {c['name']}: {c['value']};" for c in self.api["constants"]], "}"]
         out += ["", "export interface Api {", *[f"  {name}: {name}Class;" for name in self.methods], API]
         return "\n".join(out) + "\n"
 
@@ -157,14 +158,17 @@ export interface SurfaceExtras {
   tags?: Numbers | null;
 }'''
 API = '''  HfError: typeof HfError;
-  /** HF_* of the headers. */
-  constants: Readonly<Record<string, number>>;
+  constants: Constants;
+  /** Which build the calls go to. In node that is WebAssembly where no native library of the system was found. */
   backend: 'native' | 'wasm';
   version: [number, number, number];
 }
-/** node: library, path of the shared library. Browser: factory and wasmBinary, else both are loaded from dist/. */
-export function load(options?: {
+export interface LoadOptions {
+  /** In node: the path of the shared library. No other is tried. */
   library?: string;
+  /** The bytes of hf.wasm, or its address, where a bundler or a host has moved it. */
+  wasm?: ArrayBuffer | Uint8Array | URL | string;
+  /** The default export of another hf.mjs, such as one with threads; with wasm. */
   factory?: (options: object) => Promise<object>;
-  wasmBinary?: ArrayBuffer | Uint8Array;
-}): Promise<Api>;'''
+}
+export function load(options?: LoadOptions): Promise<Api>;'''

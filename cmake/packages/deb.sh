@@ -80,6 +80,7 @@ deb_control() { # folder, package, section, depends, summary, more
   {
     printf 'Package: %s\nSource: hf\nVersion: %s-1\nArchitecture: %s\nMulti-Arch: same\nMaintainer: %s\n' "$2" "$hf_version" "$arch" "$maintainer"
     printf 'Installed-Size: %s\nDepends: %s\nSection: %s\nPriority: optional\n' "$(du -sk --apparent-size --exclude=DEBIAN "$1" | cut -f1)" "$4" "$3"
+    printf 'Homepage: https://hf.example.org\n'
     printf 'Description: %s\n' "$5"
     printf ' hf poses meshes with handles, plays the motion of one surface on another and\n'
     printf ' computes smooth fields over surfaces while sites come and go. It factorises\n'

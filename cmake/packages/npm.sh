@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The npm packages: hf-fields with the WebAssembly inside, and one with the native library for each platform, which npm
-# picks by system and processor (optionalDependencies). HF_WASM_DIR: a folder that holds hf.mjs and hf.wasm already.
-# HF_STUDIO_DIR: a folder that samples/studio/run --build wrote already; npx hf-studio serves it.
+# The npm packages: hf-fields with the WebAssembly inside, one with the native library for each platform, which npm
+# picks by system and processor (optionalDependencies), and hf-studio. HF_WASM_DIR: a folder that holds hf.mjs, hf.wasm and
+# those of the small build already. HF_STUDIO_DIR: a folder that samples/studio/run --build wrote already.
 . "$(dirname "$0")/common.sh"
 js="$hf_root/bindings/js"
 
@@ -19,7 +19,7 @@ npm_wasm() {
     command -v emcmake >/dev/null || hf_skip "no emscripten here (Debian: emscripten)"
     HF_JOBS=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)} "$js/wasm/build.sh" "$folder" >"$hf_work/wasm.log" 2>&1 || { tail -5 "$hf_work/wasm.log" >&2; hf_fail "WebAssembly"; }
   fi
-  [ -s "$folder/hf.wasm" ] && [ -s "$folder/hf.mjs" ] || hf_fail "no hf.wasm in $folder"
+  [ -s "$folder/hf.wasm" ] && [ -s "$folder/hf_slim.wasm" ] || hf_fail "no hf.wasm and hf_slim.wasm in $folder"
   printf '%s' "$folder"
 }
 
@@ -33,7 +33,7 @@ npm_studio() { # the page, of the WebAssembly in a folder
 }
 
 npm_make() {
-  local out=$1 folder wasm studio platform system processor optional=()
+  local out=$1 folder wasm studio package platform system processor optional=()
   command -v npm >/dev/null || hf_skip "no npm here"
   wasm=$(npm_wasm) || exit $?
   studio=$(npm_studio "$wasm") || exit $?
@@ -49,7 +49,7 @@ npm_make() {
 import json, sys
 project = json.load(open(sys.argv[1]))
 system, processor = sys.argv[3:]
-package = {"name": f"hf-fields-{system}-{processor}", "version": project["version"], "license": project["license"],
+package = {"name": f"hf-fields-{system}-{processor}", "version": project["version"], **{key: project[key] for key in ("license", "keywords", "homepage", "repository")},
            "description": f"The native library of hf-fields for {system} on {processor}.", "os": [system], "cpu": [processor],
            **({"libc": ["glibc"]} if system == "linux" else {}), "files": ["*"], "preferUnplugged": True}
 json.dump(package, open(sys.argv[2] + "/package.json", "w"), indent=2)
@@ -58,21 +58,28 @@ PY
     hf_pack tar "$out/hf-fields-$system-$processor-$hf_version.tgz" "$folder/$platform" package
     optional+=("hf-fields-$system-$processor")
   done
-  mkdir -p "$folder/main/dist"
-  cp -r "$js/src" "$js/bin" "$js/README.md" "$folder/main/"
-  cp "$wasm/hf.mjs" "$wasm/hf.wasm" "$folder/main/dist/"
-  cp -r "$studio" "$folder/main/studio"
-  chmod 755 "$folder"/main/bin/*
-  hf_licences "$folder/main/licences" wasm
-  hf_bom "$folder/main/bom.cdx.json" wasm "$folder/main"
-  python3 - "$js/package.json" "$folder/main/package.json" "${optional[@]}" <<'PY'
+  mkdir -p "$folder/main/dist" "$folder/studio"
+  cp -r "$js/src" "$js/README.md" "$folder/main/"
+  cp "$wasm"/hf{,_slim}.{mjs,wasm} "$folder/main/dist/"
+  cp -r "$js/studio/bin" "$js/studio/README.md" "$folder/studio/"
+  cp -r "$studio" "$folder/studio/page"
+  chmod 755 "$folder"/studio/bin/*
+  for package in main studio; do
+    hf_licences "$folder/$package/licences" wasm
+    hf_bom "$folder/$package/bom.cdx.json" wasm "$folder/$package"
+  done
+  python3 - "$js" "$folder" "${optional[@]}" <<'PY'
 import json, sys
-project = json.load(open(sys.argv[1]))
-project["optionalDependencies"] |= {name: project["version"] for name in sys.argv[3:]}
-project["files"] += ["licences", "bom.cdx.json"]
-json.dump(project, open(sys.argv[2], "w"), indent=2)
+js, out, *optional = sys.argv[1:]
+for manifest, folder, libraries in (("package.json", "main", optional), ("studio/package.json", "studio", [])):
+    project = json.load(open(f"{js}/{manifest}"))
+    if libraries:
+        project["optionalDependencies"] |= {name: project["version"] for name in libraries}
+    project["files"] += ["licences", "bom.cdx.json"]
+    json.dump(project, open(f"{out}/{folder}/package.json", "w"), indent=2)
 PY
   hf_pack tar "$out/hf-fields-$hf_version.tgz" "$folder/main" package
+  hf_pack tar "$out/hf-studio-$hf_version.tgz" "$folder/studio" package
   rm -rf "$folder"
 }
 
@@ -90,7 +97,8 @@ npm_try() {
 import glob, json, os, re, sys
 files = {re.match(r"(.*)-\d+\.\d+\.\d+\.tgz", os.path.basename(f)).group(1): "file:" + f for f in glob.glob(sys.argv[1] + "/*.tgz")}
 koffi = "file:" + os.path.realpath(sys.argv[3])
-json.dump({"private": True, "dependencies": {"hf-fields": files.pop("hf-fields"), "koffi": koffi}, "overrides": files}, open(sys.argv[2], "w"))
+ours = {name: files.pop(name) for name in ("hf-fields", "hf-studio")}
+json.dump({"private": True, "dependencies": {**ours, "koffi": koffi}, "overrides": files}, open(sys.argv[2], "w"))
 PY
   (cd "$scratch" && npm install --offline --ignore-scripts --no-audit --no-fund --cache "$hf_work/npm_cache") >"$scratch/npm.log" 2>&1 || {
     tail -5 "$scratch/npm.log" >&2
@@ -110,14 +118,14 @@ PY
     [ "$("${hf_clean_env[@]}" "$(command -v node)" -e 'fetch(process.argv[1]).then((answer) => console.log(answer.status))' "$link$file")" = 200 ] || said+=("$file")
   done
   kill "$served"
-  [ "${#said[@]}" = 0 ] || hf_fail "the studio of the package does not serve: ${said[*]}"
+  [ "${#said[@]}" = 0 ] || hf_fail "hf-studio does not serve: ${said[*]}"
   cp "$hf_tests/golden_package.mjs" "$hf_tests/golden.mjs" "$scratch/"
   for specifier in hf-fields hf-fields/wasm; do
     said+=("$(cd "$scratch" && "${hf_clean_env[@]}" "$(command -v node)" --expose-gc golden_package.mjs "$specifier" "$hf_golden/meshes" "$filled" "$hf_golden/bad_input.json" 2>"$scratch/error.log" | tail -1)")
     [ "${PIPESTATUS[0]}" = 0 ] && [ ! -s "$scratch/error.log" ] || { head -10 "$scratch/error.log" >&2; hf_fail "golden scenes of $specifier: ${said[*]}"; }
     case "${said[-1]}" in *scenes*calls) ;; *) hf_fail "golden scenes of $specifier" ;; esac
   done
-  hf_ran "npm into an empty folder picks $installed of $(ls "$out"/hf-fields-*-*-*.tgz | wc -l); node: ${said[0]}; ${said[1]}; its studio serves the page"
+  hf_ran "npm into an empty folder picks $installed of $(ls "$out"/hf-fields-*-*-*.tgz | wc -l); node: ${said[0]}; ${said[1]}; hf-studio serves the page"
 }
 
 case "$1" in

@@ -44,9 +44,11 @@ XML
     <version>$hf_version</version>
     <authors>The hf authors</authors>
     <license type="expression">MIT</license>
+    <projectUrl>https://hf.example.org</projectUrl>
+    <repository type="git" url="https://hf.example.org/hf.git" />
     <readme>README.md</readme>
     <description>Dynamic harmonic fields: fields, posing and motion transfer on surfaces. Classes over the native library hf.</description>
-    <tags>geometry mesh deformation harmonic</tags>
+    <tags>geometry mesh deformation harmonic animation</tags>
     <dependencies>
       <group targetFramework=".NETFramework4.5" />
       <group targetFramework="net6.0" />

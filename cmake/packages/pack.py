@@ -71,7 +71,8 @@ def wheel(outdir, folder, pyproject, readme, tag):
     info.mkdir(exist_ok=True)
     lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {project['version']}",
              f"Summary: {project['description']}", f"License: {project['license']['text']}",
-             f"Requires-Python: {project['requires-python']}"]
+             f"Requires-Python: {project['requires-python']}", f"Keywords: {','.join(project['keywords'])}"]
+    lines += [f"Project-URL: {kind}, {url}" for kind, url in project["urls"].items()]
     lines += [f"Requires-Dist: {need}" for need in project["dependencies"]]
     lines += ["Description-Content-Type: text/markdown", "", pathlib.Path(readme).read_text()]
     (info / "METADATA").write_text("\n".join(lines))

@@ -6,7 +6,7 @@ import { copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from '
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { load } from '../../bindings/js/src/web.js';
+import { apiOf } from '../../bindings/js/src/wasm.js';
 import { fieldOf } from './src/worker_field.js';
 import { proposalsOf, surfaceOf } from './src/worker_open.js';
 import { poseOf } from './src/worker_pose.js';
@@ -169,7 +169,7 @@ export async function split(folder, out) {
       done({ exports: made });
       return made;
     };
-    const hf = await load({ factory: () => createHf({ instantiateWasm }), wasmBinary });
+    const hf = await apiOf(() => createHf({ instantiateWasm }));
     for (const faults of [false, true]) firstMinute(hf, faults);
     const { buffer } = Object.values(made).find((thing) => thing instanceof WebAssembly.Memory);
     const length = made.__write_profile(PROFILE_AT, buffer.byteLength - PROFILE_AT);

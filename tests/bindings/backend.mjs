@@ -27,7 +27,7 @@ export async function loadBackend(kind) {
     const backend = nativeBackend(koffi, process.env.HF_LIBRARY);
     return { api: makeApi(backend), backend };
   }
-  const { load } = await import(pathToFileURL(join(js, 'web.js')));
+  const { apiOf } = await import(pathToFileURL(join(js, 'wasm.js')));
   const folder = process.env.HF_WASM;
   try {
     statSync(join(folder, 'hf.wasm'));
@@ -39,5 +39,5 @@ export async function loadBackend(kind) {
   // skeletons, retargets and following are 0.26 MB of it; a slim build without them is planned
   assert.ok(bytes.length < 2.31e6, 'the wasm file is to stay below 2.31 MB');
   const { default: factory } = await import(pathToFileURL(join(folder, 'hf.mjs')));
-  return { api: await load({ factory, wasmBinary: bytes }), backend: null };
+  return { api: await apiOf(factory, bytes), backend: null };
 }

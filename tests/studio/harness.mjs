@@ -52,7 +52,7 @@ export async function start() {
   if (!existsSync(join(folder ?? '', 'hf.wasm')))
     skip('the folder of the studio is not there; samples/studio/run --build DIR makes it');
   mkdirSync(pictures, { recursive: true });
-  const server = spawn(process.execPath, [join(here, '../../bindings/js/bin/hf-studio.mjs'), '0', folder], {
+  const server = spawn(process.execPath, [join(here, '../../bindings/js/studio/bin/hf-studio.mjs'), '0', folder], {
     stdio: ['ignore', 'pipe', 'inherit'],
   });
   const address = await new Promise((resolve) => server.stdout.on('data', (text) => resolve(/http\S+/.exec(text)[0])));

@@ -1,36 +1,48 @@
-// In node: the native library through koffi. `import { load } from 'hf-fields/wasm'` gives the WebAssembly build
-// instead.
+// In node: the native library through koffi, and WebAssembly where there is none. `import { load } from 'hf-fields/wasm'`
+// takes WebAssembly at once.
 import { existsSync } from 'node:fs';
-import { createRequire } from 'node:module';
+import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { nativeBackend } from './native.js';
 import { makeApi } from './objects.js';
 
 export { HfError } from './marshal.js';
 
-/** Loads the library: options.library, $HF_LIBRARY, dist/ of this package, the platform's package, or the system's. */
-export async function load({ library = process.env.HF_LIBRARY } = {}) {
-  const koffi = await import('koffi').catch(({ message }) => {
-    throw new Error(`the native backend needs the package koffi (npm install koffi), or hf-fields/wasm: ${message}`);
-  });
+// bundlers for servers follow an imported createRequire to the binaries of koffi, and fail
+const require = process.getBuiltinModule('node:module').createRequire(import.meta.url);
+
+/**
+ * Loads the library: options.library or $HF_LIBRARY and no other; else that in dist/ of this package, of the platform's
+ * package, or of the system; else WebAssembly. hf.backend says which it is.
+ */
+export async function load({ library = process.env.HF_LIBRARY, ...options } = {}) {
   const failures = [];
-  for (const path of library ? [library] : candidates()) {
-    try {
-      return makeApi(nativeBackend(koffi.default, path));
-    } catch (error) {
-      failures.push(`${path}: ${error.message}`);
+  try {
+    const koffi = require('koffi');
+    for (const path of library ? [library] : candidates()) {
+      try {
+        return makeApi(nativeBackend(koffi, path));
+      } catch (error) {
+        failures.push(`${path}: ${error.message}`);
+      }
     }
+  } catch (error) {
+    failures.push(`the native library needs the package koffi (npm install koffi): ${error.message}`);
   }
-  throw new Error(`the hf library was not found; set HF_LIBRARY to libhf.so. ${failures.join('; ')}`);
+  if (library) throw new Error(`the hf library could not be loaded. ${failures.join('; ')}`);
+  const web = await import('./web.js').catch(({ message }) => {
+    throw new Error(`no hf library here; set HF_LIBRARY to libhf.so. ${[...failures, message].join('; ')}`);
+  });
+  return web.load(options);
 }
 
 function candidates() {
   const name = { win32: 'hf.dll', darwin: 'libhf.dylib' }[process.platform] ?? 'libhf.so.0';
-  const found = [fileURLToPath(new URL(`../dist/${name}`, import.meta.url))].filter(existsSync);
+  const found = [join(fileURLToPath(import.meta.url), '../../dist', name)].filter(existsSync);
   try {
     // the package of this platform, which npm installs beside this one (optionalDependencies)
     const file = process.platform === 'win32' ? 'hf.dll' : 'libhf.so';
-    found.push(createRequire(import.meta.url).resolve(`hf-fields-${process.platform}-${process.arch}/${file}`));
+    found.push(require.resolve(`hf-fields-${process.platform}-${process.arch}/${file}`));
   } catch {} // not installed
   return [...found, name];
 }

@@ -11,8 +11,10 @@ from conan.tools.files import copy, get, rmdir
 class HfRecipe(ConanFile):
     name = "hf"
     license = "MIT"
+    homepage = "https://hf.example.org"
+    url = "https://hf.example.org/hf.git"
     description = "Dynamic harmonic fields: fields, posing and motion transfer on surfaces"
-    topics = ("geometry", "mesh", "deformation", "harmonic")
+    topics = ("geometry", "mesh", "deformation", "harmonic", "animation")
     package_type = "library"
     settings = "os", "arch", "compiler", "build_type"
     options = {"shared": [True, False], "fPIC": [True, False]}

@@ -1,7 +1,7 @@
 // The Worker that owns every object of hf. A request says which list of handles or sites is wanted; the worker changes its
 // objects until they hold that list. The main thread sends the newest list only, so a slow answer never queues.
 import createHf from 'hf-glue';
-import { load } from '../../../bindings/js/src/web.js';
+import { apiOf } from '../../../bindings/js/src/wasm.js';
 import { readMesh } from './mesh_files.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { proposalsOf, surfaceOf } from './worker_open.js';
@@ -28,12 +28,12 @@ function make(create, wasmBinary) {
     memory.push(() => (module.wasmMemory ?? module.HEAPU8).buffer.byteLength);
     return module;
   };
-  return load({ factory, wasmBinary });
+  return apiOf(factory, wasmBinary);
 }
 async function makePlain() {
   const parts = await inTwo(self.location);
   Object.assign(built, { rest: parts.rest, missed: parts.missed });
-  return make(() => parts.make(createHf), true);
+  return make(() => parts.make(createHf));
 }
 /** The build without threads. What could not be loaded is tried again by the next body. */
 function plain() {

@@ -1,13 +1,13 @@
 #!/usr/bin/env node
-// hf-studio [PORT [FOLDER]]: serves the studio on the loopback address and prints the link. The folder of the package is
-// written by samples/studio/run --build bindings/js/studio.
+// hf-studio [PORT [FOLDER]]: serves the studio on the loopback address and prints the link. The folder of the package
+// is written by samples/studio/run --build bindings/js/studio/page.
 import { createReadStream, existsSync, fstatSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { pipeline } from 'node:stream';
 import { fileURLToPath } from 'node:url';
 
-const [port = '0', folder = fileURLToPath(new URL('../studio', import.meta.url))] = process.argv.slice(2);
+const [port = '0', folder = fileURLToPath(new URL('../page', import.meta.url))] = process.argv.slice(2);
 if (!existsSync(join(folder, 'index.html'))) {
   console.error('error: this package was made without the studio; samples/studio/run --build DIR writes it');
   process.exit(1);
