@@ -14,7 +14,7 @@
 // u7          receives for each character: positions, normals, tangents, positions before          12 V N
 //
 // All positions are relative to the `centre` of hf_pose_get_blend_info: add it to the matrix of the model.
-// The largest error of a position is about 1e-6 of the box of the mesh.
+// The largest error of a position is about 1e-7 of the box of the mesh.
 
 struct HfFrame {
   uint vertex_count;

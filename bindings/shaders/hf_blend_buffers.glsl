@@ -15,7 +15,7 @@
 // 7 storage   receives for each character: positions, normals, tangents, positions before          12 V N
 //
 // All positions are relative to the `centre` of hf_pose_get_blend_info: add it to the matrix of the model.
-// The largest error of a position is about 1e-6 of the box of the mesh.
+// The largest error of a position is about 1e-7 of the box of the mesh.
 
 struct HfFrame {
   uint vertex_count;
@@ -41,7 +41,7 @@ layout(std430, binding = 4) readonly buffer HfGradients { float hf_gradients[]; 
 layout(std430, binding = 5) readonly buffer HfRest { float hf_rest[]; };
 layout(std430, binding = 6) readonly buffer HfTransforms { vec4 hf_transforms[]; };
 #ifndef HF_NO_ENTRY
-layout(std430, binding = 7) writeonly buffer HfPosed { float hf_posed[]; };
+layout(std430, binding = 7) buffer HfPosed { float hf_posed[]; };
 #endif
 
 // ---- arrays ----

@@ -14,7 +14,7 @@
 // The width of hf_transforms is a multiple of 3. With a width of 3 C, every character has a row of its own.
 //
 // All positions are relative to the `centre` of hf_pose_get_blend_info: add it to the matrix of the model.
-// The largest error of a position is about 1e-6 of the box of the mesh.
+// The largest error of a position is about 1e-7 of the box of the mesh.
 
 uniform highp usampler2D hf_clusters;
 uniform highp sampler2D hf_entries;

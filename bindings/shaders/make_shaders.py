@@ -52,7 +52,7 @@ layout(std430, binding = 4) readonly buffer HfGradients { float hf_gradients[]; 
 layout(std430, binding = 5) readonly buffer HfRest { float hf_rest[]; };
 layout(std430, binding = 6) readonly buffer HfTransforms { vec4 hf_transforms[]; };
 #ifndef HF_NO_ENTRY
-layout(std430, binding = 7) writeonly buffer HfPosed { float hf_posed[]; };
+layout(std430, binding = 7) buffer HfPosed { float hf_posed[]; };
 #endif
 
 """
@@ -77,7 +77,7 @@ TEXTURES = """// GLSL 3.30 and GLSL ES 3.00 (WebGL 2). Write the line #version a
 // The width of hf_transforms is a multiple of 3. With a width of 3 C, every character has a row of its own.
 //
 // All positions are relative to the `centre` of hf_pose_get_blend_info: add it to the matrix of the model.
-// The largest error of a position is about 1e-6 of the box of the mesh.
+// The largest error of a position is about 1e-7 of the box of the mesh.
 
 uniform highp usampler2D hf_clusters;
 uniform highp sampler2D hf_entries;
