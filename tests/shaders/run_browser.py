@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from scene import Errors, Scene, draws
+from scene import Errors, draws, scenes
 
 
 def write(scene, folder):
@@ -36,22 +36,22 @@ def main():
     if not shutil.which("node"):
         print("skipped: no node here")
         sys.exit(77)
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    scene = Scene(sys.argv[3] if len(sys.argv) > 3 else 50000)
-    write(scene, folder)
-    ran = subprocess.run(["node", Path(__file__).with_name("browser.mjs"), folder, shaders], stdout=subprocess.PIPE, text=True)
-    print(ran.stdout, end="", flush=True)
-    if ran.returncode:
-        sys.exit(ran.returncode)
-    for name in ("webgl", "webgpu"):
-        if f"{name}: ran" not in ran.stdout:
-            continue
-        errors = Errors(scene)
-        for number, (_, now, before) in enumerate(draws(scene)):
-            posed = np.fromfile(folder / f"{name}_{number}.bin", np.float32)
-            errors.add(now, before, posed.reshape(len(now), 4, len(scene.points), 3))
-        errors.check(name)
+    for scene in scenes(sys.argv[3:]):
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        write(scene, folder)
+        ran = subprocess.run(["node", Path(__file__).with_name("browser.mjs"), folder, shaders], stdout=subprocess.PIPE, text=True)
+        print(ran.stdout, end="", flush=True)
+        if ran.returncode:
+            sys.exit(ran.returncode)
+        for name in ("webgl", "webgpu"):
+            if f"{name}: ran" not in ran.stdout:
+                continue
+            errors = Errors(scene)
+            for number, (_, now, before) in enumerate(draws(scene)):
+                posed = np.fromfile(folder / f"{name}_{number}.bin", np.float32)
+                errors.add(now, before, posed.reshape(len(now), 4, len(scene.points), 3))
+            errors.check(name)
 
 
 main()

@@ -12,7 +12,7 @@ except ImportError:
     sys.exit(77)
 import compilers
 import numpy as np
-from scene import Errors, Scene, draws
+from scene import Errors, draws, scenes
 
 
 def device():
@@ -73,17 +73,16 @@ class Gpu:
 
 
 def main():
-    scene = Scene(sys.argv[2] if len(sys.argv) > 2 else 50000)
-    gpu = Gpu(scene)
-    print(f"{len(scene.points)} vertices, {scene.sets[0]['cluster_count']} clusters, {len(scene.sets[0]['weights'])} entries")
-    for name, code in programs(Path(sys.argv[1])):
-        if code is None:
-            print(f"{name}: absent")
-            continue
-        pipeline, errors = gpu.pipeline(code), Errors(scene)
-        for which, now, before in draws(scene):
-            errors.add(now, before, gpu.draw(pipeline, which, now, before))
-        errors.check(name)
+    for scene in scenes(sys.argv[2:]):
+        gpu = Gpu(scene)
+        for name, code in programs(Path(sys.argv[1])):
+            if code is None:
+                print(f"{name}: absent")
+                continue
+            pipeline, errors = gpu.pipeline(code), Errors(scene)
+            for which, now, before in draws(scene):
+                errors.add(now, before, gpu.draw(pipeline, which, now, before))
+            errors.check(name)
 
 
 main()
