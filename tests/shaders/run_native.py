@@ -2,7 +2,9 @@
 
 run_native.py SHADERS [OBJ|COUNT]: a body of 50,000 vertices without a file. 77 (skipped) without wgpu or an adapter."""
 
+import os
 import sys
+import traceback
 from pathlib import Path
 
 try:
@@ -17,12 +19,13 @@ from scene import Errors, draws, scenes
 
 def device():
     """Returns a device with room for the buffers, or ends the test."""
-    adapters = wgpu.gpu.enumerate_adapters_sync()
-    if not adapters:
-        print("skipped: wgpu finds no adapter here (Debian: mesa-vulkan-drivers)")
+    try:
+        adapter = wgpu.gpu.request_adapter_sync()
+    except RuntimeError as error:
+        print(f"skipped: wgpu finds no adapter here (Debian: mesa-vulkan-drivers): {error}")
         sys.exit(77)
-    print(f"on {adapters[0].info['device']}, {adapters[0].info['backend_type']}")
-    return adapters[0].request_device_sync(required_limits={})
+    print(f"on {adapter.info['device']}, {adapter.info['backend_type']}")
+    return adapter.request_device_sync(required_limits={})
 
 
 def programs(shaders):
@@ -37,8 +40,8 @@ def programs(shaders):
 class Gpu:
     """The buffers of a scene and a pipeline for each program."""
 
-    def __init__(self, scene):
-        self.scene, self.device, self.buffers = scene, device(), {}
+    def __init__(self, scene, gpu):
+        self.scene, self.device, self.buffers = scene, gpu, {}
         for i, arrays in enumerate(scene.sets):
             clusters = np.resize(arrays["clusters"], len(arrays["clusters"]) + 1 & ~1).astype(np.uint16)
             rest = [arrays[name] for name in ("positions", "normals", "tangents", "offsets")]
@@ -73,8 +76,9 @@ class Gpu:
 
 
 def main():
+    on = device()
     for scene in scenes(sys.argv[2:]):
-        gpu = Gpu(scene)
+        gpu = Gpu(scene, on)
         for name, code in programs(Path(sys.argv[1])):
             if code is None:
                 print(f"{name}: absent")
@@ -85,4 +89,13 @@ def main():
             errors.check(name)
 
 
-main()
+code = 1
+try:
+    main()
+    code = 0
+except SystemExit as end:
+    code = end.code
+except BaseException:
+    traceback.print_exc()
+sys.stdout.flush()
+os._exit(code)  # a software driver may wait for its threads for ever when Python unwinds
