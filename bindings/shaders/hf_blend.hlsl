@@ -37,9 +37,9 @@ StructuredBuffer<uint2> hf_rows : register(t1);
 StructuredBuffer<uint> hf_clusters : register(t2);
 StructuredBuffer<float> hf_weights : register(t3);
 StructuredBuffer<float> hf_gradients : register(t4);
-StructuredBuffer<float> hf_rest : register(t5);
 StructuredBuffer<float4> hf_transforms : register(t6);
 #ifndef HF_NO_ENTRY
+StructuredBuffer<float> hf_rest : register(t5);
 RWStructuredBuffer<float> hf_posed : register(u7);
 #endif
 
@@ -59,9 +59,6 @@ HfTransform hf_transform(uint t) {
   m.y = hf_transforms[3u * t + 1u];
   m.z = hf_transforms[3u * t + 2u];
   return m;
-}
-float3 hf_rest_vector(uint i) {
-  return float3(hf_rest[3u * i], hf_rest[3u * i + 1u], hf_rest[3u * i + 2u]);
 }
 
 // ---- blend ----
@@ -116,6 +113,9 @@ HfVertex hf_blend(uint2 row, uint first, HfVertex rest) {
 
 #ifndef HF_NO_ENTRY
 // ---- compute ----
+float3 hf_rest_vector(uint i) {
+  return float3(hf_rest[3u * i], hf_rest[3u * i + 1u], hf_rest[3u * i + 2u]);
+}
 void hf_write(uint i, float3 v) {
   hf_posed[3u * i] = v.x;
   hf_posed[3u * i + 1u] = v.y;

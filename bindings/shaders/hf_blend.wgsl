@@ -56,9 +56,6 @@ fn hf_transform(t: u32) -> HfTransform {
   m.z = hf_transforms[3u * t + 2u];
   return m;
 }
-fn hf_rest_vector(i: u32) -> vec3f {
-  return vec3f(hf_rest[3u * i], hf_rest[3u * i + 1u], hf_rest[3u * i + 2u]);
-}
 
 // ---- blend ----
 struct HfVertex {
@@ -111,6 +108,9 @@ fn hf_blend(row: vec2u, first: u32, rest: HfVertex) -> HfVertex {
 }
 
 // ---- compute ----
+fn hf_rest_vector(i: u32) -> vec3f {
+  return vec3f(hf_rest[3u * i], hf_rest[3u * i + 1u], hf_rest[3u * i + 2u]);
+}
 fn hf_write(i: u32, v: vec3f) {
   hf_posed[3u * i] = v.x;
   hf_posed[3u * i + 1u] = v.y;

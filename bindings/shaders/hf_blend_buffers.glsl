@@ -38,9 +38,9 @@ layout(std430, binding = 1) readonly buffer HfRows { uvec2 hf_rows[]; };
 layout(std430, binding = 2) readonly buffer HfClusters { uint hf_clusters[]; };
 layout(std430, binding = 3) readonly buffer HfWeights { float hf_weights[]; };
 layout(std430, binding = 4) readonly buffer HfGradients { float hf_gradients[]; };
-layout(std430, binding = 5) readonly buffer HfRest { float hf_rest[]; };
 layout(std430, binding = 6) readonly buffer HfTransforms { vec4 hf_transforms[]; };
 #ifndef HF_NO_ENTRY
+layout(std430, binding = 5) readonly buffer HfRest { float hf_rest[]; };
 layout(std430, binding = 7) buffer HfPosed { float hf_posed[]; };
 #endif
 
@@ -60,9 +60,6 @@ HfTransform hf_transform(uint t) {
   m.y = hf_transforms[3u * t + 1u];
   m.z = hf_transforms[3u * t + 2u];
   return m;
-}
-vec3 hf_rest_vector(uint i) {
-  return vec3(hf_rest[3u * i], hf_rest[3u * i + 1u], hf_rest[3u * i + 2u]);
 }
 
 // ---- blend ----
@@ -117,6 +114,9 @@ HfVertex hf_blend(uvec2 row, uint first, HfVertex rest) {
 
 #ifndef HF_NO_ENTRY
 // ---- compute ----
+vec3 hf_rest_vector(uint i) {
+  return vec3(hf_rest[3u * i], hf_rest[3u * i + 1u], hf_rest[3u * i + 2u]);
+}
 void hf_write(uint i, vec3 v) {
   hf_posed[3u * i] = v.x;
   hf_posed[3u * i + 1u] = v.y;

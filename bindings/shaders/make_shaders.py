@@ -29,9 +29,9 @@ StructuredBuffer<uint2> hf_rows : register(t1);
 StructuredBuffer<uint> hf_clusters : register(t2);
 StructuredBuffer<float> hf_weights : register(t3);
 StructuredBuffer<float> hf_gradients : register(t4);
-StructuredBuffer<float> hf_rest : register(t5);
 StructuredBuffer<float4> hf_transforms : register(t6);
 #ifndef HF_NO_ENTRY
+StructuredBuffer<float> hf_rest : register(t5);
 RWStructuredBuffer<float> hf_posed : register(u7);
 #endif
 
@@ -49,9 +49,9 @@ layout(std430, binding = 1) readonly buffer HfRows { uvec2 hf_rows[]; };
 layout(std430, binding = 2) readonly buffer HfClusters { uint hf_clusters[]; };
 layout(std430, binding = 3) readonly buffer HfWeights { float hf_weights[]; };
 layout(std430, binding = 4) readonly buffer HfGradients { float hf_gradients[]; };
-layout(std430, binding = 5) readonly buffer HfRest { float hf_rest[]; };
 layout(std430, binding = 6) readonly buffer HfTransforms { vec4 hf_transforms[]; };
 #ifndef HF_NO_ENTRY
+layout(std430, binding = 5) readonly buffer HfRest { float hf_rest[]; };
 layout(std430, binding = 7) buffer HfPosed { float hf_posed[]; };
 #endif
 

@@ -12,7 +12,7 @@ SHADERS = Path(sys.argv[1])
 read = lambda name: (SHADERS / name).read_text()
 USE = "\nout vec3 p; uniform uint c; void main() { p = hf_blend_position(uvec2(0u, 1u), c, vec3(1.0)); gl_Position = vec4(p, 1.0); }\n"
 ES = "#version 300 es\nprecision highp float;\n"
-HLSL_USE = "#define HF_NO_ENTRY\n{}\nfloat4 hf_use(uint c : C) : SV_Position {{ return float4(hf_blend_position(uint2(0u, 1u), c, hf_rest_vector(c)), 1.0); }}\n"
+HLSL_USE = "#define HF_NO_ENTRY\n{}\nfloat4 hf_use(uint c : C) : SV_Position {{ return float4(hf_blend_position(uint2(0u, 1u), c, float3(1.0, 1.0, 1.0)), 1.0); }}\n"
 
 subprocess.run([sys.executable, SHADERS / "make_shaders.py", "--check"], check=True)
 
