@@ -59,8 +59,8 @@ try {
     const complaints = [];
     page.on('pageerror', (error) => complaints.push(error.message));
     page.on('console', (said) => said.type() === 'error' && !/404/.test(said.text()) && complaints.push(said.text()));
-    await page.goto(`${address}?count=4&still&${kind}`, { waitUntil: 'commit' });
-    await page.waitForSelector('body[data-ready]', { timeout: 120000 });
+    await page.goto(`${address}?count=4&still&${kind}`, { waitUntil: 'commit', timeout: 240000 });
+    await page.waitForSelector('body[data-ready]', { timeout: 240000 });
     const name = await page.evaluate(() => window.hfCrowd.name);
     for (const time of times) {
       await page.evaluate((seconds) => window.hfCrowd.show(seconds), time);
