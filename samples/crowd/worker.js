@@ -8,8 +8,8 @@ let poses, tips, first, size;
 async function start(message) {
   const hf = await load({ factory, wasmBinary: await (await fetch('hf.wasm')).arrayBuffer() });
   const surface = new hf.Surface(message.positions, message.triangles);
-  // many small bodies: fewer groups than the usual 250 make a frame cheaper, and a clone smaller
-  const pose = new hf.Pose(surface, { groupCount: 60 });
+  // fewer groups and bands than usual: a frame is cheaper, and a clone smaller
+  const pose = new hf.Pose(surface, { groupCount: 60, bandCount: 5 });
   tips = [];
   for (const place of surface.proposeHandles()) {
     const handle = pose.addHandleAt(place.position, place.radius);

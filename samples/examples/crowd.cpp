@@ -48,10 +48,11 @@ int main(int argc, char** argv) {
   hf_surface surface = mesh_surface(&mesh);  // once for all characters; threads may read it together
   std::vector<hf_pose> crowd(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 100);
 
-  // the first character: handles where hf proposes them, and few groups, as many small bodies need no more
+  // the first character: handles where hf proposes them. Few groups and bands make frames cheap and clones small
   hf_pose first;
   hf_pose_desc desc = HF_INIT(hf_pose_desc);
   desc.group_count = 60;
+  desc.band_count = 5;
   ok(hf_pose_create(surface, &desc, &first));
   hf_handle_proposals_desc few = HF_INIT(hf_handle_proposals_desc);
   few.limit = 8;
