@@ -1,5 +1,5 @@
 // crowd.mjs WASM CREATURE FOLDER: samples/crowd in headless Chromium, with few creatures. WebGPU and WebGL 2 draw the same
-// picture, the creatures differ from each other and move. The pictures are left in FOLDER. 77 (skipped) without what it needs.
+// picture, and the creatures move. The pictures are left in FOLDER. 77 (skipped) without what it needs.
 import { execFileSync, spawn } from 'node:child_process';
 import { existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
