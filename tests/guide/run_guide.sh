@@ -1,12 +1,21 @@
 #!/usr/bin/env bash
-# The C blocks of docs/guide.md, in their order, are one program: it compiles without a warning and runs.
-# usage: run_guide.sh SOURCE_DIR WORK_DIR LIBRARY COMPILER
+# The C blocks of a page, in their order, are one program: it compiles without a warning and runs.
+# usage: run_guide.sh SOURCE_DIR WORK_DIR LIBRARY COMPILER PAGE
 set -eu
-source=$1 work=$2 library=$3 compiler=$4
+source=$1 work=$2 library=$3 compiler=$4 page=$5
 mkdir -p "$work"
-blocks=$(awk '$0 == "```c" {on = 1; next} /^```/ {on = 0} on' "$source/docs/guide.md")
-[ "$(printf '%s\n' "$blocks" | wc -l)" -gt 60 ] || { echo "docs/guide.md has lost its C"; exit 1; }
-{ printf '#include "mesh.h"\nint main(void) {\nMesh mesh = mesh_leg();\n'; printf '%s\n' "$blocks"; printf 'mesh_free(&mesh);\nreturn 0;\n}\n'; } >"$work/guide.c"
+blocks=$(awk '$0 == "```c" {on = 1; next} /^```/ {on = 0} on' "$source/docs/$page.md")
+[ "$(printf '%s\n' "$blocks" | wc -l)" -gt 60 ] || { echo "docs/$page.md has lost its C"; exit 1; }
+# what a page takes as given
+begin='Mesh mesh = mesh_leg();' end='mesh_free(&mesh);'
+if [ "$page" = renderer ]; then
+  begin="$begin hf_surface surface = mesh_surface(&mesh); hf_pose pose; uint32_t low_handle, high; mesh_pose(&mesh, surface, &pose, &low_handle, &high);"
+  end="hf_pose_destroy(pose); hf_surface_destroy(surface); $end"
+fi
+{
+  printf '#include "mesh.h"\nstatic void upload(const char* name, const void* data, size_t bytes) { printf("%%s %%p %%zu\\n", name, data, bytes); }\n'
+  printf 'int main(void) {\n(void)upload;\n%s\n%s\n%s\nreturn 0;\n}\n' "$begin" "$blocks" "$end"
+} >"$work/$page.c"
 "$compiler" -std=c99 -Wall -Wextra -Wpedantic -Wno-unused-function -Werror -I"$source/include" -I"$source/samples/examples" \
-  "$work/guide.c" -o "$work/guide" "$library" -lm -Wl,-rpath,"$(dirname "$library")"
-"$work/guide"
+  "$work/$page.c" -o "$work/$page" "$library" -lm -Wl,-rpath,"$(dirname "$library")"
+"$work/$page"
