@@ -172,4 +172,19 @@ void Retargeter::meet_goals(double seconds) {
   if (walked_by > 0) report_.stride = walked / walked_by;
 }
 
+void Retargeter::measure_hover() {
+  double by = 1e300, own = 1e300;
+  for (FootPair& foot : feet) {
+    const RigLeg& leg = target.legs[at(foot.target)];
+    read_sole(leg, to, foot.target_now);
+    by = std::min(by, foot.height);
+    own = std::min(own, (lowest(target, foot.target_now) - target.ground) / leg.length);
+  }
+  if (feet.empty() || by > standing_height) return;
+  const double length = target.legs[at(feet[0].target)].length;
+  hover_sum += std::max(0.0, own - height_scale * source.leg_length / length * std::max(0.0, by));
+  hover_frames += 1;
+  report_.hover = hover_sum / hover_frames;
+}
+
 }  // namespace hf_inner

@@ -56,7 +56,7 @@ void Retargeter::find_feet() {
       FootPair foot(memory);
       foot.source = static_cast<Index>(s);
       foot.target = static_cast<Index>(t);
-      foot.aligned = people;
+      foot.aligned = people && !options.foot_path;
       const ChainPair* pair = nullptr;
       for (const ChainPair& p : pairs) {
         if (p.role == Role::leg && p.target.joints[0] == leg.segments.joints[0]) pair = &p;

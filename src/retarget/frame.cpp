@@ -175,6 +175,7 @@ void Retargeter::frame(const double* poses, double seconds, double* out) {
     lift_trunk();
     meet_goals(seconds);
     clear_ground();
+    measure_hover();
   }
   measure();
   move_travel();
@@ -191,7 +192,8 @@ void Retargeter::reset() noexcept {
   for (ChainPair& pair : pairs) pair.sum = pair.worst = 0;
   for (ChainReport& chain : report_.chains) chain.mean_degrees = chain.worst_degrees = 0;
   report_.frames = 0;
-  report_.limb_degrees = report_.deepest_drop = 0;
+  report_.limb_degrees = report_.deepest_drop = report_.hover = 0;
+  hover_sum = hover_frames = 0;
 }
 
 void Retargeter::partners(std::uint32_t* out) const noexcept {
@@ -221,6 +223,9 @@ void Retargeter::copy_state(const Retargeter& other) {
   report_.limb_degrees = other.report_.limb_degrees;
   report_.stride = other.report_.stride;
   report_.deepest_drop = other.report_.deepest_drop;
+  report_.hover = other.report_.hover;
+  hover_sum = other.hover_sum;
+  hover_frames = other.hover_frames;
 }
 
 Retarget::Retarget(const RetargetSide& source, const RetargetSide& target, const RetargetOptions& options,

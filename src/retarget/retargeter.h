@@ -110,6 +110,7 @@ class Retargeter {
   void clear_ground();                                                        // ground.cpp
   void write_joints(double* target) const;                                    // frame.cpp
   void measure();                                                             // report.cpp
+  void measure_hover();                                                       // feet.cpp
 
   Memory& memory;
   RetargetOptions options;
@@ -128,6 +129,7 @@ class Retargeter {
   Vec3 mover_place;
   Index root = -1;      // the topmost joint above the mover
   bool people = false;  // both stand upright: legs are aligned
+  double hover_sum = 0, hover_frames = 0;
   RetargetReport report_;
 };
 
