@@ -23,7 +23,7 @@ constexpr double lost_cosine = 0.3, lost_ratio = 0.25;
 // The confidence is a product of 1 / (1 + (x / limit)^2) over the faults; these limits halve it: a share of frames that
 // spike, acceleration beyond the source's, stretch, depth under the ground, gap, a share of lost limbs, height over the
 // ground where the source stands, and how uneven the rests are.
-constexpr double spikes_limit = 0.06, acceleration_limit = 0.5, stretch_limit = 0.5, sunk_limit = 0.02,
+constexpr double spikes_limit = 0.06, acceleration_limit = 1, stretch_limit = 0.7, sunk_limit = 0.02,
                  gap_limit = 0.02, lost_limit = 0.25, hover_limit = 0.02, uneven_limit = 1;
 // The same for degrees of limbs and trunk, boxes a second that standing soles slide, and a share of limbs without a
 // partner.

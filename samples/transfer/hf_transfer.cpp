@@ -260,9 +260,12 @@ bool try_joints(const JointModels& models, const RunReport& by_surface, const Tr
   constexpr double sure = 0.8;  // an artist uses such a run as it is; a higher bound costs a second run for nothing
   const double doubted = least_confidence(by_surface);
   if (doubted >= sure || (!command.kind.empty() && command.kind != "own-skin")) return false;
+  const auto beside = [](const std::filesystem::path& file) {  // the ending says the kind of file
+    return file.empty() ? file : std::filesystem::path(file).replace_extension(".joints" + file.extension().string());
+  };
   TransferCommand trial = command;
-  trial.output += ".joints";
-  if (!trial.sheet.empty()) trial.sheet += ".joints";
+  trial.output = beside(command.output);
+  trial.sheet = beside(command.sheet);
   RunReport report = run_by_joints(models, choose_clips(models.source, command.clip), trial, bar);
   const bool better = least_confidence(report) > doubted;
   for (const auto& [from, to] : {std::pair(trial.output, command.output), {trial.sheet, command.sheet}}) {

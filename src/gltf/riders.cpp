@@ -9,9 +9,12 @@
 namespace hf_gltf {
 namespace {
 
-// A node keeps its place on a joint within this, in boxes. Baked clips round; half of it still knows them, double takes
-// the sway of a calm idle for none.
-constexpr double rides_within = 2e-3;
+// A node keeps its place on a joint within this, in boxes: a constraint that was baked lags. Half of it loses a watch
+// on the wrist of a runner; double takes a hand that swings for the hand that holds.
+constexpr double rides_within = 1e-2;
+// Below this share of it joints are alike, and the nearest counts: less is rounding, more takes a collar that hardly
+// moves for the chest.
+constexpr double alike = 0.005;
 // Clips that are read, and times of each. A body shows in few poses what moves with what; more cost time.
 constexpr size_t most_clips = 8, times_of_clip = 6;
 
@@ -103,27 +106,34 @@ Riders find_riders(const Model& model, const FlatMesh& mesh, const Pose& rest, c
         return moved(c, globals[n] * glm::inverse(poses[0][n]), glm::dmat4(1)) <= within;
       });
     };
-    const auto rides_on = [&](size_t j) {
-      const glm::dmat4 offset = glm::inverse(poses[0][j]) * poses[0][node] * back;
-      return std::all_of(poses.begin(), poses.end(), [&](const auto& globals) {
-        return moved(c, globals[j] * offset, globals[node] * back) <= within;
-      });
+    // How far it moves against a joint in the clips.
+    const auto moves_on = [&](size_t j, const std::vector<glm::dmat4>& first) {
+      const glm::dmat4 offset = glm::inverse(first[j]) * first[node] * back;
+      double out = 0;
+      for (const std::vector<glm::dmat4>& globals : poses)
+        out = std::max(out, moved(c, globals[j] * offset, globals[node] * back));
+      return out;
     };
     bool body_moves = false;
     int best = -1;
-    double nearest = 1e300;
-    for (size_t j = 0; j < body.size() && !poses.empty(); ++j) {
-      if (!body[j] || still(j)) continue;
-      body_moves = true;
-      const double distance = glm::distance(glm::dvec3(at_rest[j][3]), c.middle());
-      if (distance >= nearest || !rides_on(j)) continue;
-      nearest = distance;
-      best = static_cast<int>(j);
+    // A joint on which it rides from its rest on is better than one that clips alone keep at its side.
+    for (const std::vector<glm::dmat4>* first : {&at_rest, poses.empty() ? &at_rest : &poses[0]}) {
+      double least = within, nearest = 1e300;
+      for (size_t j = 0; j < body.size() && !poses.empty(); ++j) {
+        if (!body[j] || still(j)) continue;
+        body_moves = true;
+        const double off = std::max(moves_on(j, *first), alike * within);
+        const double distance = glm::distance(glm::dvec3(at_rest[j][3]), c.middle());
+        if (off > least || (off == least && distance >= nearest)) continue;
+        least = off;
+        nearest = distance;
+        best = static_cast<int>(j);
+      }
+      if (best < 0) continue;
+      out.known.push_back({c.node, best, glm::inverse((*first)[static_cast<size_t>(best)]) * (*first)[node]});
+      break;
     }
-    if (best >= 0)
-      out.known.push_back({c.node, best, glm::inverse(poses[0][static_cast<size_t>(best)]) * poses[0][node]});
-    else if (!body_moves || !still(node))
-      out.unknown.push_back(c.node);
+    if (best < 0 && (!body_moves || !still(node))) out.unknown.push_back(c.node);
   }
   return out;
 }

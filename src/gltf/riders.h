@@ -21,8 +21,8 @@ struct Riders {
 };
 
 // Reads the clips of the model: a node rides on the joint of the body against which it does not move, while that joint
-// moves. Where several are such, on the nearest. A node that stands still while the body moves rides on none, and is
-// not listed. body: of each node, 1: a joint that the body moves.
+// moves. Where several are such, on the one against which it moves least, then on the nearest. A node that stands still
+// while the body moves rides on none, and is not listed. body: of each node, 1: a joint that the body moves.
 Riders find_riders(const Model& model, const FlatMesh& mesh, const Pose& rest, const std::vector<uint8_t>& body);
 
 // Puts the riders on their joints.

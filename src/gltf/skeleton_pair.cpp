@@ -80,7 +80,7 @@ struct SkeletonPair::Inside {
     if (!target.character) return;
     std::vector<uint8_t> body;
     for (const hf_inner::JointKind kind : target.character->kinds)
-      body.push_back(kind == hf_inner::JointKind::body || kind == hf_inner::JointKind::twist);
+      body.push_back(kind != hf_inner::JointKind::helper);
     riders = find_riders(t.model, t.mesh, target.rest_of(), body);
   }
 

@@ -27,6 +27,7 @@ Retargeter::Retargeter(const RetargetSide& s, const RetargetSide& t, const Retar
       feet(&m),
       parts(&m),
       same(m),
+      points(&m),
       report_(m) {
   check_choice(static_cast<std::int32_t>(chosen.root_motion), 3, "root_motion");
   check_finite(chosen.scale, "scale");
@@ -42,6 +43,11 @@ Retargeter::Retargeter(const RetargetSide& s, const RetargetSide& t, const Retar
   poll();
   find_root();
   find_feet();
+  std::size_t most = 0;
+  for (const Rig* rig : {&source, &target}) {
+    for (const RigLeg& leg : rig->legs) most = std::max(most, leg.sole.size());
+  }
+  points.reserve(most);
   find_parts(s, t);
   if (chosen.copy_same && chosen.root_motion == RootMotion::keep && !(chosen.scale > 0)) find_same(s, t);
   if (pairs.empty() && !same.found)

@@ -37,7 +37,7 @@ std::size_t find_foot(const Body& body, const Vector<Index>& path, std::size_t f
     }
   }
   const std::size_t ankle = ankle_of(body, path, first);
-  return ankle > first ? ankle : path.size();
+  return ankle > first && !body.names[at(path[ankle])].twist ? ankle : path.size();
 }
 
 // A collar bone: by its name, else the first of three bones before the hand, or of more if it is below .6 of the
@@ -83,7 +83,9 @@ void assign_leg(Body& body, const Limb& limb, int side) {
   // A joint of the pelvis or a shoulder blade above the leg. If the whole leg has the name of the trunk, the name
   // does not tell pelvis and leg apart.
   const bool pelvis = first_name.named == NameClass::trunk && limb.named != NameClass::trunk;
-  const bool named = path.size() > 2 && (pelvis || (first_name.collar && body.named));
+  // Shoulder, elbow and foot are a whole leg: then the shoulder is the thigh.
+  const bool blade = first_name.collar && body.named && path.size() > 3;
+  const bool named = (pelvis && path.size() > 2) || blade;
   const std::size_t first = named || leads_out(body, limb) ? 1 : 0;
   const std::size_t foot = find_foot(body, path, first);
   set_digits(body, limb, side, foot, Role::toe);

@@ -71,6 +71,20 @@ TEST(Quadruped, ATailWithTheNameOfTheSpineIsATail) {
   EXPECT_EQ(placed.faults(found), "") << why(found);
 }
 
+// A dog whose front legs are shoulder, elbow and foot has no bone more above the elbow.
+TEST(Quadruped, AShoulderAboveElbowAndFootIsTheUpperLeg) {
+  Rig rig = make_beast("horse", true);
+  for (RigJoint& joint : rig.joints) {
+    for (const auto& [was, is] : {std::pair{"FrontUpperLeg", "Shoulder"}, {"FrontLowerLeg", "Elbow"}}) {
+      if (joint.name.rfind(was, 0) == 0) joint.name = is + joint.name.substr(std::string(was).size());
+    }
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
 // Its file says that y is up, but a node has put the body on its side, on its back, or its z up.
 TEST(Quadruped, ThatLiesHasTheUpOfItsLegs) {
   const Rig rig = make_beast("horse", true);

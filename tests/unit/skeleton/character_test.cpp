@@ -190,7 +190,7 @@ TEST(Limbs, AHolsterIsNoToeAndABracerNoFinger) {
   Rig rig = make_biped("mixamo", {});
   for (const auto& [bone, name] : {std::pair{"mixamorig:RightUpLeg", "Item01"}, {"mixamorig:RightForeArm", "Item02"}}) {
     const int on = rig.find(bone);
-    const Vec3 place = rig.joints[static_cast<size_t>(on)].pivot + Vec3{-0.03, -0.02, 0.02};
+    const Vec3 place = rig.joints[static_cast<size_t>(on)].pivot + Vec3{-0.1, -0.1, 0};
     rig.add_box(rig.add(name, on, place, Role::other, Side::right), place, place + Vec3{0, -0.08, 0.02}, 0.02);
   }
   Memory memory;

@@ -64,7 +64,8 @@ struct Builder {
     }
   }
 
-  // A row of bones without skin along the trunk, on which arms and legs hang. The bones of the skin carry the head.
+  // A row of bones without skin beside those of the trunk, on which arms and legs hang. The bones of the skin carry the
+  // head.
   void second_row() {
     const int first = hips, last = chest;
     int above = root;
