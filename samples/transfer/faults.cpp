@@ -21,9 +21,10 @@ constexpr double moving_limb = 0.02;
 // A limb is lost whose motion points elsewhere (cosine) or is that much smaller.
 constexpr double lost_cosine = 0.3, lost_ratio = 0.25;
 // The confidence is a product of 1 / (1 + (x / limit)^2) over the faults; these limits halve it: a share of frames that
-// spike, acceleration beyond the source's, stretch, depth under the ground, gap, and a share of lost limbs.
-constexpr double spikes_limit = 0.06, acceleration_limit = 0.5, stretch_limit = 0.5, sunk_limit = 0.02,
-                 gap_limit = 0.02, lost_limit = 0.25;
+// spike, acceleration beyond the source's, stretch, depth under the ground, gap, a share of lost limbs, height over the
+// ground where the source stands, and how uneven the rests are.
+constexpr double spikes_limit = 0.06, acceleration_limit = 1, stretch_limit = 0.7, sunk_limit = 0.02,
+                 gap_limit = 0.02, lost_limit = 0.25, hover_limit = 0.02, uneven_limit = 1;
 // The same for degrees of limbs and trunk, boxes a second that standing soles slide, and a share of limbs without a
 // partner.
 constexpr double limbs_limit = 20, trunk_limit = 25, slide_limit = 0.5, unmatched_limit = 0.5;
@@ -31,7 +32,7 @@ constexpr double limbs_limit = 20, trunk_limit = 25, slide_limit = 0.5, unmatche
 constexpr double held_limit = 0.15;
 // Faults that a report names, one by one.
 constexpr double named_acceleration = 1.5, named_stretch = 0.4, named_sunk = 0.01, named_gap = 0.01, named_limbs = 10,
-                 named_trunk = 12, named_slide = 0.2, named_held = 0.02;
+                 named_trunk = 12, named_slide = 0.2, named_held = 0.02, named_hover = 0.01, named_uneven = 0.5;
 
 using Frames = std::vector<std::vector<double>>;
 
@@ -104,7 +105,8 @@ double confidence_of(const ClipFaults& faults, size_t frame_count) {
          fall(faults.sunk, sunk_limit) * fall(faults.held, held_limit) * fall(faults.gap, gap_limit) *
          fall(lost, lost_limit) * fall(std::max(0.0, faults.limbs), limbs_limit) *
          fall(std::max(0.0, faults.trunk), trunk_limit) * fall(std::max(0.0, faults.slide), slide_limit) *
-         fall(faults.unmatched, unmatched_limit);
+         fall(faults.unmatched, unmatched_limit) * fall(std::max(0.0, faults.hover), hover_limit) *
+         fall(faults.uneven, uneven_limit);
 }
 
 ClipFaults motion_faults(const Stage& stage, const PlayedClip& played) {
@@ -181,8 +183,20 @@ std::vector<std::string> fault_sentences(const ClipFaults& faults, const std::st
     std::snprintf(text, sizeof text, "standing feet slide by %.2f boxes a second", faults.slide);
     out.push_back(name + text);
   }
+  if (faults.hover > named_hover) {
+    std::snprintf(text, sizeof text,
+                  "it floats: its soles are %.1f %% of the box over the ground where the source stands",
+                  100 * faults.hover);
+    out.push_back(name + text);
+  }
+  if (faults.uneven > named_uneven)
+    out.push_back(
+        name +
+        "one of the bodies rests in a stride or turned aside, and turns count from there: name a standing pose "
+        "with --source-rest or --target-rest");
   if (faults.unmatched > 0) {
-    std::snprintf(text, sizeof text, "%.0f %% of the arms and legs of one body have no partner in the other", 100 * faults.unmatched);
+    std::snprintf(text, sizeof text, "%.0f %% of the arms and legs of one body have no partner in the other",
+                  100 * faults.unmatched);
     out.push_back(name + text);
   }
   for (const std::string& limb : faults.lost) out.push_back(name + "\"" + limb + "\" does not move as its source does");

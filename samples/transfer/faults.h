@@ -23,7 +23,10 @@ struct ClipFaults {
   // Of the joints, where both skeletons are known. Degrees that arms and legs, and the trunk, are off; below 0:
   // unknown.
   double limbs = -1, trunk = -1;
-  double unmatched = 0;   // see PoseFit
+  double unmatched = 0;  // see PoseFit
+  // How high the lowest sole is above that of the source while the source stands, the mean, in boxes; below 0: unknown.
+  double hover = -1;
+  double uneven = 0;      // see SkeletonPair::unevenness
   double slide = -1;      // of soles that stand on the source, in boxes a second; below 0: unknown
   double confidence = 1;  // 0 to 1
 };

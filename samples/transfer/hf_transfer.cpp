@@ -247,6 +247,44 @@ int transfer_joints(const JointModels& models, const std::string& why, const Tra
   return 0;
 }
 
+double least_confidence(const RunReport& report) {
+  double out = 1;
+  for (const ClipFaults& faults : report.faults) out = std::min(out, faults.confidence);
+  return out;
+}
+
+// Where the surface leaves doubt and joints could lead too, both are written, and the better file is kept. True: joints
+// were better.
+bool try_joints(const JointModels& models, const RunReport& by_surface, const TransferCommand& command,
+                ProgressBar& bar, nlohmann::json& json) {
+  constexpr double sure = 0.8;  // an artist uses such a run as it is; a higher bound costs a second run for nothing
+  const double doubted = least_confidence(by_surface);
+  if (doubted >= sure || (!command.kind.empty() && command.kind != "own-skin")) return false;
+  const auto beside = [](const std::filesystem::path& file) {  // the ending says the kind of file
+    return file.empty() ? file : std::filesystem::path(file).replace_extension(".joints" + file.extension().string());
+  };
+  TransferCommand trial = command;
+  trial.output = beside(command.output);
+  trial.sheet = beside(command.sheet);
+  RunReport report = run_by_joints(models, choose_clips(models.source, command.clip), trial, bar);
+  const bool better = least_confidence(report) > doubted;
+  for (const auto& [from, to] : {std::pair(trial.output, command.output), {trial.sheet, command.sheet}}) {
+    if (from.empty()) continue;
+    if (better)
+      std::filesystem::rename(from, to);
+    else
+      std::filesystem::remove(from);
+  }
+  if (!better) return false;
+  char why[128];
+  std::snprintf(why, sizeof why, "the surfaces reach %.2f of confidence here; --way surface takes them", doubted);
+  report.output = command.output.string();
+  report.way_why = why;
+  json = to_json(report);
+  write_reports(command, to_text(report, models.source.name + " on " + models.target.name), json);
+  return true;
+}
+
 int transfer(TransferCommand command, nlohmann::json& json) {
   ProgressBar bar(command.quiet);
   PairsFile pairs;
@@ -319,6 +357,7 @@ int transfer(TransferCommand command, nlohmann::json& json) {
     return report;
   };
   const RunReport first = with_axes(run(session, models, source, target, motion, command, false, bar));
+  if (way.either && command.edits.empty() && try_joints(models, first, command, bar, json)) return 0;
   std::string text = to_text(first, source.name + " on " + target.name);
   json = to_json(first);
   bool factorised_again = false;

@@ -179,9 +179,38 @@ ChosenWay choose_way(const TransferCommand& command, const JointModels& models) 
   if (!pair.refusal().empty()) return {false, pair.refusal()};
   // The surface has the pose of the file: where a body is not understood in it, joints lead.
   if (pair.four_legged() && !models.source_stance.needed && !models.target_stance.needed)
-    return {false, "between bodies on four legs surfaces give the smoother motion; --way skeleton turns joints"};
+    return {false, "between bodies on four legs surfaces give the smoother motion; --way skeleton turns joints", true};
   return {true, "both skeletons are understood, and " + pair.limbs_text() + " have partners"};
 }
+
+namespace {
+
+// The degrees of the arms alone; below 0: there are none.
+double arms_of(const PoseFit& fit) {
+  double sum = 0, count = 0;
+  for (const LimbFit& limb : fit.limbs) {
+    if (limb.name.find("arm") == std::string::npos) continue;
+    sum += limb.mean;
+    count += 1;
+  }
+  return count > 0 ? sum / count : -1;
+}
+
+// Says which meshes beside the skeleton stay behind, and how far the body leaves them.
+void measure_left_behind(const JointModels& models, const Model& written, const FlatMesh& mesh, PlayedClip& played,
+                         RunReport& report) {
+  for (const int node : models.pair.left_behind()) {
+    const double off = comes_off(written, mesh, node, played.target_frames);
+    played.gap = std::max(played.gap, off);
+    char text[64];
+    std::snprintf(text, sizeof text, "%.1f %% of the box", 100 * off);
+    report.warnings.push_back("clip \"" + played.clip.name + "\": no clip of " + models.target.name +
+                              " says on which joint \"" + models.target.nodes[static_cast<size_t>(node)].name +
+                              "\" rides, so it stays: it comes off by " + text);
+  }
+}
+
+}  // namespace
 
 void judge_pose(const JointModels& models, const Model& written, const std::vector<const Animation*>& clips,
                 const std::vector<PlayedClip>& played, bool with_limbs, double scale, RunReport& report) {
@@ -201,7 +230,8 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
         to.push_back(sample(written, written.animations[c], time));
       }
       fit = models.pair.fit(from, to);
-      if (models.pair.two_legged()) faults.limbs = fit.degrees;  // legs of animals bend each in a way of their own
+      if (models.pair.two_legged())  // legs of animals, and legs whose feet were led, bend in a way of their own
+        faults.limbs = c < report.foot_paths.size() && report.foot_paths[c] ? arms_of(fit) : fit.degrees;
       faults.trunk = fit.trunk_degrees;
     }
     // Limbs that nothing leads are as wrong when the surface carries the motion.
@@ -213,6 +243,8 @@ void judge_pose(const JointModels& models, const Model& written, const std::vect
     }
     faults.slide =
         slide_of(source, target, scale, played[c].clip.times, played[c].source_frames, played[c].target_frames);
+    faults.hover = hover_of(source, target, scale, played[c].source_frames, played[c].target_frames);
+    if (models.pair.understood()) faults.uneven = models.pair.unevenness();
     report.depths.push_back(
         depth_of(source, target, scale, source_out, target_out, played[c].source_frames, played[c].target_frames));
     const double flesh =
@@ -260,6 +292,11 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
     out.target_frames = frames_of(models.target, models.target_mesh, joints.target);
     played.push_back(std::move(out));
     report.same_skeleton = joints.same;
+    report.foot_paths.push_back(joints.foot_path);
+    if (joints.foot_path)
+      report.warnings.push_back("clip \"" + clip->name +
+                                "\": feet follow the scaled path of the source's, as legs that point alike would let "
+                                "the body float");
     last = std::move(joints);
     bar.end(std::to_string(played.back().clip.times.size()) + " frames");
   }
@@ -284,6 +321,7 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
   for (size_t c = 0; c < played.size(); ++c) {
     if (report.written_as != "frames")
       played[c].target_frames = frames_of(written, again, written.animations[c], played[c].clip.times);
+    if (report.written_as != "frames") measure_left_behind(models, written, again, played[c], report);
     played[c].feet.surface_sunk = depth_of(source, target, report.scale, source_out, target_out,
                                            played[c].source_frames, played[c].target_frames);
     report.clip_names.push_back(clips[c]->name);

@@ -30,6 +30,7 @@ struct JointModels {
 struct ChosenWay {
   bool joints = false;
   std::string why;
+  bool either = false;  // joints can lead too: the way with the higher confidence is kept
 };
 ChosenWay choose_way(const TransferCommand& command, const JointModels& models);
 

@@ -194,6 +194,58 @@ double slide_of(const StandingBody& source, const StandingBody& target, double s
   return count > 0 ? sum / count / SurfaceBox(target.mesh).diagonal() : -1;
 }
 
+double hover_of(const StandingBody& source, const StandingBody& target, double scale,
+                const std::vector<std::vector<double>>& source_frames,
+                const std::vector<std::vector<double>>& target_frames) {
+  if (source.mesh.triangles.empty()) return -1;
+  const Standing a(source), b(target);
+  if (a.soles.empty() || b.soles.empty()) return -1;
+  const auto lowest = [](const Standing& body, const std::vector<double>& frame) {
+    double out = std::numeric_limits<double>::infinity();
+    for (const Sole& sole : body.soles) out = std::min(out, body.low(sole, frame));
+    return out;
+  };
+  double sum = 0, count = 0;
+  for (size_t f = 0; f < std::min(source_frames.size(), target_frames.size()); ++f) {
+    const double by = lowest(a, source_frames[f]);
+    if (by > stands_below * a.height || by < stands_above * a.height) continue;
+    sum += std::max(0.0, lowest(b, target_frames[f]) - scale * std::max(0.0, by));
+    count += 1;
+  }
+  return count > 0 ? sum / count / SurfaceBox(target.mesh).diagonal() : -1;
+}
+
+double comes_off(const Model& model, const FlatMesh& mesh, int node, const std::vector<std::vector<double>>& frames) {
+  std::vector<uint8_t> under(mesh.positions.size(), 0);
+  for (const FlatPart& part : mesh.parts) {
+    int above = part.node;
+    while (above >= 0 && above != node) above = model.nodes[static_cast<size_t>(above)].parent;
+    for (uint32_t v = 0; v < part.vertex_count; ++v) under[part.first_vertex + v] = above == node;
+  }
+  constexpr size_t most_own = 64;  // of its vertices are compared; a pack has no more corners that touch
+  std::vector<size_t> own;
+  for (size_t v = 0; v < under.size(); ++v)
+    if (under[v] && !mesh.loose[v]) own.push_back(v);
+  size_t a = 0, b = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (size_t k = 0; k < own.size(); k += std::max<size_t>(1, own.size() / most_own)) {
+    for (size_t v = 0; v < under.size(); ++v) {
+      if (under[v] || mesh.loose[v]) continue;
+      const double distance = glm::distance(mesh.positions[own[k]], mesh.positions[v]);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      a = own[k];
+      b = v;
+    }
+  }
+  double out = 0;
+  for (const std::vector<double>& frame : frames) {
+    const auto at = [&](size_t v) { return glm::dvec3(frame[3 * v], frame[3 * v + 1], frame[3 * v + 2]); };
+    out = std::max(out, glm::distance(at(a), at(b)) - nearest);
+  }
+  return std::isfinite(nearest) ? out / SurfaceBox(mesh).diagonal() : 0;
+}
+
 namespace {
 
 // Mean squares of second differences, by part and side of the body.

@@ -31,6 +31,16 @@ double slide_of(const StandingBody& source, const StandingBody& target, double s
                 const std::vector<std::vector<double>>& source_frames,
                 const std::vector<std::vector<double>>& target_frames);
 
+// How high the lowest sole of the target is above the lowest of the source, scaled, while that stands: the mean over
+// these frames, in boxes of the target. Below 0: nothing stands, or the feet are not known.
+double hover_of(const StandingBody& source, const StandingBody& target, double scale,
+                const std::vector<std::vector<double>>& source_frames,
+                const std::vector<std::vector<double>>& target_frames);
+
+// How far what hangs on a node comes off the rest of the body at most, in boxes: its vertex and the other that are
+// nearest to each other at rest.
+double comes_off(const Model& model, const FlatMesh& mesh, int node, const std::vector<std::vector<double>>& frames);
+
 // How much the target accelerates over the source: root mean squares of second differences, where trunk, head, arms
 // and legs of each side count the same. So neither the sizes of parts nor how finely they are meshed matter. Lengths of
 // the source count times the larger of `scale` and that of the boxes. 0: the source does not move, or no part is

@@ -178,6 +178,7 @@ void add_quality(const RunReport& report, std::string& out) {
     if (report.faults[c].sunk < 0.9 * report.depths[c])
       print(out, " (%.2f %% without what hands hold or what may sink)", 100 * report.faults[c].sunk);
     if (report.faults[c].slide >= 0) print(out, ", standing soles slide %.3f boxes a second", report.faults[c].slide);
+    if (report.faults[c].hover > 0.001) print(out, ", soles float by %.2f %%", 100 * report.faults[c].hover);
     print(out, " in \"%s\"\n", report.clip_names[c].c_str());
   }
   for (size_t c = 0; c < report.faults.size(); ++c)
@@ -274,6 +275,8 @@ nlohmann::json to_json(const RunReport& report) {
                                 {"sunk", faults.sunk},
                                 {"held", faults.held},
                                 {"gap", faults.gap},
+                                {"hover", faults.hover < 0 ? nlohmann::json() : nlohmann::json(faults.hover)},
+                                {"uneven", faults.uneven},
                                 {"lost", faults.lost},
                                 {"slide", faults.slide < 0 ? nlohmann::json() : nlohmann::json(faults.slide)},
                                 {"sentences", fault_sentences(faults, report.clip_names[c], report.frames[c])}};

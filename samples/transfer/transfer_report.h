@@ -36,6 +36,7 @@ struct RunReport {
   size_t joints = 0;                   // of the target that follow
   std::vector<std::string> unmatched;  // joints of the source without a partner
   double drop = 0;                     // how far the hips sank so that feet reach, in boxes
+  std::vector<uint8_t> foot_paths;     // of each clip, see JointClip
   // Of each written clip, where both skeletons are known.
   std::vector<PoseFit> fits;
   std::vector<double> depths;  // of the deepest vertex, deeper than the source's, in boxes

@@ -29,6 +29,12 @@ inline bool is_understood(const Character& c) {
   return c.role_confidence >= enough && c.up_confidence >= enough && c.forward_confidence >= enough;
 }
 
+// A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half would
+// refuse bodies that shift their weight to one leg; double would take a stride for a stance.
+inline constexpr double even = 0.08;
+// How far arms and legs are from mirroring each other: the mean over their joints, a share of the height.
+double unevenness(const Character& c);  // stance.cpp
+
 inline glm::dvec3 vector_of(const hf_inner::Vec3& v) { return {v.x, v.y, v.z}; }
 inline glm::dvec3 place_of(const std::vector<glm::dmat4>& globals, int node) {
   return glm::dvec3(globals[static_cast<size_t>(node)][3]);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "gltf/clip_binding.h"
+#include "gltf/riders.h"
 #include "gltf/skeleton_body.h"
 
 namespace hf_gltf {
@@ -74,7 +75,14 @@ struct SkeletonPair::Inside {
   mutable hf_inner::Memory memory;
   SkeletonBody source, target;
   std::string refusal;
-  Inside(const JointSide& s, const JointSide& t) : source(s, memory), target(t, memory) {}
+  Riders riders;  // of the target
+  Inside(const JointSide& s, const JointSide& t) : source(s, memory), target(t, memory) {
+    if (!target.character) return;
+    std::vector<uint8_t> body;
+    for (const hf_inner::JointKind kind : target.character->kinds)
+      body.push_back(kind != hf_inner::JointKind::helper);
+    riders = find_riders(t.model, t.mesh, target.rest_of(), body);
+  }
 
   bool understood() const {
     return source.character && target.character && source.doubt.empty() && target.doubt.empty();
@@ -94,6 +102,8 @@ struct SkeletonPair::Inside {
     for (const BodyLimb& b : target.limbs) out += partner(b) != nullptr;
     return out;
   }
+  JointClip play(const Animation& clip, const std::vector<double>& times, const JointOptions& options,
+                 bool foot_path) const;
   const BodyLimb* partner(const BodyLimb& b) const {
     for (const BodyLimb& a : source.limbs)
       if (a.role == b.role && a.side == b.side && a.number == b.number) return &a;
@@ -119,6 +129,17 @@ bool SkeletonPair::understood() const { return in_->understood(); }
 const std::string& SkeletonPair::refusal() const { return in_->refusal; }
 bool SkeletonPair::two_legged() const { return in_->source.leg_pairs <= 1 && in_->target.leg_pairs <= 1; }
 bool SkeletonPair::four_legged() const { return in_->source.leg_pairs == 2 && in_->target.leg_pairs == 2; }
+
+const std::vector<int>& SkeletonPair::left_behind() const { return in_->riders.unknown; }
+
+double SkeletonPair::unevenness() const {
+  double out = 0;
+  for (const SkeletonBody* body : {&in_->source, &in_->target}) {
+    const double share = body->character ? hf_gltf::unevenness(*body->character) / even : 0;
+    if (share < 1e100) out = std::max(out, share - 1);
+  }
+  return out;
+}
 
 std::string SkeletonPair::limbs_text() const {
   size_t legs = 0, arms = 0;
@@ -169,8 +190,17 @@ glm::dvec3 take_travel(const SkeletonBody& body, const std::vector<double>& time
 
 JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& times,
                              const JointOptions& options) const {
-  const SkeletonBody &source = in_->source, &target = in_->target;
-  hf_inner::Memory& memory = in_->memory;
+  // A body hovers if it is this high over the ground while the source stands, in legs. Half of it is what a heel that
+  // lifts costs; at double it is seen from afar.
+  constexpr double hovers = 0.08;
+  JointClip out = in_->play(clip, times, options, false);
+  if (!two_legged() || !(out.hover > hovers)) return out;
+  JointClip other = in_->play(clip, times, options, true);
+  return other.hover < 0.5 * out.hover ? other : out;
+}
+
+JointClip SkeletonPair::Inside::play(const Animation& clip, const std::vector<double>& times,
+                                     const JointOptions& options, bool foot_path) const {
   JointClip out;
   out.times = times;
   for (const double time : times) out.source.push_back(sample(source.side.model, clip, time));
@@ -180,6 +210,7 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
 
   hf_inner::RetargetOptions chosen;
   chosen.goals = options.ground;
+  chosen.foot_path = out.foot_path = foot_path;
   chosen.copy_same = options.scale == 0 && options.stride == 1;
   if (times.size() > 1 && options.ground)
     find_ground_velocity(source.retarget_side(), poses.data(), static_cast<std::uint32_t>(times.size()),
@@ -200,6 +231,7 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
     retarget.frame(poses.data() + 10 * count * f, f == 0 ? 0 : times[f] - times[f - 1], trs.data());
     ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     out.target.push_back(pose_of(rest, trs));
+    place_riders(target.side.model, riders, out.target.back());
   }
   const hf_inner::RetargetReport& report = retarget.report();
   out.same = report.same_skeleton;
@@ -208,6 +240,7 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
   out.joints = report.matched_joints;
   for (const std::uint32_t j : report.unmatched_source) out.unmatched.push_back(source.side.model.nodes[j].name);
   out.drop = report.deepest_drop;
+  out.hover = report.hover;
   out.frame_ms = ms / static_cast<double>(std::max<size_t>(times.size(), 1));
   out.travel = out.scale * (target.axes() * (glm::transpose(source.axes()) * travel));
   for (size_t f = 1; f < out.source.size() && !out.moves; ++f) {

@@ -40,6 +40,8 @@ struct JointClip {
   size_t joints = 0;                   // of the target that follow
   std::vector<std::string> unmatched;  // joints of the source's body without a partner
   double drop = 0;                     // how far the hips sank so that feet reach, in units of the target
+  double hover = 0;                    // see RetargetReport
+  bool foot_path = false;  // feet follow the scaled path of the source's: pointing legs alike would let the body hover
   double frame_ms = 0;
   glm::dvec3 travel{0, 0, 0};  // of the target, that was taken out
   bool moves = false;          // the body moves at all in this clip
@@ -75,6 +77,11 @@ class SkeletonPair {
   bool two_legged() const;
   // Whether both have two pairs.
   bool four_legged() const;
+  // Nodes of the target with a mesh beside the skeleton of which no clip says on which joint they ride: they stay.
+  const std::vector<int>& left_behind() const;
+  // How uneven the rests are of which the motion counts: how far arms and legs are from mirroring each other, beyond
+  // what a standing body may be. 0: both stand. 1: twice that.
+  double unevenness() const;
   // "2 legs and 2 arms"
   std::string limbs_text() const;
   // The node over all joints of the target that could carry the travel.

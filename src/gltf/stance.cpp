@@ -10,9 +10,6 @@
 namespace hf_gltf {
 namespace {
 
-// A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half would
-// refuse bodies that shift their weight to one leg; double would take a stride for a stance.
-constexpr double even = 0.08;
 // A leg is in the air if its lowest vertex is higher than this share of the height. It is twice the height at which a
 // limb still counts as standing.
 constexpr double lifted = 0.12;
@@ -32,34 +29,12 @@ std::ptrdiff_t lifted_legs(const Character& c) {
                        [&](const Chain& chain) { return chain.role == Role::leg && chain.low > lifted * c.height; });
 }
 
-// How far arms and legs are from mirroring each other: the mean over their joints, a share of the height.
-double unevenness(const Character& c) {
-  const glm::dvec3 left = vector_of(c.left);
-  glm::dvec3 middle(0);
-  double count = 0, sum = 0;
-  const auto each_pair = [&](auto&& visit) {
-    for (size_t j = 0; j < c.mates.size(); ++j) {
-      const bool limb =
-          c.roles[j] == Role::arm || c.roles[j] == Role::leg || c.roles[j] == Role::hand || c.roles[j] == Role::foot;
-      if (limb && c.mates[j] > static_cast<std::int32_t>(j))
-        visit(vector_of(c.frames[j].origin), vector_of(c.frames[static_cast<size_t>(c.mates[j])].origin));
-    }
-  };
-  each_pair([&](const glm::dvec3& a, const glm::dvec3& b) {
-    middle += 0.5 * (a + b);
-    count += 1;
-  });
-  if (!(count > 0) || !(c.height > 0)) return 1e300;
-  const double offset = glm::dot(middle / count, left);
-  each_pair([&](const glm::dvec3& a, const glm::dvec3& b) {
-    sum += glm::distance(a - 2 * (glm::dot(a, left) - offset) * left, b);
-  });
-  return sum / count / c.height;
-}
-
 // Returns whether a body faces its declared direction, as far as its shape shows where it faces.
 bool faces_as_said(hf_inner::CharacterInput input, hf_inner::Memory& memory) {
-  constexpr double near = 0.7;  // a cosine, 45 degrees: beyond, another axis of the body is nearer
+  // The cosine of 45 degrees: farther off, another axis of the body is nearer. Half, 70 degrees, would take a pose that
+  // a clip turns aside for one that faces as said; a cosine near 1 would refuse a body that a clip turns by a few
+  // degrees.
+  constexpr double near = 0.7;
   const glm::dvec3 said(input.forward[0], input.forward[1], input.forward[2]);
   input.forward = nullptr;
   const Character c = know_character(input, memory);
@@ -181,6 +156,30 @@ std::optional<Pose> bound_pose(const Model& model, const Pose& rest) {
 }
 
 }  // namespace
+
+double unevenness(const Character& c) {
+  const glm::dvec3 left = vector_of(c.left);
+  glm::dvec3 middle(0);
+  double count = 0, sum = 0;
+  const auto each_pair = [&](auto&& visit) {
+    for (size_t j = 0; j < c.mates.size(); ++j) {
+      const bool limb =
+          c.roles[j] == Role::arm || c.roles[j] == Role::leg || c.roles[j] == Role::hand || c.roles[j] == Role::foot;
+      if (limb && c.mates[j] > static_cast<std::int32_t>(j))
+        visit(vector_of(c.frames[j].origin), vector_of(c.frames[static_cast<size_t>(c.mates[j])].origin));
+    }
+  };
+  each_pair([&](const glm::dvec3& a, const glm::dvec3& b) {
+    middle += 0.5 * (a + b);
+    count += 1;
+  });
+  if (!(count > 0) || !(c.height > 0)) return 1e300;
+  const double offset = glm::dot(middle / count, left);
+  each_pair([&](const glm::dvec3& a, const glm::dvec3& b) {
+    sum += glm::distance(a - 2 * (glm::dot(a, left) - offset) * left, b);
+  });
+  return sum / count / c.height;
+}
 
 FlatMesh standing(FlatMesh mesh, const Model& model, const Pose& pose) {
   mesh.positions = posed_positions(model, mesh, pose);

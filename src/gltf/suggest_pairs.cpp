@@ -149,6 +149,8 @@ Suggestion suggest_pairs(const Body& source_body, const Body& target_body) {
     // They are aligned, and searched for contacts, between like bodies only.
     const bool is_end = a.name == "nose" || a.name == "head" || a.name == "tail";
     if (is_end && !same_build(from, to)) pair["align"] = pair["contact"] = false;
+    // How high a neck carries its head belongs to the kind: a horse with the neck of a camel looks at the sky.
+    if (a.name == "nose") pair["align"] = false;
     // a tail that is carried low is no contact: drawn to the ground in a jump it whips
     if (a.name == "tail") pair["contact"] = false;
     // an ear is thin all along; held above the ground it would lift the head

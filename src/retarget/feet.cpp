@@ -9,19 +9,14 @@
 namespace hf_inner {
 namespace {
 
-double smooth_step(double low, double high, double x) noexcept {
-  const double t = std::min(1.0, std::max(0.0, (x - low) / (high - low)));
-  return t * t * (3 - 2 * t);
-}
-
 // A sole that dips into the ground stays on it. One that goes as deep as a free one is high was put there: it sinks.
 double held_height(double height) noexcept {
-  return height < 0 ? height * smooth_step(standing_height, free_height, -height) : height;
+  return height < 0 ? height * soft_step(standing_height, free_height, -height) : height;
 }
 
 // How much a sole stands: it is low, and it is slow against the ground.
 double stands(const Retargeter& r, const FootPair& foot, double seconds) noexcept {
-  const double low = 1 - smooth_step(standing_height, free_height, foot.height);
+  const double low = 1 - soft_step(standing_height, free_height, foot.height);
   if (!foot.known || !(seconds > 0) || !r.options.lock_feet) return low;
   const double* g = r.options.ground_velocity;
   const Vec3 ground = r.source.level({g[0], g[1], g[2]});
@@ -29,8 +24,8 @@ double stands(const Retargeter& r, const FootPair& foot, double seconds) noexcep
       slowest_step(r.source, foot.source_was, foot.source_now, seconds * ground, low_share * r.source.leg_length) /
       (seconds * r.source.leg_length);
   const double of_ground = norm(ground) / r.source.leg_length;
-  return low * (1 - smooth_step(std::max(standing_speed, standing_share * of_ground),
-                                std::max(free_speed, free_share * of_ground), speed));
+  return low * (1 - soft_step(std::max(standing_speed, standing_share * of_ground),
+                              std::max(free_speed, free_share * of_ground), speed));
 }
 
 // The ankle over the ground, before heights: where its turns put it, or for legs that are not aligned where the foot
@@ -51,7 +46,7 @@ double follows_down(const Retargeter& r, FootPair& foot) {
   const double ankle = dot(turned_ankle(r, foot) - r.target.tip_place(leg.segments.tip, r.to), r.target.up);
   const double own = ankle + lowest(r.target, foot.target_now) - r.target.ground;
   const double lift = own - r.height_scale * r.source.leg_length * foot.height;
-  return 1 - smooth_step(0, free_lift, lift / leg.length);
+  return 1 - soft_step(0, free_lift, lift / leg.length);
 }
 
 // Reads where the leg is before it is bent, and how the sole of the source moves.
@@ -64,7 +59,7 @@ void read_foot(const Retargeter& r, FootPair& foot, double seconds) {
   const std::size_t n = leg.segments.count();
   for (std::size_t k = 0; k < n; ++k) foot.places[k] = r.to.place[at(leg.segments.first(k))];
   foot.places[n] = r.target.tip_place(leg.segments.tip, r.to);
-  const double stand = stands(r, foot, seconds) * follows_down(r, foot);
+  const double stand = stands(r, foot, seconds) * (r.options.foot_path ? 1 : follows_down(r, foot));
   const bool at_once = !foot.known || !r.options.lock_feet;
   foot.standing += (stand - foot.standing) * (at_once ? 1 : 1 - exponential(-seconds / standing_time));
   const std::size_t thigh = at(leg.segments.joints[0]);
@@ -80,7 +75,8 @@ double highest_ankle(const Retargeter& r, const FootPair& foot, Vec3 turned) noe
   return dot(hip, r.target.up) - std::sqrt(least * least - aside * aside);
 }
 
-// Sets the goal of the ankle. A standing sole is as high as the sole of the source. A sole in the air is not lower.
+// Sets the goal of the ankle. A standing sole is as high as the sole of the source. A sole in the air is not lower; on
+// the scaled path it is no higher either, as long as the sole of the source is near the ground.
 void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
   const Rig& rig = r.target;
   const RigLeg& leg = rig.legs[at(foot.target)];
@@ -89,9 +85,9 @@ void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
   const double below = lowest(rig, foot.target_now) - dot(now, rig.up);  // of the sole from the ankle
   Vec3 goal = turned_ankle(r, foot);
   const double own = dot(goal, rig.up);
-  const double near = 1 - smooth_step(near_height, far_height, foot.height);
+  const double near = 1 - soft_step(near_height, far_height, foot.height);
   const double sole = rig.ground + r.height_scale * r.source.leg_length * foot.height - below;
-  const double free = own + near * std::max(0.0, sole - own);
+  const double free = own + near * (r.options.foot_path ? sole - own : std::max(0.0, sole - own));
   const double height = foot.standing * sole + (1 - foot.standing) * free;
   const double clear = std::max(height, std::min(sole, rig.ground - below));
   goal = rig.level(goal) + std::min(clear, highest_ankle(r, foot, goal)) * rig.up;
@@ -170,6 +166,24 @@ void Retargeter::meet_goals(double seconds) {
     target.place(wanted, mover_place, to);
   }
   if (walked_by > 0) report_.stride = walked / walked_by;
+}
+
+void Retargeter::measure_hover() {
+  double by = 1e300, own = 1e300;
+  for (const RigLeg& leg : source.legs) {
+    points.resize(leg.sole.size());
+    read_sole(leg, from, points);
+    if (!leg.sole.empty()) by = std::min(by, lowest(source, points) - source.ground);
+  }
+  for (const RigLeg& leg : target.legs) {
+    points.resize(leg.sole.size());
+    read_sole(leg, to, points);
+    if (!leg.sole.empty()) own = std::min(own, lowest(target, points) - target.ground);
+  }
+  if (!(own < 1e300) || !(target.leg_length > 0) || by > standing_height * source.leg_length) return;
+  hover_sum += (sunk + std::max(0.0, own - height_scale * std::max(0.0, by))) / target.leg_length;
+  hover_frames += 1;
+  report_.hover = hover_sum / hover_frames;
 }
 
 }  // namespace hf_inner

@@ -41,7 +41,7 @@ Vec3 knee_side_of(const Rig& rig, const RigLeg& leg, Turn align) noexcept {
 }  // namespace
 
 // Legs pair from behind, each with a leg of its side. A leg without a foot gets no goal. Its boot tilts with the shin,
-// so a knee that bends to lift the toes pushes them deeper. Such a leg lifts the body instead.
+// so a knee that bends to lift the toes pushes them deeper. Such a leg lifts the body instead, but on the scaled path.
 void Retargeter::find_feet() {
   for (std::size_t t = 0; t < target.legs.size(); ++t) {
     const RigLeg& leg = target.legs[t];
@@ -50,13 +50,13 @@ void Retargeter::find_feet() {
     for (std::size_t s = 0; s < source.legs.size(); ++s) {
       const RigLeg& by = source.legs[s];
       if (by.side != leg.side || place-- > 0) continue;
-      if (leg.foot < 0 || leg.sole.empty() || by.sole.empty() || !wanted[at(leg.segments.tip.joint)] ||
-          leg.segments.count() < 2 || !(leg.length > 0) || !(by.length > 0))
+      if ((leg.foot < 0 && !options.foot_path) || leg.sole.empty() || by.sole.empty() ||
+          !wanted[at(leg.segments.tip.joint)] || leg.segments.count() < 2 || !(leg.length > 0) || !(by.length > 0))
         break;
       FootPair foot(memory);
       foot.source = static_cast<Index>(s);
       foot.target = static_cast<Index>(t);
-      foot.aligned = people;
+      foot.aligned = people && !options.foot_path;
       const ChainPair* pair = nullptr;
       for (const ChainPair& p : pairs) {
         if (p.role == Role::leg && p.target.joints[0] == leg.segments.joints[0]) pair = &p;

@@ -27,6 +27,7 @@ Retargeter::Retargeter(const RetargetSide& s, const RetargetSide& t, const Retar
       feet(&m),
       parts(&m),
       same(m),
+      points(&m),
       report_(m) {
   check_choice(static_cast<std::int32_t>(chosen.root_motion), 3, "root_motion");
   check_finite(chosen.scale, "scale");
@@ -42,6 +43,11 @@ Retargeter::Retargeter(const RetargetSide& s, const RetargetSide& t, const Retar
   poll();
   find_root();
   find_feet();
+  std::size_t most = 0;
+  for (const Rig* rig : {&source, &target}) {
+    for (const RigLeg& leg : rig->legs) most = std::max(most, leg.sole.size());
+  }
+  points.reserve(most);
   find_parts(s, t);
   if (chosen.copy_same && chosen.root_motion == RootMotion::keep && !(chosen.scale > 0)) find_same(s, t);
   if (pairs.empty() && !same.found)
@@ -175,6 +181,7 @@ void Retargeter::frame(const double* poses, double seconds, double* out) {
     lift_trunk();
     meet_goals(seconds);
     clear_ground();
+    measure_hover();
   }
   measure();
   move_travel();
@@ -191,7 +198,8 @@ void Retargeter::reset() noexcept {
   for (ChainPair& pair : pairs) pair.sum = pair.worst = 0;
   for (ChainReport& chain : report_.chains) chain.mean_degrees = chain.worst_degrees = 0;
   report_.frames = 0;
-  report_.limb_degrees = report_.deepest_drop = 0;
+  report_.limb_degrees = report_.deepest_drop = report_.hover = 0;
+  hover_sum = hover_frames = 0;
 }
 
 void Retargeter::partners(std::uint32_t* out) const noexcept {
@@ -221,6 +229,9 @@ void Retargeter::copy_state(const Retargeter& other) {
   report_.limb_degrees = other.report_.limb_degrees;
   report_.stride = other.report_.stride;
   report_.deepest_drop = other.report_.deepest_drop;
+  report_.hover = other.report_.hover;
+  hover_sum = other.hover_sum;
+  hover_frames = other.hover_frames;
 }
 
 Retarget::Retarget(const RetargetSide& source, const RetargetSide& target, const RetargetOptions& options,

@@ -103,6 +103,8 @@ bool follows_line(const ChainPair& pair) {
 
 void Matcher::add_pair(ChainPair pair, Aligning how, Turn before) {
   align_chain(r, pair, how, before);
+  // The turns of a joint hold those of the joints above it in its chain.
+  for (const Index joint : pair.source.joints) used[at(joint)] = 1;
   if (pair.source.count() == pair.target.count()) {
     for (std::size_t k = 0; k < pair.target.count(); ++k) follow_pieces(*this, pair, k);
   } else if (follows_line(pair)) {
@@ -110,7 +112,6 @@ void Matcher::add_pair(ChainPair pair, Aligning how, Turn before) {
     for (const Index joint : pair.target.joints)
       follow(joint, pair.source.joints[0], pair.source.joints[0], 0, pair.align[0]);
     for (std::size_t k = first; k < r.follows.size(); ++k) r.follows[k].line = static_cast<Index>(r.pairs.size());
-    for (const Index joint : pair.source.joints) used[at(joint)] = 1;
   } else {
     follow_arcs(*this, pair);
   }
@@ -217,6 +218,28 @@ void Matcher::add_limbs() {
   }
 }
 
+// Arms of some rigs hang on a row of bones of its own, beside the bones that carry the skin of the trunk. A bone of
+// that row turns as the nearest bone of the trunk.
+void Matcher::add_second_trunk() {
+  Vector<Index> first(r.target.trunk, &memory);
+  first.insert(first.begin(), r.target.mover);
+  const auto distance = [&](Index a, Index b) { return norm(r.target.rest.place[at(a)] - r.target.rest.place[at(b)]); };
+  for (const Chain& chain : t.character.chains) {
+    if (chain.role != Role::arm && chain.role != Role::wing) continue;
+    Index j = r.target.carriers[at(static_cast<Index>(t.character.chain_joints[chain.first]))];
+    for (Index steps = 0; j >= 0 && j != r.target.mover && steps < r.target.count;
+         ++steps, j = r.target.carriers[at(j)]) {
+      const Role role = t.character.roles[at(j)];
+      if (r.wanted[at(j)] || (role != Role::spine && role != Role::neck)) continue;
+      const Index by = *std::min_element(first.begin(), first.end(),
+                                         [&](Index a, Index b) { return distance(a, j) < distance(b, j); });
+      const auto found =
+          std::find_if(r.follows.begin(), r.follows.end(), [&](const Follow& f) { return f.target == by; });
+      if (found != r.follows.end()) follow(j, found->a, found->b, found->share, {});
+    }
+  }
+}
+
 // Tails, wings, ears, and the parts of the trunk that lead to legs alone.
 void Matcher::add_others() {
   for (const Chain& b : t.character.chains) {
@@ -244,6 +267,8 @@ void Retargeter::match_chains(const RetargetSide& s, const RetargetSide& t) {
   wanted.assign(at(target.count), 0);
   Matcher matcher(*this, s, t, memory);
   matcher.one_to_one(source.mover, target.mover);
+  for (const Index joint : target.doubles) matcher.one_to_one(source.mover, joint);
+  for (const Index joint : source.doubles) matcher.used[at(joint)] = 1;
   const auto last = [](const Rig& rig) { return rig.trunk.empty() ? rig.mover : rig.trunk.back(); };
   const auto next = [](const Rig& rig) { return rig.neck.empty() ? rig.head : rig.neck[0]; };
   matcher.add_path(source.trunk, target.trunk, source.mover, target.mover, next(source), next(target), Role::spine);
@@ -251,6 +276,7 @@ void Retargeter::match_chains(const RetargetSide& s, const RetargetSide& t) {
   if (source.head >= 0 && target.head >= 0 && source.head != source.mover && target.head != target.mover)
     matcher.one_to_one(source.head, target.head);
   matcher.add_limbs();
+  matcher.add_second_trunk();
   matcher.add_others();
   report_.matched_joints = static_cast<std::uint32_t>(follows.size());
   const auto list = [&](const Character& c, const Vector<std::uint8_t>& done, Vector<std::uint32_t>& out) {

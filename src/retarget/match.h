@@ -34,6 +34,7 @@ struct Matcher {
   void add_next(const Chain& a, const Chain& b, Role role, Turn align);
   void add_fingers(const Chain& a, const Chain& b, Turn align);
   void add_limbs();
+  void add_second_trunk();
   void add_others();
 };
 

@@ -34,6 +34,10 @@ struct RetargetOptions {
   bool align_rests = true;
   bool goals = true;      // feet reach their places, nothing sinks into the ground
   bool lock_feet = true;  // planted feet slide no more than the feet of the source
+  // Feet of people go where the feet of the source are from its hips, scaled, as those of animals do, and legs follow.
+  // Otherwise legs point as those of the source. It brings feet to the ground that hover because the source folds its
+  // legs and stands on large feet.
+  bool foot_path = false;
   bool copy_same = true;  // keys are copied between equal skeletons
   double scale = 0;       // times the travel of the source; 0: the ratio of leg lengths
   // The velocity of the ground under a clip on the spot, in the space of the source, in units per second. 0: the ground
@@ -78,6 +82,9 @@ struct RetargetReport {
   // spot needs the least correction of the feet if the body moves at scale x stride times the speed of the clip.
   double stride = 1;
   double deepest_drop = 0;  // how far the hips sank so that feet reach, in units of the target
+  // How high the lowest sole is above the lowest sole of the source while that stands: the mean over these frames, in
+  // legs of the target, and how far the body sank to bring it down. Without goals it is 0.
+  double hover = 0;
 };
 
 // Finds the velocity of the soles where they touch the ground. It is 0 if the clip travels. poses: `count` frames of 10

@@ -154,8 +154,12 @@ void find_trunk(Rig& rig, const Character& character) {
     rig.mover = first_joint(character, character.chains[0]);
   if (rig.mover < 0) rig.mover = rig.order[0];
   for (Index j = rig.head >= 0 ? rig.carriers[at(rig.head)] : arms, steps = 0;
-       j >= 0 && j != rig.mover && steps <= rig.count; j = rig.carriers[at(j)], ++steps)
-    (character.roles[at(j)] == Role::neck ? rig.neck : rig.trunk).push_back(j);
+       j >= 0 && j != rig.mover && steps <= rig.count; j = rig.carriers[at(j)], ++steps) {
+    const Vec3 from_mover = rig.rest.place[at(j)] - rig.rest.place[at(rig.mover)];
+    const Vec3 way = rig.rest.place[at(rig.head >= 0 ? rig.head : arms)] - rig.rest.place[at(rig.mover)];
+    const bool begins = rig.linked[at(j)] && dot(from_mover, unit_vector(way)) < same_rest * rig.height;
+    (begins ? rig.doubles : character.roles[at(j)] == Role::neck ? rig.neck : rig.trunk).push_back(j);
+  }
   std::reverse(rig.trunk.begin(), rig.trunk.end());
   std::reverse(rig.neck.begin(), rig.neck.end());
   rig.moves.assign(at(rig.count), 0);

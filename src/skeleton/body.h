@@ -107,6 +107,10 @@ struct Body {
   bool is_ancestor(Index a, Index b) const noexcept {
     return enter[at(a)] <= enter[at(b)] && leave[at(b)] <= leave[at(a)];
   }
+  // The same in the tree, across helpers and loose parts.
+  bool is_below(Index joint, Index above) const noexcept {
+    return places[at(joint)] >= places[at(above)] && places[at(joint)] < ends[at(places[at(above)])];
+  }
   bool is_central(Index joint) const noexcept { return mates[at(joint)] < 0; }
   double lateral(Vec3 p) const noexcept { return dot(p, left) - offset; }
   double lateral(Index joint) const noexcept { return lateral(means[at(joint)]); }

@@ -46,6 +46,13 @@ Index named_head(const Body& body) {
   return best;
 }
 
+// Whether limbs of that name hang on a joint, or on joints below it. Names alone say that a limb is an arm: the head of
+// a beetle carries feelers.
+bool carries(const Body& body, Index joint, NameClass named) {
+  return std::any_of(body.limbs.begin(), body.limbs.end(),
+                     [&](const Limb& limb) { return limb.named == named && body.is_below(limb.carrier, joint); });
+}
+
 // Returns how much an end looks like a head: high over the limbs that stand, large, with pairs on it.
 double likeness(const Body& body, Index end, Vec3 base) {
   Vec3 sum;
@@ -101,15 +108,20 @@ void find_head(Body& body) {
   body.head = named_head(body);
   if (body.head >= 0) return;
   const Vec3 base = base_of(body);
-  double best = -1e300;
-  for (const Index j : body.tree) {
-    if (!may_be_head(body, j) || !is_solid(body, j) || !(j == body.root ? root_is_end(body) : is_end(body, j)))
-      continue;
-    const double like = likeness(body, j, base);
-    if (like > best) {
-      best = like;
-      body.head = j;
+  // What carries arms is the chest. What carries legs is the hips, or else the head of a spider.
+  for (const bool with_legs : {false, true}) {
+    double best = -1e300;
+    for (const Index j : body.tree) {
+      const bool root = j == body.root;
+      if (!may_be_head(body, j) || !is_solid(body, j) || !(root ? root_is_end(body) : is_end(body, j))) continue;
+      if (!root && (carries(body, j, NameClass::arm) || (!with_legs && carries(body, j, NameClass::leg)))) continue;
+      const double like = likeness(body, j, base);
+      if (like > best) {
+        best = like;
+        body.head = j;
+      }
     }
+    if (body.head >= 0) break;
   }
   if (body.head >= 0) body.head = heaviest_above(body, body.head);
 }

@@ -221,6 +221,7 @@ JointName read_name(Span<const Text> tokens, const Vector<std::uint64_t>& common
     if (rest.begins("front") || rest.is("fore")) name.along = 1;
     if (rest.begins("back") || rest.begins("hind") || rest.begins("rear")) name.along = -1;
     if (rest.begins("lower")) name.lower = true;
+    if (rest.begins("twist") || rest.ends("twist")) name.twist = true;
     const Word* word = rest.size > 0 ? find_word(rest) : nullptr;
     if (!word) continue;
     has[static_cast<std::size_t>(word->named)] = true;

@@ -31,6 +31,7 @@ struct JointName {
   std::int8_t along = 0;                                                        // 1 front, -1 back
   bool collar = false, hand = false, foot = false, toe = false, lower = false;  // parts of limbs
   bool hip = false;                                                             // a hip with a side is a leg
+  bool twist = false;                                                           // it lies along the bone before it
   std::uint64_t key = 0;                                                        // the same for the names of a pair
 };
 

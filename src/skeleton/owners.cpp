@@ -73,16 +73,24 @@ Vector<std::uint8_t> find_doubles(const Body& body) {
 }
 
 // Whether a joint is a bone that ends where several parts of the body begin, such as a spine between two arms and a
-// head. Parts below a control begin each in its own place.
+// head. Parts below a control begin each in its own place. Two rows of bones along one trunk are one part.
 Vector<std::uint8_t> find_branchings(const Body& body, const Vector<std::uint8_t>& below) {
   const std::size_t n = at(body.count);
-  Vector<Index> first(n, -1, &body.memory);
+  Vector<Index> first(n, -1, &body.memory), next(n, -1, &body.memory);
+  for (Index j = 0; j < body.count; ++j) {
+    const Index p = body.parents[at(j)];
+    if (p >= 0 && below[at(j)] && next[at(p)] < 0) next[at(p)] = j;
+  }
+  const auto one_row = [&](Index a, Index b) {
+    const Index c = next[at(a)], d = next[at(b)];
+    return c >= 0 && d >= 0 && norm(body.pivots[at(c)] - body.pivots[at(d)]) < one_place;
+  };
   Vector<std::uint8_t> parts(n, 0, &body.memory), apart(n, 0, &body.memory);
   for (Index j = 0; j < body.count; ++j) {
     const Index p = body.parents[at(j)];
     if (p < 0 || !below[at(j)]) continue;
     if (first[at(p)] < 0) first[at(p)] = j;
-    parts[at(p)] = first[at(p)] != j;
+    parts[at(p)] |= first[at(p)] != j && !one_row(first[at(p)], j);
     apart[at(p)] |= norm(body.pivots[at(j)] - body.pivots[at(first[at(p)])]) >= one_place;
     apart[at(p)] |= norm(body.pivots[at(j)] - body.pivots[at(p)]) < one_place;
   }

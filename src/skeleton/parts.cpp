@@ -16,12 +16,15 @@ void set_from(Body& body, const Vector<Index>& path, std::size_t first, std::siz
   for (std::size_t k = first; k < last && k < path.size(); ++k) body.roles[at(path[k])] = role;
 }
 
-// Gives a role to the joints that hang on a limb but are not on its path: fingers or toes.
-void set_digits(Body& body, const Limb& limb, int side, Role role) {
+// Gives a role to the joints that hang on a limb but are not on its path. Below the hand or foot, `end`, they are
+// fingers or toes, if their names do not say that they are loose. Higher up they are none, such as a holster.
+void set_digits(Body& body, const Limb& limb, int side, std::size_t end, Role role) {
   const auto& path = limb.paths[side];
+  const std::size_t first = std::min(end, path.size() - 1);
   for (const Index j : body.subtree(limb.roots[side])) {
-    if (std::find(path.begin(), path.end(), j) == path.end())
-      body.roles[at(j)] = body.names[at(j)].named == NameClass::loose ? Role::other : role;
+    if (std::find(path.begin(), path.end(), j) != path.end()) continue;
+    const bool digit = body.names[at(j)].named != NameClass::loose && body.is_below(j, path[first]);
+    body.roles[at(j)] = digit ? role : Role::other;
   }
 }
 
@@ -34,7 +37,7 @@ std::size_t find_foot(const Body& body, const Vector<Index>& path, std::size_t f
     }
   }
   const std::size_t ankle = ankle_of(body, path, first);
-  return ankle > first ? ankle : path.size();
+  return ankle > first && !body.names[at(path[ankle])].twist ? ankle : path.size();
 }
 
 // A collar bone: by its name, else the first of three bones before the hand, or of more if it is below .6 of the
@@ -80,10 +83,12 @@ void assign_leg(Body& body, const Limb& limb, int side) {
   // A joint of the pelvis or a shoulder blade above the leg. If the whole leg has the name of the trunk, the name
   // does not tell pelvis and leg apart.
   const bool pelvis = first_name.named == NameClass::trunk && limb.named != NameClass::trunk;
-  const bool named = path.size() > 2 && (pelvis || (first_name.collar && body.named));
+  // Shoulder, elbow and foot are a whole leg: then the shoulder is the thigh.
+  const bool blade = first_name.collar && body.named && path.size() > 3;
+  const bool named = (pelvis && path.size() > 2) || blade;
   const std::size_t first = named || leads_out(body, limb) ? 1 : 0;
   const std::size_t foot = find_foot(body, path, first);
-  set_digits(body, limb, side, Role::toe);
+  set_digits(body, limb, side, foot, Role::toe);
   set_from(body, path, 0, first, Role::shoulder);
   set_from(body, path, first, foot, Role::leg);
   set_from(body, path, foot, foot + 1, Role::foot);
@@ -93,7 +98,7 @@ void assign_leg(Body& body, const Limb& limb, int side) {
 void assign_arm(Body& body, const Limb& limb, int side) {
   const auto& path = limb.paths[side];
   const std::size_t hand = find_hand(body, limb, path), first = has_collar(body, limb, path, hand) ? 1 : 0;
-  set_digits(body, limb, side, Role::finger);
+  set_digits(body, limb, side, hand, Role::finger);
   set_from(body, path, 0, first, Role::shoulder);
   set_from(body, path, first, hand, Role::arm);
   set_from(body, path, hand, hand + 1, Role::hand);

@@ -29,11 +29,6 @@ double flatness(const Body& body, const Limb& limb) {
   return m[1] > 0 ? std::sqrt(std::max(0.0, m[2]) / m[1]) : 1;
 }
 
-bool is_below(const Body& body, Index joint, Index above) {
-  const Index p = body.places[at(joint)], a = body.places[at(above)];
-  return p >= a && p < body.ends[at(a)];
-}
-
 // The head of a spider carries legs. Hair that reaches the ground is no leg: what has it stands upright.
 bool is_leg_on_head(const Body& body, const Limb& limb) {
   return limb.named == NameClass::leg || (limb.named == NameClass::none && limb.stands && body.trunk < upright_trunk);
@@ -61,7 +56,7 @@ bool ends_in_foot(const Body& body, const Limb& limb) {
 }
 
 Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count) {
-  if (body.head >= 0 && body.head != body.root && is_below(body, limb.carrier, body.head))
+  if (body.head >= 0 && body.head != body.root && body.is_below(limb.carrier, body.head))
     return is_leg_on_head(body, limb) ? Role::leg : role_on_head(limb);
   const bool large = limb.length > 0.1 * body.height, upright = body.trunk > upright_trunk;
   switch (limb.named) {
@@ -151,6 +146,18 @@ void assign_sides(Body& body) {
   }
 }
 
+// Returns the place in the path to the head at which a limb begins. Where arms hang on a second row of bones, such as
+// the controls of a Rigify rig, it is the joint of the path that is nearest to theirs.
+std::size_t nearest_below_head(const Body& body, const Vector<Index>& path, Index carrier) {
+  std::size_t nearest = 0;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+    if (path[k] == carrier) return k;
+    const auto apart = [&](std::size_t i) { return norm(body.pivots[at(path[i])] - body.pivots[at(carrier)]); };
+    if (apart(k) < apart(nearest)) nearest = k;
+  }
+  return body.head == carrier ? 0 : nearest;
+}
+
 // From the root of the tree to the head: spine, and neck after the last arm or front leg, or by its name.
 void assign_trunk(Body& body, Vector<std::uint8_t>& given) {
   if (body.head < 0) return;
@@ -164,9 +171,7 @@ void assign_trunk(Body& body, Vector<std::uint8_t>& given) {
   std::size_t chest = 0;
   for (const Limb& limb : body.limbs) {
     const bool fore = limb.role == Role::arm || limb.role == Role::wing || (limb.role == Role::leg && &limb != hind);
-    const auto place = std::find(path.begin(), path.end(), limb.carrier);
-    if (fore && place != path.end() && *place != body.head)
-      chest = std::max(chest, static_cast<std::size_t>(place - path.begin()));
+    if (fore) chest = std::max(chest, nearest_below_head(body, path, limb.carrier));
   }
   const auto is_neck = [&](Index j) { return body.names[at(j)].named == NameClass::neck; };
   const auto named = std::find_if(path.begin(), path.end(), is_neck);
@@ -178,8 +183,25 @@ void assign_trunk(Body& body, Vector<std::uint8_t>& given) {
   }
 }
 
+// Whether what hangs on a joint ends in the middle, behind the hind legs.
+bool leads_behind(const Body& body, Index joint, double hind_place) {
+  const Index tip = body.tree[at(body.ends[at(body.places[at(joint)])]) - 1];
+  return dot(body.means[at(tip)], body.forward) < hind_place - 1.5 * central &&
+         std::fabs(body.lateral(body.pivots[at(tip)])) < 2 * central;
+}
+
+// A tail has the name of the spine where an animal was made of the bones of a person: it leads behind the hind legs,
+// and no limb hangs on it. What lies behind an upright body is on its back.
+bool is_tail(const Body& body, Index joint, double hind_place) {
+  const Index p = body.carriers[at(joint)];
+  if (p >= 0 && body.roles[at(p)] == Role::tail) return true;
+  const bool bare = std::none_of(body.limbs.begin(), body.limbs.end(),
+                                 [&](const Limb& limb) { return body.is_below(limb.carrier, joint); });
+  return body.trunk < upright_trunk && joint != body.root && bare && leads_behind(body, joint, hind_place);
+}
+
 Role central_role(const Body& body, Index joint, double hind_place) {
-  const bool on_head = body.head >= 0 && body.head != body.root && is_below(body, joint, body.head);
+  const bool on_head = body.head >= 0 && body.head != body.root && body.is_below(joint, body.head);
   switch (body.names[at(joint)].named) {
     case NameClass::jaw:
       return Role::jaw;
@@ -188,7 +210,7 @@ Role central_role(const Body& body, Index joint, double hind_place) {
     case NameClass::neck:
       return Role::neck;
     case NameClass::trunk:
-      return on_head ? Role::other : Role::spine;
+      return on_head ? Role::other : is_tail(body, joint, hind_place) ? Role::tail : Role::spine;
     case NameClass::wing:
       return Role::wing;
     case NameClass::fin:
@@ -208,9 +230,7 @@ Role central_role(const Body& body, Index joint, double hind_place) {
   const Index p = body.carriers[at(joint)];
   if (p >= 0 && (body.roles[at(p)] == Role::tail)) return Role::tail;
   if (body.head == body.root) return Role::spine;
-  const Index tip = body.tree[at(body.ends[at(body.places[at(joint)])]) - 1];
-  const bool behind = dot(body.means[at(tip)], body.forward) < hind_place - 1.5 * central;
-  return behind && std::fabs(body.lateral(body.pivots[at(tip)])) < 2 * central ? Role::tail : Role::other;
+  return leads_behind(body, joint, hind_place) ? Role::tail : Role::other;
 }
 
 void assign_rest(Body& body, Vector<std::uint8_t>& given) {

@@ -190,6 +190,14 @@ TEST(Plain, TheRetargetHoldsWhatThePeerLoses) {
   }
 }
 
+// Bones of the source are halved: both halves lead, though the target has one joint for two.
+TEST(Report, AJointInsideABoneThatLeadsHasAPartner) {
+  const RigActor source("rigify", {}), target("mixamo", {});
+  Memory memory;
+  const Retarget retarget(source.side(), target.side(), {}, memory);
+  for (const std::uint32_t j : retarget.report().unmatched_source) ADD_FAILURE() << source.rig().joints[j].name;
+}
+
 INSTANTIATE_TEST_SUITE_P(Conventions, Family, testing::ValuesIn(biped_conventions), [](const auto& info) {
   std::string name = info.param;
   for (char& c : name) c = c == ' ' ? '_' : c;

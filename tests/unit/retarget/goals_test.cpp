@@ -117,6 +117,38 @@ TEST(Feet, ToesThatDragDoNotStretchALegThatLiftsThem) {
   }
 }
 
+// Two toes touch the ground under legs that are folded to one side, since the feet are large. Small feet under legs
+// that point alike hover. On the scaled path of the feet they stand.
+TEST(Feet, ThatHoverStandOnTheScaledPath) {
+  const RigActor source("mixamo", {0.45, 1, 1, 3, Rest::t}), target("unreal", {1.5, 1, 1, 3, Rest::t});
+  std::vector<double> pose;
+  double bent = 100, low = 1;
+  while (low > 0.001 && bent > 0) {
+    bent -= 1;
+    pose = rest_trs(source.side().input);
+    for (const char* leg : {"mixamorig:RightLeg", "mixamorig:LeftLeg"})
+      turn_joint(source, pose, leg, hf_inner::turn_about({1, 0, 0}, bent * degree));
+    low = lowest_of(source, pose, {Role::foot, Role::toe});
+  }
+  ASSERT_GT(bent, 40);
+  for (const bool path : {false, true}) {
+    Memory memory;
+    RetargetOptions options;
+    options.foot_path = path;
+    Retarget retarget(source.side(), target.side(), options, memory);
+    std::vector<double> out(10 * target.parents().size());
+    retarget.frame(pose.data(), 0, out.data());
+    const double height = lowest_of(target, out, {Role::foot, Role::toe}) * target.height();
+    if (path) {
+      EXPECT_NEAR(height, 0, 0.01 * target.height());
+      EXPECT_LT(retarget.report().hover, 0.02);
+    } else {
+      EXPECT_GT(height, 0.1 * target.height());
+      EXPECT_NEAR(retarget.report().hover, height / target.side().character.leg_length, 0.03);
+    }
+  }
+}
+
 // The whole source is put into the ground, straight legs and all. A little of it is an error: soles stay on the ground.
 // Legs do not fold to keep away from more.
 TEST(Feet, SolesSinkAsDeepAsTheSourceIsPutAndDipsAreHeld) {

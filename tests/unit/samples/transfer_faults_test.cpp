@@ -85,6 +85,20 @@ TEST(TransferFaults, AHeldThingInTheGroundIsSaidAndCountsLessThanTheBody) {
   EXPECT_NE(said[0].find("what a hand holds is 14.0 %"), std::string::npos) << said[0];
 }
 
+// A walker in the air, and one whose turns count from a stride, are broken.
+TEST(TransferFaults, ABodyThatFloatsOrRestsInAStrideIsSaidAndLowersTheConfidence) {
+  ClipFaults good, high, uneven;
+  high.hover = 0.04;
+  uneven.uneven = 1;
+  for (const auto& [faults, part] :
+       {std::pair<const ClipFaults&, const char*>(high, "it floats"), {uneven, "--source-rest"}}) {
+    EXPECT_LE(confidence_of(faults, 30), 0.5 * confidence_of(good, 30));
+    const std::vector<std::string> said = fault_sentences(faults, "walk", 30);
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
+  }
+}
+
 TEST(TransferFaults, TheReportHoldsThem) {
   const fs::path out = folder() / "faults.glb", report = folder() / "faults.json";
   std::string said;

@@ -54,6 +54,37 @@ INSTANTIATE_TEST_SUITE_P(Plans, Beasts, testing::ValuesIn(beasts), [](const auto
   return name;
 });
 
+// An animal that was made of the bones of a person: the tail goes on with the numbers of the spine, and hind legs have
+// the word back.
+TEST(Quadruped, ATailWithTheNameOfTheSpineIsATail) {
+  Rig rig = make_beast("horse", true);
+  for (RigJoint& joint : rig.joints) {
+    if (joint.role == Role::tail) joint.name = "spine.00" + joint.name.substr(4);
+    const bool hind = joint.role == Role::leg && joint.pivot.z < 0;
+    if (hind)
+      joint.name =
+          "back_" + std::to_string(static_cast<int>(100 * joint.pivot.y)) + joint.name.substr(joint.name.size() - 2);
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
+// A dog whose front legs are shoulder, elbow and foot has no bone more above the elbow.
+TEST(Quadruped, AShoulderAboveElbowAndFootIsTheUpperLeg) {
+  Rig rig = make_beast("horse", true);
+  for (RigJoint& joint : rig.joints) {
+    for (const auto& [was, is] : {std::pair{"FrontUpperLeg", "Shoulder"}, {"FrontLowerLeg", "Elbow"}}) {
+      if (joint.name.rfind(was, 0) == 0) joint.name = is + joint.name.substr(std::string(was).size());
+    }
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
 // Its file says that y is up, but a node has put the body on its side, on its back, or its z up.
 TEST(Quadruped, ThatLiesHasTheUpOfItsLegs) {
   const Rig rig = make_beast("horse", true);

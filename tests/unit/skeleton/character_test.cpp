@@ -185,6 +185,20 @@ TEST(Limbs, ALegFollowsTheGroundPastWhatHangsOnIt) {
   EXPECT_EQ(placed.faults(found), "") << why(found);
 }
 
+// What hangs on a leg above the foot is no toe, and what hangs on an arm above the hand is no finger.
+TEST(Limbs, AHolsterIsNoToeAndABracerNoFinger) {
+  Rig rig = make_biped("mixamo", {});
+  for (const auto& [bone, name] : {std::pair{"mixamorig:RightUpLeg", "Item01"}, {"mixamorig:RightForeArm", "Item02"}}) {
+    const int on = rig.find(bone);
+    const Vec3 place = rig.joints[static_cast<size_t>(on)].pivot + Vec3{-0.1, -0.1, 0};
+    rig.add_box(rig.add(name, on, place, Role::other, Side::right), place, place + Vec3{0, -0.08, 0.02}, 0.02);
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(placed.faults(found), "") << why(found);
+}
+
 // Between trunk and arm stands a sleeve that the arm hangs on: it is no bone of the arm.
 TEST(Limbs, ASleeveThatCarriesAnArmIsItsCollar) {
   Rig rig = make_biped("mixamo", {});

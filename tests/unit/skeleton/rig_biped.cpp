@@ -4,8 +4,8 @@
 namespace hf_test {
 
 const std::vector<std::string> biped_conventions = {
-    "mixamo", "unreal", "unity", "rigify",     "rigify org", "vrm", "ready player me", "kaykit", "quaternius",
-    "biped",  "dots",   "words", "portuguese", "numbers",    "none"};
+    "mixamo", "unreal",     "unity", "rigify", "rigify org", "rigify rows", "vrm",     "ready player me",
+    "kaykit", "quaternius", "biped", "dots",   "words",      "portuguese",  "numbers", "none"};
 
 namespace {
 
@@ -30,6 +30,7 @@ struct Builder {
   void trunk() {
     const double hip = 0.95 * shape.leg;
     if (has("root")) root = rig.add_helper(name("root"), -1, {0, 0, 0});
+    if (convention == "rigify rows") root = rig.add_helper("root", -1, {0, 0, 0});
     hips = rig.add(name("hips"), root, {0, hip + 0.05, 0}, Role::spine);
     rig.add_block(hips, {-0.16, hip - 0.06, -0.1}, {0.16, hip + 0.1, 0.1});
     int last = hips;
@@ -39,6 +40,7 @@ struct Builder {
       rig.add_block(last, {-0.17, y, -0.1}, {0.17, y + 0.36 / shape.spine, 0.11});
     }
     chest = last;
+    if (convention == "rigify rows") second_row();
     const double top = hip + 0.5;
     if (has("neck")) {
       last = rig.add(name("neck"), chest, {0, top, -0.01}, Role::neck);
@@ -60,6 +62,19 @@ struct Builder {
       const int eye = rig.add(name("eye", side), head, {x, top + 0.08 + 0.12 * s, 0.09 * s}, Role::eye, side);
       rig.add_block(eye, {x - 0.01, top + 0.07 + 0.12 * s, 0.09 * s}, {x + 0.01, top + 0.09 + 0.12 * s, 0.115 * s});
     }
+  }
+
+  // A row of bones without skin beside those of the trunk, on which arms and legs hang. The bones of the skin carry the
+  // head.
+  void second_row() {
+    const int first = hips, last = chest;
+    int above = root;
+    for (int j = first; j <= last; ++j) {
+      const RigJoint by = rig.joints[static_cast<std::size_t>(j)];
+      above = rig.add("ORG" + by.name.substr(3), above, by.pivot, Role::spine);
+      if (j == first) hips = above;
+    }
+    chest = above;
   }
 
   // A twist in the chain halves the bone; one beside it hangs on the bone.
@@ -173,7 +188,7 @@ struct Builder {
 }  // namespace
 
 Rig make_biped(const std::string& convention, const BodyShape& shape) {
-  Builder builder{shape, words_of(convention), convention, {}};
+  Builder builder{shape, words_of(convention == "rigify rows" ? "rigify" : convention), convention, {}};
   builder.trunk();
   for (const Side side : {Side::left, Side::right}) {
     builder.arm(side);
