@@ -2,6 +2,7 @@
 import { check, finish, start } from './harness.mjs';
 
 const stories = [
+  'views',
   'pose',
   'mirror',
   'keys',

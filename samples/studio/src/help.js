@@ -14,6 +14,7 @@ export function help() {
         ['Turn', 'drag beside the body, right drag, or two fingers'],
         ['Zoom', 'wheel or pinch'],
         ['Move the view', 'middle drag, or Shift and drag'],
+        ['Views', 'Home, F frames; 1, 3, 7 of the number pad or with Shift: front, side, top'],
         ['Handles and sites', 'Tab walks them, Enter chooses, arrows move, Delete removes'],
         ['Pose', '[ and ] turn a handle, P pins it, K sets a key'],
         ['Undo, redo', 'Ctrl+Z, Ctrl+Shift+Z'],

@@ -26,6 +26,7 @@ import { FieldTool } from './tools/field.js';
 import { PoseTool } from './tools/pose.js';
 import { Session } from './session.js';
 import { $, button, card, choice, facts, make, ms, say, slider, touched, whole } from './ui.js';
+import { viewButtons, viewKey } from './views.js';
 
 /** Tools that the first picture does not need. Their modules import nothing, so that each is one request: the kit has it all. */
 const kit = { $, button, choice, facts, make, middleOf, mirrorChoice, ms, say, slider, touched, whole };
@@ -79,6 +80,7 @@ async function start() {
   }
   window.hfStudio = app; // for tests and the curious
   const openFile = async (file) => file && app.open(new Uint8Array(await file.arrayBuffer()), file.name);
+  $('file').accept = app.formats;
   $('open').onclick = () => $('file').click();
   $('file').onchange = async () => {
     await openFile($('file').files[0]);
@@ -96,6 +98,7 @@ async function start() {
   $('redo').onclick = () => app.step('redo');
   $('save').onclick = () => app.skin && saveMenu(app);
   $('help').onclick = () => help();
+  viewButtons(app);
 
   let inside = 0;
   addEventListener('dragenter', (event) => {
@@ -126,6 +129,7 @@ async function start() {
       acts[key]();
     } else if (/input|select/i.test(event.target.tagName) && event.target.type !== 'range') return;
     else if (key === '?') help();
+    else if (viewKey(app, event)) event.preventDefault();
     else if (key === 'k' && app.skin && app.tool === app.tools.pose && app.state.handles.length) app.timeline.setKey();
     else if (/^[1-6]$/.test(key)) $('rail').children[Number(key) - 1]?.click();
   });

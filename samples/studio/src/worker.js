@@ -63,9 +63,9 @@ async function ready(vertexCount) {
 }
 
 const tasks = {
-  /** Places and triangles of an obj, off or ply file. */
-  read({ bytes, name }) {
-    const mesh = readMesh(bytes, name);
+  /** Places and triangles of a file that holds one mesh and nothing else. */
+  async read({ bytes, name }) {
+    const mesh = await readMesh(bytes, name);
     return [mesh, [mesh.positions.buffer, mesh.triangles.buffer]];
   },
   /** Opens a body: factorises once. Answers with what the page can offer at once. */

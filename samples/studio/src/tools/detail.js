@@ -49,10 +49,13 @@ export const tool = (kit) => {
     }
     /** What a link keeps beside the region. */
     settings() {
-      return { mapped: this.mapped };
+      return { mapped: this.mapped, source: this.source?.name };
     }
-    adopt({ mapped }) {
+    async adopt({ mapped, source }) {
       this.mapped = mapped;
+      const bytes = source && !this.source && (await this.app.bytesOf(source, 'source'));
+      if (bytes) await this.bring(bytes, source);
+      if (this.app.tool === this) this.enter();
     }
     enter() {
       if (this.source) {
@@ -69,6 +72,11 @@ export const tool = (kit) => {
       if (!this.source) return;
       this.source.skin.group.visible = false;
       this.app.view.frame(this.app.skin.box());
+    }
+
+    frame() {
+      if (this.source) lookAtBoth(kit, this.app, this.source);
+      else this.app.view.frame(this.app.skin.box());
     }
 
     // ---- the picture
@@ -211,7 +219,7 @@ export const tool = (kit) => {
       this.source?.skin.dispose();
       this.source = { ...beside, name };
       this.source.skin.group.visible = app.tool === this;
-      app.session?.source(bytes, name);
+      app.session?.keep('source', { bytes, name });
     }
     async take(bytes, name) {
       const { app } = this;
@@ -291,7 +299,7 @@ export const tool = (kit) => {
               ? 'Draw a loop on the left body: its detail goes to your region.'
               : 'Detail of another body: take it, and draw a loop on it.',
           ),
-        detail && takeRow(kit, app, (bytes, name) => this.take(bytes, name), '.glb,.gltf,.obj,.off,.ply'),
+        detail && takeRow(kit, app, (bytes, name) => this.take(bytes, name), app.formats),
         found &&
           facts([
             ['vertices', whole(found.vertexCount)],

@@ -66,10 +66,17 @@ export const tool = (kit) => {
     /** What a link keeps beside strokes and poles. */
     settings() {
       const { edge, crease, mirror } = this;
-      return { edge, crease, mirror };
+      return { edge, crease, mirror, made: Boolean(this.result) };
     }
-    adopt({ edge, crease, mirror }) {
+    async adopt({ edge, crease, mirror, made }) {
       Object.assign(this, { edge, crease, mirror });
+      const result = made && (await this.app.session?.kept('quads'));
+      if (!result) return;
+      const { strokes, poles } = this.app.state;
+      this.result = result;
+      this.shown = { strokes, poles };
+      this.#draw();
+      if (this.app.tool === this) this.dress();
     }
     enter() {
       this.dress();
@@ -262,6 +269,7 @@ export const tool = (kit) => {
       this.shown = { strokes, poles };
       this.relaxed = relaxed;
       this.error = null;
+      if (relaxed) app.session?.keep('quads', result);
       this.#draw();
       return result;
     }

@@ -172,7 +172,7 @@ export const tool = (kit) => {
       if (this.busy) return;
       this.setting = true;
       if (await this.compute(pins)) await this.app.commit({ ...this.app.state, pins }, name);
-      else say(`${name}: ${this.error}`);
+      else this.app.warn(`${name}: ${this.error}`);
       this.setting = false;
       this.app.refresh();
     }
