@@ -14,6 +14,7 @@ const stories = [
   'history',
   'save',
   'compressed',
+  'formats',
   'broken',
   'access',
   'bodies',

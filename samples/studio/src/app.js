@@ -78,7 +78,7 @@ export class App {
     try {
       const body = await readModel(bytes, name, (data) => this.client.ask('read', { bytes: data, name }));
       const { positions, triangles, fileNormals } = body;
-      const skeleton = skeletonOf(body);
+      const skeleton = (body.skeleton = skeletonOf(body));
       // the tree for picking is made beside the factorisation, or after the first picture: the first pull needs none
       const apart = body.vertexCount > TREE_APART;
       this.treeJob?.cancel();

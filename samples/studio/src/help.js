@@ -1,7 +1,7 @@
 // The card of help: what a finger or a mouse and keys do.
 import { $, card, make, touched } from './ui.js';
 
-export function help() {
+export function help(app) {
   const rows = touched()
     ? [
         ['Turn', 'drag beside the body, or two fingers'],
@@ -32,6 +32,7 @@ export function help() {
       ),
     ],
     [
+      ['Tour', () => app.skin && import('./tour.js').then(({ tour }) => tour(app), () => {})],
       ['Light or dark', () => $('theme').click()],
       ['Close', null, true],
     ],

@@ -10,6 +10,7 @@ import {
   LineSegments,
   Matrix4,
   Mesh,
+  MeshBasicMaterial,
   MeshLambertMaterial,
   Quaternion,
   Vector3,
@@ -32,7 +33,7 @@ import { viewButtons, viewKey } from './views.js';
 const kit = { $, button, choice, facts, make, middleOf, mirrorChoice, ms, say, slider, touched, whole };
 Object.assign(kit, { BufferAttribute, BufferGeometry, Color, DoubleSide, Line, LineBasicMaterial, LineLoop });
 Object.assign(kit, { LineSegments });
-Object.assign(kit, { Gizmo, Matrix4, Mesh, MeshLambertMaterial, Quaternion, Vector3, worldsAt });
+Object.assign(kit, { Gizmo, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Quaternion, Vector3, worldsAt });
 Object.assign(kit, { bonesOf, influencesOf, readModel, writeGlb, skinnedGlb });
 Object.assign(kit, { normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt });
 const later = (key, title, icon, load) => ({ key, title, icon, load: async () => (await load()).tool(kit) });
@@ -97,7 +98,7 @@ async function start() {
   $('undo').onclick = () => app.step('undo');
   $('redo').onclick = () => app.step('redo');
   $('save').onclick = () => app.skin && saveMenu(app);
-  $('help').onclick = () => help();
+  $('help').onclick = () => help(app);
   viewButtons(app);
 
   let inside = 0;
@@ -128,7 +129,7 @@ async function start() {
       event.preventDefault();
       acts[key]();
     } else if (/input|select/i.test(event.target.tagName) && event.target.type !== 'range') return;
-    else if (key === '?') help();
+    else if (key === '?') help(app);
     else if (viewKey(app, event)) event.preventDefault();
     else if (key === 'k' && app.skin && app.tool === app.tools.pose && app.state.handles.length) app.timeline.setKey();
     else if (/^[1-6]$/.test(key)) $('rail').children[Number(key) - 1]?.click();
@@ -142,7 +143,8 @@ async function start() {
   const kept = app.session && !named && !settings && (await app.session.restore());
   if (!kept) {
     app.pending = settings ? () => link.takeSettings(app, settings) : null;
-    app.openSample(named ?? samples[0], !settings);
+    await app.openSample(named ?? samples[0], !settings);
+    if (!settings && !params.has('fresh') && app.skin) import('./tour.js').then(({ first, tour }) => first() && tour(app), () => {});
   }
   if ('serviceWorker' in navigator && !params.has('fresh')) navigator.serviceWorker.register('keep.js').catch(() => {});
 }

@@ -136,10 +136,10 @@ const tasks = {
     return [bytes, [bytes.buffer]];
   },
   /** Quads run in a Worker of their own (client.js): it opens the same body from the saved factor. */
-  async quadsOpen({ positions, triangles, factor }) {
+  async quadsOpen({ positions, triangles, skeleton, factor }) {
     const [hf, threads] = await ready(positions.length / 3);
     await built.rest?.();
-    body = { hf, surface: new hf.Surface(positions, triangles, { savedFactor: factor, linkPieces: true, ...threads }) };
+    body = { hf, surface: surfaceOf(hf, { positions, triangles, skeleton }, { savedFactor: factor, ...threads }) };
     return [null, []];
   },
   quads(options) {

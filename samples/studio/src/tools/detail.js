@@ -1,10 +1,14 @@
 // Detail: draw around a part; smooth it, or exaggerate what is there, or give it the detail of a part of another body.
+import { roughness } from '../roughness.js';
 import { lookAtBoth, openBeside, takeRow } from '../beside.js';
 
 /** Points of a lasso are at least so many pixels apart; a lasso of fewer points is no region. */
 const [STEP_PIXELS, LEAST_POINTS] = [8, 5];
 /** Colours of a region: inside, its rim, and the rest. */
 const [INSIDE, RIM, REST] = [[0.93, 0.62, 0.33], [0.35, 0.2, 0.12], 0.78];
+
+/** Bodies less rough than this have nothing to smooth: ours of the samples have a third of it, a scan five times as much. */
+const ROUGH = 0.03;
 
 /** Copies of a vertex take what the first at their place has. */
 function shared(values, size, places) {
@@ -41,6 +45,7 @@ export const tool = (kit) => {
       this.points = [];
       this.line.visible = false;
       this.mapped = false;
+      this.rough = null;
       this.source?.skin.dispose();
       this.source = null;
     }
@@ -58,6 +63,7 @@ export const tool = (kit) => {
       if (this.app.tool === this) this.enter();
     }
     enter() {
+      this.rough ??= roughness(this.app.body, this.app.opened.normals, this.app.timeline.places());
       if (this.source) {
         this.source.skin.group.visible = true;
         lookAtBoth(kit, this.app, this.source);
@@ -257,6 +263,15 @@ export const tool = (kit) => {
               ? 'Move the slider: 1 as on the other body, 0 smooth, 2 twice the detail.'
               : 'Move the slider: 1 as it is, 0 smooth, 2 twice the detail.',
         ),
+        this.rough < ROUGH &&
+          !carry &&
+          make(
+            'p',
+            { class: 'warn', id: 'smooth' },
+            detail
+              ? 'This body is smooth: the slider finds little to change. Take a body with detail below, such as a scan, and draw a loop on it: its detail comes here.'
+              : 'This body is smooth: it has little detail of its own. Draw a loop, and then take a body with detail, such as a scan; or open one.',
+          ),
         detail &&
           slider(
             'Detail',
