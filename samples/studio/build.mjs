@@ -37,33 +37,38 @@ const ownCopies = {
     ),
 };
 
+// no browser needs what the loader of WebAssembly and the reader of glTF have for node; what three.js would tell a developer
+// is 0.2 kB of what a browser fetches
+const common = {
+  bundle: true,
+  absWorkingDir: here, // names hold a hash of paths as seen from here: the same bytes wherever the page is built from
+  format: 'esm',
+  target: 'es2022',
+  minify: true,
+  pure: ['console.warn', 'console.log', 'console.info', 'console.debug'],
+  legalComments: 'linked',
+  nodePaths: [process.env.HF_MODULES],
+  external: ['node:*', 'fs', 'path', 'module', 'url'],
+  logLevel: 'warning',
+};
+
 mkdirSync(out, { recursive: true });
 for (const name of readdirSync(out)) if (/\.(js|html|wasm|txt)$/.test(name)) rmSync(join(out, name));
 await build({
   entryPoints: { studio: join(here, 'src/studio.js'), worker: join(here, 'src/worker.js') },
   outdir: out,
-  bundle: true,
   splitting: true,
   chunkNames: 'shared-[hash]',
-  // the names hold a hash of the paths of files as seen from here: the same bytes wherever the page is built from
-  absWorkingDir: here,
-  format: 'esm',
-  target: 'es2022',
-  minify: true,
-  // what three.js would tell a developer: 0.2 kB of what a browser fetches
-  pure: ['console.warn', 'console.log', 'console.info', 'console.debug'],
-  legalComments: 'linked',
-  nodePaths: [process.env.HF_MODULES],
+  ...common,
   define: { HF_THREADS: JSON.stringify(Boolean(process.env.HF_WASM_MT)) },
   alias: {
     'hf-glue': join(process.env.HF_WASM, 'hf.mjs'),
     'hf-gltf-glue': join(process.env.HF_WASM, 'hf_gltf.mjs'),
   },
-  // node's own reading of files, in the loader of WebAssembly and of glTF: no browser gets there
-  external: ['node:*', 'fs', 'path', 'module', 'url'],
-  logLevel: 'warning',
   plugins: [shortGlue, ownCopies],
 });
+// the loaders of other formats with a three.js of their own: in one bundle they would lengthen what every visitor fetches
+await build({ entryPoints: { loaders: join(here, 'src/foreign.js') }, outdir: join(out, 'loaders'), ...common });
 const style = (await build({ entryPoints: [join(here, 'src/studio.css')], minify: true, write: false })).outputFiles[0]
   .text;
 const page = readFileSync(join(here, 'index.html'), 'utf8').replace('/*STYLE*/', () => style.trim());

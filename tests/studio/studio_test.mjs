@@ -2,6 +2,7 @@
 import { check, finish, start } from './harness.mjs';
 
 const stories = [
+  'views',
   'pose',
   'mirror',
   'keys',
@@ -13,6 +14,7 @@ const stories = [
   'history',
   'save',
   'compressed',
+  'formats',
   'broken',
   'access',
   'bodies',

@@ -2,13 +2,14 @@
 import { Client } from './client.js';
 import { History } from './history.js';
 import { ModelError } from './model_error.js';
-import { readModel, skeletonOf } from './model.js';
+import { formats, readModel, skeletonOf } from './model.js';
 import { Marks } from './marks.js';
 import { Timeline } from './timeline.js';
-import { ramp, STRIPS } from './skin_view.js';
+import { drawLegend } from './legend.js';
+import { adoptSettings, settingsOf } from './settings.js';
 import { View } from './view.js';
 import { listen } from './input.js';
-import { $, card, make, ms, say, whole } from './ui.js';
+import { $, button, card, make, ms, say, whole } from './ui.js';
 
 /** Larger bodies get their tree of boxes from a Worker of its own: it takes longer to make than a Worker to start. */
 const TREE_APART = 30000;
@@ -20,7 +21,9 @@ const empty = { handles: [], lengths: false, sites: [], detail: null, keys: [], 
 export class App {
   constructor(toolClasses, samples) {
     this.samples = samples;
-    this.ui = { card, make, say }; // for modules that are loaded later
+    this.formats = formats;
+    this.ui = { $, button, card, make, say }; // for modules that are loaded later
+    this.matters = ''; // a sentence that stays in the sheet until something else is done
     this.client = new Client();
     this.view = new View($('canvas'));
     this.history = new History(empty);
@@ -46,6 +49,13 @@ export class App {
   standing(handle) {
     return handle.free ? { ...handle, rotation: this.turns.get(handle.id) ?? handle.rotation } : handle;
   }
+  /** All that is set, for a link or a session, and a body brought to it. */
+  settings() {
+    return settingsOf(this);
+  }
+  adopt(settings) {
+    return adoptSettings(this, settings);
+  }
   nextId() {
     return ++this.ids;
   }
@@ -61,14 +71,14 @@ export class App {
   // ---- the body
   /** Opens a model; what was there stays when it cannot be opened. */
   async open(bytes, name) {
-    say(`opening ${name}`);
+    say(`opening ${name}`, { stays: true });
     document.body.setAttribute('aria-busy', 'true');
     const begin = performance.now();
     let showing = null;
     try {
       const body = await readModel(bytes, name, (data) => this.client.ask('read', { bytes: data, name }));
       const { positions, triangles, fileNormals } = body;
-      const skeleton = skeletonOf(body);
+      const skeleton = (body.skeleton = skeletonOf(body));
       // the tree for picking is made beside the factorisation, or after the first picture: the first pull needs none
       const apart = body.vertexCount > TREE_APART;
       this.treeJob?.cancel();
@@ -86,7 +96,8 @@ export class App {
       this.turns.clear();
       this.shape = { positions: body.positions.slice(), normals: opened.normals };
       skin.set(this.shape);
-      this.view.frame(skin.box());
+      this.view.stand(skin.box());
+      this.matters = '';
       this.timeline.opened(body);
       for (const tool of Object.values(this.tools)) tool.opened?.();
       this.session?.opened(bytes, name);
@@ -103,12 +114,7 @@ export class App {
       const { componentCount } = opened.report;
       const { pieceCount } = opened.linksInfo;
       const linked = pieceCount > componentCount ? `, ${pieceCount} pieces linked to ${componentCount}` : '';
-      say(
-        [
-          `${name}: ${whole(body.vertexCount)} vertices${linked}; ready in ${ms(this.figures.open)}`,
-          ...body.notes,
-        ].join('; '),
-      );
+      say([`${name}: ${whole(body.vertexCount)} vertices${linked}; ready in ${ms(this.figures.open)}`, ...body.notes].join('; '));
       // a link holds settings for a body that is opened later
       if (this.pending && (await this.pending())) this.pending = null;
     } catch (error) {
@@ -157,7 +163,7 @@ export class App {
         (this.pause = setTimeout(() => this.live === state && this.#apply(state, 'rest').catch(() => {}), PAUSE_MS)),
       (error) => {
         if (this.live === state) this.live = null;
-        say(error.message);
+        this.warn(error.message);
       },
     );
     this.marksLayer.update();
@@ -172,25 +178,25 @@ export class App {
   settle() {
     if (!this.live) return;
     this.live = null;
-    this.#apply(this.state, 'rest').catch(({ message }) => say(message));
+    this.#apply(this.state, 'rest').catch(({ message }) => this.warn(message));
   }
   /** A step. When the library refuses it, nothing has changed and its sentence is shown. */
   async commit(state, name, join = null, dragged = false) {
     if (!this.timeline.still() && this.timeline.playing) this.timeline.pause();
     state = this.timeline.keyed(state);
     this.live = null;
+    this.matters = '';
     const before = this.history.state;
     const kept = { past: this.history.past.slice(), future: this.history.future };
     this.history.push(state, name, join);
     try {
       await this.#apply(state, 'rest');
-      this.session?.changed(this.history.state);
       say('');
     } catch (error) {
       if (this.history.state === state) Object.assign(this.history, kept, { state: before });
       // what a drag has shown on its way goes; else the picture has not changed
       if (dragged) await this.#apply(this.state, 'exact').catch(() => {});
-      say(`${name}: ${error.message}`);
+      this.warn(`${name}: ${error.message}`);
     }
     this.refresh();
   }
@@ -198,9 +204,9 @@ export class App {
     const name = this.history[way]();
     if (!name) return;
     this.live = null;
+    this.matters = '';
     this.timeline.arrive(this.state);
     await this.#apply(this.state, 'exact');
-    this.session?.changed(this.history.state);
     say(`${way === 'undo' ? 'taken back' : 'done again'}: ${name}`);
     this.refresh();
   }
@@ -235,16 +241,19 @@ export class App {
   }
   /** The picture of the present state anew. */
   again() {
-    return this.#apply(this.state, 'exact').catch(({ message }) => say(message));
+    return this.#apply(this.state, 'exact').catch(({ message }) => this.warn(message));
   }
-  /** The body whose detail a state takes: of the session, or a sample. */
+  /** The bytes of a second body: those that the session keeps under a key, or of a sample; or null. */
+  async bytesOf(name, key) {
+    const kept = await this.session?.kept(key);
+    if (kept?.name === name) return kept.bytes;
+    if (!this.samples.includes(name.replace(/\.glb$/, ''))) return null;
+    const answer = await fetch(`samples/${name}`);
+    return answer.ok ? new Uint8Array(await answer.arrayBuffer()) : null;
+  }
+  /** The body whose detail a state takes. */
   async #source(name) {
-    let bytes = await this.session?.sourceBytes(name);
-    const sample = name.replace(/\.glb$/, '');
-    if (!bytes && this.samples.includes(sample)) {
-      const answer = await fetch(`samples/${name}`);
-      if (answer.ok) bytes = new Uint8Array(await answer.arrayBuffer());
-    }
+    const bytes = await this.bytesOf(name, 'source');
     if (bytes) await (await this.need('detail')).bring(bytes, name);
   }
   /** Brings the picture to a state: only what changed is asked for. way: of the pose, see worker_pose.js. */
@@ -330,6 +339,8 @@ export class App {
       if (this.wanted !== key) return;
     }
     if (this.tool !== this.tools[key]) {
+      this.matters = '';
+      if (this.tool) say('');
       if (this.skin) this.timeline.stop();
       this.tool?.leave?.();
     }
@@ -342,15 +353,28 @@ export class App {
     try {
       await this.tool.enter?.();
     } catch (error) {
-      say(error.message);
+      this.warn(error.message);
     }
     this.refresh();
+  }
+  /** A message that matters: it is said, and stays in the sheet until something else is done. */
+  warn(text) {
+    this.matters = text;
+    say(text);
+    if (this.tool && this.skin) this.panel();
+  }
+  /** Fills the picture: with the body, or with both where there are two. */
+  frame() {
+    if (!this.skin) return;
+    if (this.tool?.frame) this.tool.frame();
+    else this.view.frame(this.skin.box());
   }
   refresh() {
     $('undo').disabled = !this.history.past.length;
     $('redo').disabled = !this.history.future.length;
     if (!this.skin || !this.tool) return;
     this.tool.refresh?.();
+    this.session?.changed();
     if (!this.timeline.element.hidden) this.timeline.label();
     this.marksLayer.update();
     this.view.draw();
@@ -363,34 +387,13 @@ export class App {
     const title = this.tool.constructor.title;
     $('sheet').replaceChildren(
       make('h2', { id: 'sheet-name' }, title),
+      ...(this.matters ? [make('p', { class: 'warn', id: 'matters' }, this.matters)] : []),
       ...this.tool.sheet().filter((child) => child !== null && child !== undefined && child !== false),
     );
     if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
   }
   legend(content) {
-    const box = $('legend');
-    box.hidden = !content;
-    if (!content) return;
-    const { low, high, hatch, note } = content;
-    // the strips of the body, with their colours
-    const strips = Array.from({ length: STRIPS }, (_, i) => {
-      const t = (i + 0.5) / STRIPS;
-      const [a, b, part] = t < 0.5 ? [ramp[0], ramp[1], 2 * t] : [ramp[1], ramp[2], 2 * t - 1];
-      const colour = `rgb(${a.map((x, k) => Math.round(255 * (x + part * (b[k] - x)) ** (1 / 2.2))).join(' ')})`;
-      return `${colour} ${(100 * i) / STRIPS}% ${(100 * (i + 1)) / STRIPS}%`;
-    }).join(', ');
-    box.replaceChildren(
-      make('div', { class: 'ramp', style: `background: linear-gradient(90deg, ${strips})` }),
-      make(
-        'div',
-        { class: 'ends' },
-        make('span', {}, low.toFixed(2)),
-        make('span', {}, ((low + high) / 2).toFixed(2)),
-        make('span', {}, high.toFixed(2)),
-      ),
-    );
-    if (hatch) box.append(make('div', {}, make('span', { class: 'hatch' }), 'no site reaches it'));
-    if (note) box.append(make('div', {}, note));
+    drawLegend(content);
   }
   hover(at) {
     const tip = $('tip');

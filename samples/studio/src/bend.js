@@ -65,6 +65,7 @@ export class Bend {
       app.skin.set({ positions: this.posed, normals: this.normals });
     }
     this.gizmo.show(bone);
+    if (app.tool === tool) tool.drawn.show();
     app.marksLayer.update();
   }
   hide() {

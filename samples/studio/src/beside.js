@@ -46,11 +46,11 @@ export function lookAtBoth({ Vector3 }, { view, skin, body }, source) {
 }
 
 /** Buttons that take a sample or a file: onfile(bytes, name). */
-export function takeRow({ make, button, say }, app, onfile, accept = '.glb,.gltf') {
+export function takeRow({ make, button }, app, onfile, accept) {
   const sample = async (name) => {
     const answer = await fetch(`samples/${name}.glb`);
     if (answer.ok) await onfile(new Uint8Array(await answer.arrayBuffer()), `${name}.glb`);
-    else say(`the sample ${name} is not there (${answer.status})`);
+    else app.warn(`the sample ${name} is not there (${answer.status})`);
   };
   return make(
     'div',

@@ -1,7 +1,7 @@
 // The card of help: what a finger or a mouse and keys do.
 import { $, card, make, touched } from './ui.js';
 
-export function help() {
+export function help(app) {
   const rows = touched()
     ? [
         ['Turn', 'drag beside the body, or two fingers'],
@@ -14,6 +14,7 @@ export function help() {
         ['Turn', 'drag beside the body, right drag, or two fingers'],
         ['Zoom', 'wheel or pinch'],
         ['Move the view', 'middle drag, or Shift and drag'],
+        ['Views', 'Home, F frames; 1, 3, 7 of the number pad or with Shift: front, side, top'],
         ['Handles and sites', 'Tab walks them, Enter chooses, arrows move, Delete removes'],
         ['Pose', '[ and ] turn a handle, P pins it, K sets a key'],
         ['Undo, redo', 'Ctrl+Z, Ctrl+Shift+Z'],
@@ -31,6 +32,7 @@ export function help() {
       ),
     ],
     [
+      ['Tour', () => app.skin && import('./tour.js').then(({ tour }) => tour(app), () => {})],
       ['Light or dark', () => $('theme').click()],
       ['Close', null, true],
     ],

@@ -25,7 +25,7 @@ self.addEventListener('fetch', (event) => {
       if (kept) return kept;
       const answer = await fetch(event.request);
       // samples and what few pages need join the store when they are asked for
-      if (answer.ok && /\.glb$|\/(threads|draco)\//.test(new URL(event.request.url).pathname))
+      if (answer.ok && /\.glb$|\/(threads|draco|loaders)\//.test(new URL(event.request.url).pathname))
         (await caches.open(version)).put(event.request, answer.clone());
       return answer;
     }),

@@ -17,20 +17,8 @@ const decode = (text) =>
   Uint8Array.from(atob(text.replace(/-/g, '+').replace(/_/g, '/')), (letter) => letter.charCodeAt(0));
 
 export async function linkOf(app) {
-  const { history, body, tool, view, samples } = app;
-  const settings = {
-    name: body.name,
-    vertexCount: body.vertexCount,
-    state: history.state,
-    tool: tool.constructor.key,
-    tools: Object.fromEntries(
-      Object.entries(app.tools).flatMap(([key, one]) => (one.settings ? [[key, one.settings()]] : [])),
-    ),
-    clip: app.timeline.clips.indexOf(app.timeline.clip),
-    view: [view.turn, view.lift],
-    eye: view.framed ? null : [view.distance, ...view.target.toArray()],
-  };
-  const text = new TextEncoder().encode(JSON.stringify(settings));
+  const { body, samples } = app;
+  const text = new TextEncoder().encode(JSON.stringify(app.settings()));
   const address = new URL(location.origin + location.pathname);
   const sample = body.name.replace(/\.glb$/, '');
   if (samples.includes(sample)) address.searchParams.set('sample', sample);
@@ -88,32 +76,15 @@ export async function settingsOf(hash, { say }) {
 export async function takeSettings(app, settings) {
   const { say } = app.ui;
   if (settings.name !== app.body?.name || settings.vertexCount !== app.body.vertexCount) {
-    say(`the link is for ${settings.name}: open it to see its settings`);
+    app.warn(`the link is for ${settings.name}: open it to see its settings`);
     return false;
   }
   try {
-    await app.take(settings.state);
+    await app.adopt(settings);
   } catch {
-    say('the link is damaged: its settings do not fit the body');
+    app.warn('the link is damaged: its settings do not fit the body');
     return false;
   }
-  const { timeline, view } = app;
-  [view.turn, view.lift] = settings.view;
-  if (settings.clip !== undefined) timeline.clip = timeline.clips[settings.clip] ?? null;
-  if (app.tools[settings.tool] || app.later[settings.tool]) await app.use(settings.tool);
-  view.frame(app.skin.box());
-  // what a tool does not take it has as from the start
-  for (const [key, own] of Object.entries(settings.tools ?? {}))
-    await app
-      .need(key)
-      .then((one) => one.adopt?.(own))
-      .catch(() => {});
-  if (settings.eye) {
-    view.framed = null;
-    [view.distance] = settings.eye;
-    view.target.fromArray(settings.eye, 1);
-  }
-  app.refresh();
   say(`as in the link: ${settings.name}`);
   return true;
 }

@@ -6,6 +6,8 @@ import { CLICK_PIXELS } from './view.js';
 const LOOK_BEHIND_MS = 150;
 /** Larger bodies keep the marks undimmed after a pose: the tree of boxes would take longer than 50 ms to follow. */
 const FOLLOWED_VERTICES = 30000;
+/** A drag that begins on the body so many pixels from the middle of a mark means the mark. */
+const NEAR_PIXELS = 44;
 /** A place counts as behind when the surface is nearer to the eye by this part of the size of the body. */
 const BEHIND = 0.03;
 
@@ -67,6 +69,16 @@ export class Marks {
       const away = Math.hypot(...place.map((p, k) => p - view.camera.position.getComponent(k)));
       element.classList.toggle('behind', Boolean(hit && hit.distance < away - BEHIND * view.size));
     }
+  }
+  /** The mark nearest to a pixel of the stage, if one is near. */
+  near([x, y]) {
+    let [least, nearest] = [NEAR_PIXELS, null];
+    for (const { mark, disabled } of this.#buttons.values()) {
+      const at = this.app.view.onScreen(mark.place);
+      const away = Math.hypot(at.x - x, at.y - y);
+      if (!disabled && at.front && away < least) [least, nearest] = [away, mark];
+    }
+    return nearest;
   }
   focus(id) {
     this.#buttons.get(id)?.focus({ preventScroll: true });

@@ -1,4 +1,4 @@
-// The shape as the kind of mesh file it came in: obj, off or ply, with the vertices in the order of the file.
+// The shape as the kind of mesh file it came in: obj, off, ply or stl, with the vertices in the order of the file.
 
 const rows = (numbers, size, line) => {
   const out = [];
@@ -47,7 +47,22 @@ function plyBytes(positions, triangles) {
   return bytes;
 }
 
-const writers = { obj: objText, off: offText, ply: plyBytes };
+/** Binary: a normal, three corners and two bytes of nothing for each triangle. */
+function stlBytes(positions, triangles) {
+  const bytes = new Uint8Array(84 + (50 * triangles.length) / 3);
+  const view = new DataView(bytes.buffer);
+  view.setUint32(80, triangles.length / 3, true);
+  for (let t = 0; t < triangles.length / 3; ++t) {
+    const [a, b, c] = [0, 1, 2].map((k) => positions.subarray(3 * triangles[3 * t + k], 3 * triangles[3 * t + k] + 3));
+    const [u, v] = [b, c].map((corner) => [0, 1, 2].map((k) => corner[k] - a[k]));
+    const normal = [0, 1, 2].map((k) => u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
+    const length = Math.hypot(...normal) || 1;
+    [...normal.map((x) => x / length), ...a, ...b, ...c].forEach((x, i) => view.setFloat32(84 + 50 * t + 4 * i, x, true));
+  }
+  return bytes;
+}
+
+const writers = { obj: objText, off: offText, ply: plyBytes, stl: stlBytes };
 
 /** The ending of a mesh file that can be written again, or ''. */
 export function meshFormat(name) {

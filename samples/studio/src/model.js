@@ -52,21 +52,45 @@ export const writeGlb = (document) => io().writeBinary(document);
 
 const endingOf = (name) => name.toLowerCase().split('.').pop();
 
-/** Reads the bytes of a glb, gltf, obj, off or ply file. readMesh: how the last three are read, by the Worker. */
+/** Files that hold one mesh and nothing else, which the Worker reads, and those that three.js reads. */
+const MESHES = ['ply', 'obj', 'off', 'stl'];
+const FOREIGN = ['fbx', 'dae'];
+/** What a menu of files offers. */
+export const formats = ['glb', 'gltf', 'vrm', ...FOREIGN, ...MESHES].map((ending) => `.${ending}`).join();
+
+/** Reads the bytes of a file of any of these formats. readMesh: how MESHES are read, by the Worker. */
 export async function readModel(bytes, name, readMesh = null) {
   if (!bytes.length) throw new ModelError(`${name} is empty.`, 'Export it again, or take one of the samples.');
   const ending = endingOf(name);
+  if (FOREIGN.includes(ending)) return readForeign(bytes, name, ending);
   let document;
-  if (readMesh && ['ply', 'obj', 'off'].includes(ending)) document = documentOf(await readMesh(bytes, name));
+  if (readMesh && MESHES.includes(ending)) document = documentOf(await readMesh(bytes, name));
   else if (bytes[0] === 0x67 && bytes[1] === 0x6c && bytes[2] === 0x54 && bytes[3] === 0x46)
     document = await readGlb(bytes, name);
   else if (ending === 'gltf' || bytes[0] === 0x7b) document = await readGltf(bytes, name);
   else
     throw new ModelError(
-      `${name} is not a glb, gltf, obj, off or ply file.`,
+      `${name} is not a glb, gltf, vrm, fbx, dae, stl, obj, off or ply file.`,
       'Export it as glb: every modelling program can.',
     );
-  return bodyOf(document, name);
+  const body = bodyOf(document, name);
+  // what names nodes and pictures by number is not understood here: the file itself is kept, to be written with another shape
+  if (ending === 'vrm') body.vrm = bytes;
+  return body;
+}
+
+/** A file of another program becomes glTF. */
+async function readForeign(bytes, name, ending) {
+  let loaders = null;
+  try {
+    loaders = await import(new URL('loaders/loaders.js', document.baseURI).href);
+  } catch {
+    throw new ModelError(`What reads ${name} could not be loaded.`, 'Open it when the network is there, or export it as glb.');
+  }
+  const read = await translated(() => loaders.readForeign(bytes, ending), name);
+  const body = bodyOf(await readGlb(read.bytes, name), name);
+  body.notes.push(...read.notes);
+  return body;
 }
 
 async function readGlb(bytes, name) {

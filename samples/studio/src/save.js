@@ -232,20 +232,24 @@ export function saveMenu(app) {
   const name = stem(app.body.name);
   const glb = 'model/gltf-binary';
   const { weights, quads, transfer } = app.tools;
-  const format = meshFormat(app.body.name);
+  const format = app.body.vrm ? 'vrm' : meshFormat(app.body.name);
+  const types = { vrm: glb, ply: 'model/ply', stl: 'model/stl' };
+  const ownFile = async () =>
+    app.body.vrm ? (await import('./vrm_save.js')).shapedVrm(app, parts) : meshFile(format, app.shape.positions, app.body.triangles);
   const ownFormat = [
     `Shape (${format})`,
-    'the posed shape as the kind of file it came in, in triangles',
-    async () =>
-      download(meshFile(format, app.shape.positions, app.body.triangles), `${name}_posed.${format}`, format === 'ply' ? 'model/ply' : 'text/plain'),
+    app.body.vrm ? 'the posed shape; all else of the file stays as it is' : 'the posed shape as the kind of file it came in, in triangles',
+    async () => download(await ownFile(), `${name}_posed.${format}`, types[format] ?? 'text/plain'),
     true,
     'save-mesh',
   ];
+  const ending = app.body.name.toLowerCase().split('.').pop();
+  const unwritten = ['fbx', 'dae'].includes(ending) ? `${ending} is not written; as glb ` : '';
   const choices = [
     ...(format ? [ownFormat] : []),
     [
       'Shape (glb)',
-      'the posed shape; materials, skin and clips of the file stay',
+      `${unwritten}the posed shape; materials, skin and clips of the file stay`,
       async () => download(await shapedGlb(app), `${name}_posed.glb`, glb),
       true,
       'save-shape',
@@ -322,7 +326,7 @@ export function saveMenu(app) {
         '',
         async () => {
           dialog.close();
-          say(`saving: ${title}`);
+          say(`saving: ${title}`, { stays: true });
           try {
             await act();
             say(quiet ? '' : `saved: ${title}`);

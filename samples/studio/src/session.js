@@ -1,6 +1,6 @@
-// The session survives a reload: the file and the present state are kept in the browser (IndexedDB), nowhere else.
+// The session survives a reload: the file and all that was set are kept in the browser (IndexedDB), nowhere else.
 
-/** A state is written when no other came for so many milliseconds. */
+/** What was set is written after so many milliseconds. */
 const QUIET_MS = 300;
 
 function store(mode, act) {
@@ -20,44 +20,50 @@ function store(mode, act) {
   });
 }
 
-/** The kept file and state, in one transaction: each takes its way through the browser. */
+/** The kept file and what was set, in one transaction: each takes its way through the browser. */
 async function both() {
   const found = [];
-  await store('readonly', (kept) => void found.push(kept.get('body'), kept.get('state')));
+  await store('readonly', (kept) => void found.push(kept.get('body'), kept.get('settings')));
   return found.map(({ result }) => result);
 }
 
 export class Session {
   #timer = 0;
   #writing = 0;
+  #last = ''; // what is written
   #able = true; // false in windows that keep nothing, and while a session is read back
   constructor(app) {
     app.session = this;
     this.app = app;
+    // what a tool or the view has set is no step
+    app.view.onDraw(() => this.changed());
+    addEventListener('change', () => this.changed());
   }
-  /** A file was opened: it replaces what was kept. */
+  /** A file was opened: it replaces all that was kept. */
   opened(bytes, name) {
-    if (this.#able)
-      this.#try(() =>
-        store('readwrite', (kept) => (kept.put({ bytes, name }, 'body'), kept.delete('state'), kept.delete('source'))),
-      );
+    if (!this.#able) return;
+    this.#last = '';
+    this.#try(() => store('readwrite', (kept) => (kept.clear(), kept.put({ bytes, name }, 'body'))));
   }
-  /** Another body whose detail is taken. */
-  source(bytes, name) {
-    if (this.#able) this.#try(() => store('readwrite', (kept) => kept.put({ bytes, name }, 'source')));
+  /** Beside the body: the source of a transfer or of detail ({ bytes, name }), a quad mesh. */
+  keep(key, value) {
+    if (this.#able) this.#try(() => store('readwrite', (kept) => kept.put(value, key)));
   }
-  async sourceBytes(name) {
-    const source = await store('readonly', (kept) => kept.get('source'));
-    return source?.name === name ? source.bytes : null;
+  kept(key) {
+    return store('readonly', (kept) => kept.get(key)).catch(() => null);
   }
-  changed(state) {
-    clearTimeout(this.#timer);
-    this.#timer = 0;
-    if (this.#able)
-      this.#timer = setTimeout(() => {
-        this.#timer = 0;
-        this.#try(() => store('readwrite', (kept) => kept.put(state, 'state')));
-      }, QUIET_MS);
+  /** Something was set, or may have been: it is written a little later, with what comes meanwhile. */
+  changed() {
+    if (!this.#able || this.#timer) return;
+    this.#timer = setTimeout(() => {
+      this.#timer = 0;
+      if (!this.#able || !this.app.skin || !this.app.tool) return;
+      const settings = this.app.settings();
+      const text = JSON.stringify(settings);
+      if (text === this.#last) return;
+      this.#last = text;
+      this.#try(() => store('readwrite', (kept) => kept.put(settings, 'settings')));
+    }, QUIET_MS);
   }
   /** True while something is not written yet. */
   get busy() {
@@ -74,15 +80,17 @@ export class Session {
       --this.#writing;
     }
   }
-  /** Opens what was kept; false if there is nothing. */
+  /** Opens what was kept, as it was left; false if there is nothing. */
   async restore() {
+    const { app } = this;
     try {
-      const [body, state] = await both();
+      const [body, settings] = await both();
       if (!body) return false;
       this.#able = false;
-      await this.app.open(body.bytes, body.name);
-      if (this.app.body?.name !== body.name) return false;
-      if (state) await this.app.take(state);
+      await app.open(body.bytes, body.name);
+      if (app.body?.name !== body.name) return false;
+      if (settings?.vertexCount === app.body.vertexCount)
+        await app.adopt(settings).catch(() => app.warn('Not all of the last session could be brought back.'));
       return true;
     } catch {
       return false;

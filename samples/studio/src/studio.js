@@ -10,6 +10,7 @@ import {
   LineSegments,
   Matrix4,
   Mesh,
+  MeshBasicMaterial,
   MeshLambertMaterial,
   Quaternion,
   Vector3,
@@ -26,12 +27,13 @@ import { FieldTool } from './tools/field.js';
 import { PoseTool } from './tools/pose.js';
 import { Session } from './session.js';
 import { $, button, card, choice, facts, make, ms, say, slider, touched, whole } from './ui.js';
+import { viewButtons, viewKey } from './views.js';
 
 /** Tools that the first picture does not need. Their modules import nothing, so that each is one request: the kit has it all. */
 const kit = { $, button, choice, facts, make, middleOf, mirrorChoice, ms, say, slider, touched, whole };
 Object.assign(kit, { BufferAttribute, BufferGeometry, Color, DoubleSide, Line, LineBasicMaterial, LineLoop });
 Object.assign(kit, { LineSegments });
-Object.assign(kit, { Gizmo, Matrix4, Mesh, MeshLambertMaterial, Quaternion, Vector3, worldsAt });
+Object.assign(kit, { Gizmo, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Quaternion, Vector3, worldsAt });
 Object.assign(kit, { bonesOf, influencesOf, readModel, writeGlb, skinnedGlb });
 Object.assign(kit, { normalGroups, normalSums, smoothNormals, lengthOf, localsOf, playedAt });
 const later = (key, title, icon, load) => ({ key, title, icon, load: async () => (await load()).tool(kit) });
@@ -79,6 +81,7 @@ async function start() {
   }
   window.hfStudio = app; // for tests and the curious
   const openFile = async (file) => file && app.open(new Uint8Array(await file.arrayBuffer()), file.name);
+  $('file').accept = app.formats;
   $('open').onclick = () => $('file').click();
   $('file').onchange = async () => {
     await openFile($('file').files[0]);
@@ -95,7 +98,8 @@ async function start() {
   $('undo').onclick = () => app.step('undo');
   $('redo').onclick = () => app.step('redo');
   $('save').onclick = () => app.skin && saveMenu(app);
-  $('help').onclick = () => help();
+  $('help').onclick = () => help(app);
+  viewButtons(app);
 
   let inside = 0;
   addEventListener('dragenter', (event) => {
@@ -125,7 +129,8 @@ async function start() {
       event.preventDefault();
       acts[key]();
     } else if (/input|select/i.test(event.target.tagName) && event.target.type !== 'range') return;
-    else if (key === '?') help();
+    else if (key === '?') help(app);
+    else if (viewKey(app, event)) event.preventDefault();
     else if (key === 'k' && app.skin && app.tool === app.tools.pose && app.state.handles.length) app.timeline.setKey();
     else if (/^[1-6]$/.test(key)) $('rail').children[Number(key) - 1]?.click();
   });
@@ -138,7 +143,8 @@ async function start() {
   const kept = app.session && !named && !settings && (await app.session.restore());
   if (!kept) {
     app.pending = settings ? () => link.takeSettings(app, settings) : null;
-    app.openSample(named ?? samples[0], !settings);
+    await app.openSample(named ?? samples[0], !settings);
+    if (!settings && !params.has('fresh') && app.skin) import('./tour.js').then(({ first, tour }) => first() && tour(app), () => {});
   }
   if ('serviceWorker' in navigator && !params.has('fresh')) navigator.serviceWorker.register('keep.js').catch(() => {});
 }

@@ -122,6 +122,7 @@ export class Timeline {
     this.element = $('timeline');
     this.time = 0;
     this.playing = false;
+    this.held = false; // a pointer is near the mark of a body that greets: it waits
     this.clip = null;
   }
   /** The first vertex at the place of each vertex. */
@@ -239,7 +240,7 @@ export class Timeline {
     let last = performance.now();
     const step = (now) => {
       if (!this.playing) return;
-      this.seek((this.time + Math.max(0, now - last) / 1000) % this.length);
+      if (!this.greeting || !this.held) this.seek((this.time + Math.max(0, now - last) / 1000) % this.length);
       last = now;
       this.label();
       requestAnimationFrame(step);

@@ -16,17 +16,19 @@ export function make(tag, attributes = {}, ...children) {
 export const button = (text, onclick, attributes = {}) =>
   make('button', { type: 'button', onclick, ...attributes }, text);
 
-/** A slider with its value beside the name; onmove while it moves, onset at its end. */
+/** A slider with its value beside the name; onmove while it moves, onset at its end. words: of a value. */
 export function slider(
   name,
-  { value, low, high, step = 0.01, digits = 2, id = null, disabled = false },
+  { value, low, high, step = 0.01, digits = 2, id = null, disabled = false, words = (x) => Number(x).toFixed(digits) },
   onmove,
   onset = () => {},
 ) {
-  const shown = make('span', {}, Number(value).toFixed(digits));
-  const input = make('input', { type: 'range', min: low, max: high, step, value, id, disabled });
+  const shown = make('span', {}, words(Number(value)));
+  const said = { 'aria-valuetext': words(Number(value)) };
+  const input = make('input', { type: 'range', min: low, max: high, step, value, id, disabled, ...said });
   input.oninput = () => {
-    shown.textContent = Number(input.value).toFixed(digits);
+    shown.textContent = words(Number(input.value));
+    input.setAttribute('aria-valuetext', shown.textContent);
     onmove(Number(input.value));
   };
   input.onchange = () => onset(Number(input.value));
@@ -68,7 +70,15 @@ export function card(title, content, ways) {
   return dialog;
 }
 
-export const say = (text) => ($('told').textContent = text);
+/** A message goes after so many milliseconds and some more for each letter. */
+const [SAID_MS, LETTER_MS] = [4000, 60];
+let goes = 0;
+/** stays: until the next message. */
+export function say(text, { stays = false } = {}) {
+  $('told').textContent = text;
+  clearTimeout(goes);
+  if (text && !stays) goes = setTimeout(() => say(''), SAID_MS + LETTER_MS * text.length);
+}
 export const whole = (number) => Math.round(number).toLocaleString('en');
 /** A time that a person reads: 4.2 ms, 236 ms, 4.1 s. */
 export const ms = (number) =>

@@ -8,6 +8,13 @@ export const CLICK_PIXELS = 5;
 const MARGIN = 1.2;
 /** Radians of turning for each pixel of a drag. */
 const TURN = 0.008;
+/** How a body is first looked at: from its front and its side, a little from above. */
+const HOME = { turn: 0.75, lift: 0.18 };
+/** Where the body is looked at from. Straight down, the picture has no up: the top keeps a hair away from it. */
+const STEEPEST = Math.PI / 2 - 1e-3;
+const SIDES = { home: HOME, front: { turn: 0, lift: 0 }, side: { turn: Math.PI / 2, lift: 0 }, top: { turn: 0, lift: STEEPEST } };
+/** The eye keeps so far above the floor, as part of the size of the body: its shadow is seen from above. */
+const ABOVE_FLOOR = 0.002;
 
 export class View {
   #wanted = false;
@@ -23,8 +30,8 @@ export class View {
     this.renderer.debug.checkShaderErrors = false;
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
     this.target = new THREE.Vector3();
-    this.turn = 0.75;
-    this.lift = 0.18;
+    Object.assign(this, HOME);
+    this.floor = -Infinity; // the eye stays above it
     this.distance = 4;
     this.size = 1;
     const sun = new THREE.DirectionalLight(0xffffff, 2.2);
@@ -65,6 +72,9 @@ export class View {
   }
 
   place() {
+    // the eye slides along the floor and not through it
+    const least = Math.asin(Math.max(-1, Math.min(1, (this.floor - this.target.y) / this.distance)));
+    this.lift = Math.max(-STEEPEST, Math.min(STEEPEST, Math.max(least, this.lift)));
     const flat = Math.cos(this.lift) * this.distance;
     this.camera.position
       .set(Math.sin(this.turn) * flat, Math.sin(this.lift) * this.distance, Math.cos(this.turn) * flat)
@@ -112,9 +122,20 @@ export class View {
     this.distance = MARGIN * Math.max(high / tangent, wide / tangent / (this.width / this.height)) + 0.5 * deep;
     this.draw();
   }
+  /** A body stands on the floor of the stage, and is looked at as the first one was. */
+  stand(box) {
+    const { y } = box.min;
+    this.floor = y + ABOVE_FLOOR * box.getSize(new THREE.Vector3()).length();
+    this.look('home');
+    this.frame(box);
+  }
+  /** Looks from one of SIDES; what is framed then fills the picture. */
+  look(side) {
+    Object.assign(this, SIDES[side]);
+  }
   turnBy(dx, dy) {
     this.turn -= dx * TURN;
-    this.lift = Math.max(-1.5, Math.min(1.5, this.lift + dy * TURN));
+    this.lift += dy * TURN;
     this.draw();
   }
   panBy(dx, dy) {
@@ -123,6 +144,7 @@ export class View {
     const [right, up] = [new THREE.Vector3(), new THREE.Vector3()];
     this.camera.matrixWorld.extractBasis(right, up, new THREE.Vector3());
     this.target.addScaledVector(right, -dx * unit).addScaledVector(up, dy * unit);
+    this.target.y = Math.max(this.floor, this.target.y);
     this.draw();
   }
   zoomBy(factor) {

@@ -10,7 +10,7 @@ function testRows({ button, lengthOf, make, slider }, tool) {
       'p',
       {},
       shown === 'all'
-        ? 'Show one bone to bend it. The test changes nothing.'
+        ? 'Click a bone to bend it. The test changes nothing.'
         : 'Turn the bone by its rings or the slider: the skin follows.',
     ),
     shown !== 'all' &&
@@ -118,8 +118,8 @@ export function weightsSheet(kit, tool) {
       'p',
       {},
       tool.shown === 'all'
-        ? 'Show one bone to pin places to it.'
-        : 'Click the body: the place belongs to this bone, and the weights follow.',
+        ? 'Click a bone to see its weights and to pin places to it.'
+        : 'Click the body beside the bones: the place belongs to this bone, and the weights follow.',
     ),
     tool.pins.length > 0 && button('Remove all pins', () => tool.unpin(), { id: 'no-pins', disabled: tool.busy }),
     tool.error && make('p', { class: 'warn' }, tool.error),

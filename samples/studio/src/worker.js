@@ -63,9 +63,9 @@ async function ready(vertexCount) {
 }
 
 const tasks = {
-  /** Places and triangles of an obj, off or ply file. */
-  read({ bytes, name }) {
-    const mesh = readMesh(bytes, name);
+  /** Places and triangles of a file that holds one mesh and nothing else. */
+  async read({ bytes, name }) {
+    const mesh = await readMesh(bytes, name);
     return [mesh, [mesh.positions.buffer, mesh.triangles.buffer]];
   },
   /** Opens a body: factorises once. Answers with what the page can offer at once. */
@@ -136,10 +136,10 @@ const tasks = {
     return [bytes, [bytes.buffer]];
   },
   /** Quads run in a Worker of their own (client.js): it opens the same body from the saved factor. */
-  async quadsOpen({ positions, triangles, factor }) {
+  async quadsOpen({ positions, triangles, skeleton, factor }) {
     const [hf, threads] = await ready(positions.length / 3);
     await built.rest?.();
-    body = { hf, surface: new hf.Surface(positions, triangles, { savedFactor: factor, linkPieces: true, ...threads }) };
+    body = { hf, surface: surfaceOf(hf, { positions, triangles, skeleton }, { savedFactor: factor, ...threads }) };
     return [null, []];
   },
   quads(options) {

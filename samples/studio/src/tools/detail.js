@@ -1,10 +1,14 @@
 // Detail: draw around a part; smooth it, or exaggerate what is there, or give it the detail of a part of another body.
+import { roughness } from '../roughness.js';
 import { lookAtBoth, openBeside, takeRow } from '../beside.js';
 
 /** Points of a lasso are at least so many pixels apart; a lasso of fewer points is no region. */
 const [STEP_PIXELS, LEAST_POINTS] = [8, 5];
 /** Colours of a region: inside, its rim, and the rest. */
 const [INSIDE, RIM, REST] = [[0.93, 0.62, 0.33], [0.35, 0.2, 0.12], 0.78];
+
+/** Bodies less rough than this have nothing to smooth: ours of the samples have a third of it, a scan five times as much. */
+const ROUGH = 0.03;
 
 /** Copies of a vertex take what the first at their place has. */
 function shared(values, size, places) {
@@ -41,6 +45,7 @@ export const tool = (kit) => {
       this.points = [];
       this.line.visible = false;
       this.mapped = false;
+      this.rough = null;
       this.source?.skin.dispose();
       this.source = null;
     }
@@ -49,12 +54,16 @@ export const tool = (kit) => {
     }
     /** What a link keeps beside the region. */
     settings() {
-      return { mapped: this.mapped };
+      return { mapped: this.mapped, source: this.source?.name };
     }
-    adopt({ mapped }) {
+    async adopt({ mapped, source }) {
       this.mapped = mapped;
+      const bytes = source && !this.source && (await this.app.bytesOf(source, 'source'));
+      if (bytes) await this.bring(bytes, source);
+      if (this.app.tool === this) this.enter();
     }
     enter() {
+      this.rough ??= roughness(this.app.body, this.app.opened.normals, this.app.timeline.places());
       if (this.source) {
         this.source.skin.group.visible = true;
         lookAtBoth(kit, this.app, this.source);
@@ -69,6 +78,11 @@ export const tool = (kit) => {
       if (!this.source) return;
       this.source.skin.group.visible = false;
       this.app.view.frame(this.app.skin.box());
+    }
+
+    frame() {
+      if (this.source) lookAtBoth(kit, this.app, this.source);
+      else this.app.view.frame(this.app.skin.box());
     }
 
     // ---- the picture
@@ -211,7 +225,7 @@ export const tool = (kit) => {
       this.source?.skin.dispose();
       this.source = { ...beside, name };
       this.source.skin.group.visible = app.tool === this;
-      app.session?.source(bytes, name);
+      app.session?.keep('source', { bytes, name });
     }
     async take(bytes, name) {
       const { app } = this;
@@ -249,6 +263,15 @@ export const tool = (kit) => {
               ? 'Move the slider: 1 as on the other body, 0 smooth, 2 twice the detail.'
               : 'Move the slider: 1 as it is, 0 smooth, 2 twice the detail.',
         ),
+        this.rough < ROUGH &&
+          !carry &&
+          make(
+            'p',
+            { class: 'warn', id: 'smooth' },
+            detail
+              ? 'This body is smooth: the slider finds little to change. Take a body with detail below, such as a scan, and draw a loop on it: its detail comes here.'
+              : 'This body is smooth: it has little detail of its own. Draw a loop, and then take a body with detail, such as a scan; or open one.',
+          ),
         detail &&
           slider(
             'Detail',
@@ -291,7 +314,7 @@ export const tool = (kit) => {
               ? 'Draw a loop on the left body: its detail goes to your region.'
               : 'Detail of another body: take it, and draw a loop on it.',
           ),
-        detail && takeRow(kit, app, (bytes, name) => this.take(bytes, name), '.glb,.gltf,.obj,.off,.ply'),
+        detail && takeRow(kit, app, (bytes, name) => this.take(bytes, name), app.formats),
         found &&
           facts([
             ['vertices', whole(found.vertexCount)],

@@ -69,10 +69,11 @@ export class PoseTool {
   }
   /** What a link keeps beside the handles. */
   settings() {
-    return { mirror: this.mirror.axis, radius: this.radius };
+    const { radius, ghost, chosen } = this;
+    return { mirror: this.mirror.axis, radius, ghost, chosen };
   }
-  adopt({ mirror, radius }) {
-    this.radius = radius;
+  adopt({ mirror, radius, ghost = true, chosen = null }) {
+    Object.assign(this, { radius, ghost, chosen });
     this.mirror.set(mirror);
   }
   /** The handles that hold the body from the start. */
@@ -447,6 +448,7 @@ export class PoseTool {
           { class: 'warn' },
           `${whole(unreached)} vertices belong to pieces without a handle; they stay where they are.`,
         ),
+      app.body.notes.length > 0 && make('p', {}, `Of the file: ${app.body.notes.join('; ')}.`),
       app.told?.gap > GAP_SAID &&
         make('p', { class: 'warn' }, `Pieces stand apart by up to ${(100 * app.told.gap).toFixed(1)} % of the box.`),
       facts([

@@ -2,15 +2,11 @@
 // that the user draws and drags, and 3 or 5 quads meet at poles: the mesh follows at once without relaxation, and with it at
 // the end.
 import { quadOptions } from '../quad_options.js';
+import { areaOf, startCount } from '../quad_size.js';
 import { drawQuads, dropQuads, placeQuads } from '../quad_lines.js';
 
-/** Length of an edge as part of the size of the body: the library's own default. */
-const EDGE = 0.022;
-/**
- * A body whose surface is large for its box (many pieces, folds) starts with larger quads, so that there are no more than
- * these. Half as many are rough on a creature; twice as many take twice as long.
- */
-const MOST_QUADS = 4000;
+/** What the slider offers, as powers of two: 500 to 16,000 or so. */
+const [LOW, HIGH] = [9, 14];
 /** A stroke has a place every so many pixels: a fine body has a triangle about there. */
 const STEP_PIXELS = 6;
 /** Fewer places say no direction. */
@@ -21,17 +17,8 @@ const DOTS = { 3: '#1f78b4', 5: '#7b3fa0' };
 /** An arrow key moves a pole by so many pixels. */
 const NUDGE_PIXELS = 8;
 
-/** The length to start with, as part of the size: that of the library, or what gives MOST_QUADS. */
-function startOf({ positions: p, triangles }, size) {
-  let area = 0;
-  for (let i = 0; i < triangles.length; i += 3) {
-    const [a, b, c] = [3 * triangles[i], 3 * triangles[i + 1], 3 * triangles[i + 2]];
-    const [ux, uy, uz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
-    const [vx, vy, vz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
-    area += Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
-  }
-  return Math.min(0.06, Math.max(EDGE, Math.ceil(1000 * (Math.sqrt(area / MOST_QUADS) / size)) / 1000));
-}
+/** Two digits: 'about 2,000' says what is known before. */
+const rounded = (count) => Number(count.toPrecision(2));
 
 /** `kit`: what the page has loaded already (studio.js). */
 export const tool = (kit) => {
@@ -42,7 +29,7 @@ export const tool = (kit) => {
     static title = 'Quads';
     constructor(app) {
       this.app = app;
-      this.edge = EDGE;
+      this.edge = null; // the length of an edge as part of the size of the body
       this.crease = 0;
       this.mirror = '';
       this.relaxed = true; // what is shown
@@ -56,7 +43,8 @@ export const tool = (kit) => {
     opened() {
       this.cancel();
       this.#end();
-      this.edge = startOf(this.app.body, this.app.opened.report.boundingBoxDiagonal);
+      this.edge = null;
+      this.area = areaOf(this.app.body);
       this.result = null;
       this.chosen = null;
       this.shown = {};
@@ -66,13 +54,32 @@ export const tool = (kit) => {
     /** What a link keeps beside strokes and poles. */
     settings() {
       const { edge, crease, mirror } = this;
-      return { edge, crease, mirror };
+      return { edge, crease, mirror, made: Boolean(this.result) };
     }
-    adopt({ edge, crease, mirror }) {
+    async adopt({ edge, crease, mirror, made }) {
       Object.assign(this, { edge, crease, mirror });
+      const result = made && (await this.app.session?.kept('quads'));
+      if (!result) return;
+      const { strokes, poles } = this.app.state;
+      this.result = result;
+      this.shown = { strokes, poles };
+      this.#draw();
+      if (this.app.tool === this) this.dress();
     }
     enter() {
       this.dress();
+    }
+    /** The number of quads and the length of their edges are one: the area of the body stands between them. */
+    get count() {
+      if (this.edge === null) {
+        const start = rounded(startCount(this.app, this.area));
+        if (!this.app.skin.bvh) return start;
+        this.count = start;
+      }
+      return this.area / (this.edge * this.app.opened.report.boundingBoxDiagonal) ** 2;
+    }
+    set count(count) {
+      this.edge = Math.sqrt(this.area / count) / this.app.opened.report.boundingBoxDiagonal;
     }
     leave() {
       if (this.lines) this.lines.visible = false;
@@ -236,13 +243,14 @@ export const tool = (kit) => {
     /** Asks the Worker of the quads, which is started when it is needed; null when the body changed meanwhile. */
     async #ask(relaxed) {
       const { app } = this;
+      this.count = this.count; // a body that has just come: what it starts with
       if (!this.line) {
         const line = app.client.line();
-        const { positions, triangles } = app.body;
+        const { positions, triangles, skeleton } = app.body;
         line.opened = app.client.ask('factor').then((factor) => {
           // a Worker that was ended never answers
           if (line !== this.line) throw Object.assign(new Error('cancelled'), { codeName: 'cancelled' });
-          return line.ask('quadsOpen', { positions, triangles, factor }, [factor.buffer]);
+          return line.ask('quadsOpen', { positions, triangles, skeleton, factor }, [factor.buffer]);
         });
         this.line = line;
       }
@@ -262,6 +270,7 @@ export const tool = (kit) => {
       this.shown = { strokes, poles };
       this.relaxed = relaxed;
       this.error = null;
+      if (relaxed) app.session?.keep('quads', result);
       this.#draw();
       return result;
     }
@@ -354,7 +363,7 @@ export const tool = (kit) => {
             ? 'Draw on the body: edges follow the stroke. Drag its dot, and the quads follow.'
             : this.placing
               ? `Click on the body: ${this.placing} quads meet there. Drag the dot, and the quads follow.`
-              : 'Covers the body with quads that follow its shape. A finer size takes longer.',
+              : 'Covers the body with quads that follow its shape. More quads take longer.',
         ),
         make(
           'div',
@@ -372,9 +381,17 @@ export const tool = (kit) => {
           ),
         this.error && make('p', { class: 'warn' }, this.error),
         slider(
-          'Size of a quad',
-          { value: this.edge, low: 0.01, high: 0.06, step: 0.001, digits: 3, id: 'edge', disabled },
-          (value) => (this.edge = value),
+          'Quads',
+          {
+            value: Math.log2(this.count),
+            low: LOW,
+            high: HIGH,
+            step: 0.05,
+            id: 'count',
+            disabled,
+            words: (power) => `about ${whole(rounded(2 ** power))}`,
+          },
+          (power) => (this.count = rounded(2 ** power)),
         ),
         slider(
           'Creases from, degrees',

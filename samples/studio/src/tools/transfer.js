@@ -43,18 +43,15 @@ export const tool = (kit) => {
     ready() {
       return Boolean(this.info);
     }
-    /** What a link keeps: a source that is a sample, its pairs and dials. */
+    /** What a link and a session keep: the name of the source, its pairs and dials. A link has a sample as its source. */
     settings() {
-      const { source, pairs, dials, clip, app } = this;
-      const sample = source?.body.name.replace(/\.glb$/, '');
-      if (!app.samples.includes(sample)) return {};
-      return { sample, pairs, dials, clip: source.body.clips.indexOf(clip) };
+      const { source, pairs, dials, clip } = this;
+      return source ? { source: source.body.name, pairs, dials, clip: source.body.clips.indexOf(clip) } : {};
     }
-    async adopt({ sample, pairs, dials = {}, clip = 0 }) {
-      if (!sample) return;
-      const answer = await fetch(`samples/${sample}.glb`);
-      if (!answer.ok) return;
-      await this.open(new Uint8Array(await answer.arrayBuffer()), `${sample}.glb`);
+    async adopt({ sample, source = sample && `${sample}.glb`, pairs, dials = {}, clip = 0 }) {
+      const bytes = source && (await this.app.bytesOf(source, 'transfer'));
+      if (!bytes) return;
+      await this.open(bytes, source, false);
       if (!this.source) return;
       this.clip = this.source.body.clips[clip] ?? this.clip;
       if (pairs) await this.set(pairs);
@@ -82,6 +79,10 @@ export const tool = (kit) => {
     }
     look() {
       lookAtBoth(kit, this.app, this.source);
+    }
+    frame() {
+      if (this.source) this.look();
+      else this.app.view.frame(this.app.skin.box());
     }
     /** The pose has changed: an act was taken back. What is shown here does not follow it. */
     shaped() {
@@ -133,22 +134,25 @@ export const tool = (kit) => {
     }
     /** Takes a list of pairs; one that the library refuses leaves the list that was there. */
     async set(pairs) {
+      const { app } = this;
       try {
-        this.info = await this.app.client.ask('transferPairs', { pairs: pairs.filter(({ off }) => !off) });
+        this.info = await app.client.ask('transferPairs', { pairs: pairs.filter(({ off }) => !off) });
         this.pairs = pairs;
         this.good = pairs;
         this.gap = 0;
+        app.matters = '';
         say('');
       } catch (error) {
         this.pairs = this.good;
-        say(`pairs: ${error.message}`);
+        app.warn(`pairs: ${error.message}`);
       }
-      this.app.refresh();
+      app.refresh();
     }
-    async open(bytes, name) {
+    /** Takes a source. plays: at once, unless less motion is wished. */
+    async open(bytes, name, plays = true) {
       const { app } = this;
       try {
-        const body = await readModel(bytes, name);
+        const body = await readModel(bytes, name, (data) => app.client.ask('read', { bytes: data, name }));
         const clip = body.clips.find((other) => lengthOf(other) > 0);
         if (!clip)
           return app.failed(
@@ -176,7 +180,10 @@ export const tool = (kit) => {
         this.time = 0;
         this.#rest();
         this.look();
+        app.session?.keep('transfer', { bytes, name });
         if (pairs.length) await this.set(pairs);
+        if (plays && this.info && app.tool === this && !matchMedia('(prefers-reduced-motion: reduce)').matches)
+          return this.play();
       } catch (error) {
         app.failed(`${name} was not taken`, error);
       }
@@ -212,7 +219,7 @@ export const tool = (kit) => {
         await this.app.client.ask('transferDials', { dials });
         this.dials = dials;
       } catch (error) {
-        say(error.message);
+        this.app.warn(error.message);
       }
       if (!this.playing) await this.seek(this.time);
     }
@@ -231,7 +238,7 @@ export const tool = (kit) => {
         if (!this.playing || !this.source) return;
         await this.seek((this.time + Math.max(0, now - last) / 1000) % lengthOf(this.clip)).catch((error) => {
           this.playing = false;
-          say(error.message);
+          this.app.warn(error.message);
         });
         last = now;
         requestAnimationFrame(step);
@@ -266,7 +273,7 @@ export const tool = (kit) => {
     }
     sheet() {
       const { source, app } = this;
-      const take = takeRow(kit, app, (bytes, name) => this.open(bytes, name));
+      const take = takeRow(kit, app, (bytes, name) => this.open(bytes, name), app.formats);
       if (!source) return [make('p', {}, 'Take another body with a clip: its motion plays on this one.'), take];
       const active = this.pairs.filter(({ off }) => !off).length;
       return [
@@ -274,7 +281,9 @@ export const tool = (kit) => {
           'p',
           {},
           this.pairs.length
-            ? 'Left the source, right your body. A click on a dot leaves its pair out; a drag moves it.'
+            ? this.playing || this.time
+              ? 'Left the source, right your body. Stop shows the pairs: a click on a dot leaves its pair out.'
+              : 'Left the source, right your body. A click on a dot leaves its pair out; a drag moves it.'
             : 'No places of the two bodies are alike; take another source.',
         ),
         this.info &&

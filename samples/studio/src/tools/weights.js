@@ -1,6 +1,7 @@
 // Weights: skin weights for the bones of the file or for the handles, coloured by bone; one bone alone as a field; pins; a test
 // that bends the bones.
 import { Bend } from '../bend.js';
+import { Bones } from '../bones.js';
 import { pruned } from '../skinning.js';
 import { weightsSheet } from '../weights_sheet.js';
 
@@ -22,6 +23,7 @@ export const tool = (kit) => {
       this.app = app;
       this.influenceCount = 4;
       this.bend = new Bend(kit, this);
+      this.drawn = new Bones(kit, this);
     }
     opened() {
       this.fileBones = bonesOf(this.app.body);
@@ -85,6 +87,7 @@ export const tool = (kit) => {
       this.app.legend(null);
       this.restoreField();
       this.bend.hide();
+      this.drawn.hide();
     }
     shaped() {
       this.bend.show();
@@ -98,6 +101,7 @@ export const tool = (kit) => {
       ) {
         this.clear();
         this.dress();
+        this.bend.show();
       }
       // undo and redo bring other pins
       if (this.result && !this.busy && !this.setting && this.pinned !== this.app.state.pins) this.compute();
@@ -133,8 +137,10 @@ export const tool = (kit) => {
       );
       return true;
     }
-    /** A click pins the place to the bone that is shown. */
+    /** A click on a bone shows it. Where one is shown, a click elsewhere on the body pins the place to it. */
     click(at) {
+      const bone = this.busy ? -1 : this.drawn.under(at);
+      if (bone >= 0 && String(bone) !== String(this.shown)) return this.look(bone);
       const hit = this.shown !== 'all' && !this.bend.clip && this.app.skin.pick(this.app.view.ray(...at));
       if (!hit) return undefined;
       const pin = {
@@ -172,7 +178,7 @@ export const tool = (kit) => {
       if (this.busy) return;
       this.setting = true;
       if (await this.compute(pins)) await this.app.commit({ ...this.app.state, pins }, name);
-      else say(`${name}: ${this.error}`);
+      else this.app.warn(`${name}: ${this.error}`);
       this.setting = false;
       this.app.refresh();
     }
@@ -234,6 +240,8 @@ export const tool = (kit) => {
       this.app.skin.lend(null);
     }
     hover(at) {
+      const bone = this.drawn.under(at);
+      if (bone >= 0 && String(bone) !== String(this.shown)) return `bone ${this.bones.names[bone]}`;
       const hit = this.app.skin.pick(this.app.view.ray(...at));
       const present = hit && this.bones.names.length ? this.present() : null;
       if (!present) return null;
