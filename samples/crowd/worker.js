@@ -6,7 +6,7 @@ import factory from './hf_module.js';
 let poses, tips, first, size;
 
 async function start(message) {
-  const hf = await load({ factory, wasmBinary: await (await fetch('hf.wasm')).arrayBuffer() });
+  const hf = await load({ factory, wasm: await (await fetch('hf.wasm')).arrayBuffer() });
   const surface = new hf.Surface(message.positions, message.triangles);
   // fewer groups and bands than usual: a frame is cheaper, and a clone smaller
   const pose = new hf.Pose(surface, { groupCount: 60, bandCount: 5 });
