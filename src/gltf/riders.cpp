@@ -77,7 +77,7 @@ std::vector<std::vector<glm::dmat4>> sampled_globals(const Model& model) {
 }
 
 // How far the corners of a box move at most between two transforms.
-double moved(const Candidate& c, const glm::dmat4& a, const glm::dmat4& b) {
+double moved_by(const Candidate& c, const glm::dmat4& a, const glm::dmat4& b) {
   double out = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec4 p(corner & 1 ? c.high.x : c.low.x, corner & 2 ? c.high.y : c.low.y,
@@ -103,7 +103,7 @@ Riders find_riders(const Model& model, const FlatMesh& mesh, const Pose& rest, c
     // Against the first pose of the clips, in the space of the model.
     const auto still = [&](size_t n) {
       return std::all_of(poses.begin(), poses.end(), [&](const auto& globals) {
-        return moved(c, globals[n] * glm::inverse(poses[0][n]), glm::dmat4(1)) <= within;
+        return moved_by(c, globals[n] * glm::inverse(poses[0][n]), glm::dmat4(1)) <= within;
       });
     };
     // How far it moves against a joint in the clips.
@@ -111,7 +111,7 @@ Riders find_riders(const Model& model, const FlatMesh& mesh, const Pose& rest, c
       const glm::dmat4 offset = glm::inverse(first[j]) * first[node] * back;
       double out = 0;
       for (const std::vector<glm::dmat4>& globals : poses)
-        out = std::max(out, moved(c, globals[j] * offset, globals[node] * back));
+        out = std::max(out, moved_by(c, globals[j] * offset, globals[node] * back));
       return out;
     };
     bool body_moves = false;

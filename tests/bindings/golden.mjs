@@ -1,5 +1,5 @@
 // The golden scenes (bindings/golden/README.md) through the JavaScript package. run(hf, meshes, scenes) works in node
-// and in the browser and returns a list of failures.
+// and in the browser and returns a list of failures. hear: gets the result of each step.
 const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
 
 class Failure extends Error {}
@@ -413,7 +413,7 @@ function runStep(hf, step, meshes, objects, kept) {
   }
 }
 
-function checkStep(hf, step, meshes, objects, kept) {
+function checkStep(hf, step, meshes, objects, kept, hear) {
   let result;
   try {
     result = runStep(hf, step, meshes, objects, kept);
@@ -426,6 +426,7 @@ function checkStep(hf, step, meshes, objects, kept) {
     return;
   }
   assert(!step.error, `did not fail with ${step.error}`);
+  hear?.(result);
   if (result.array) {
     if (step.expect) checkArray(result.array, step.expect);
     if (step.same_as)
@@ -441,13 +442,13 @@ function checkStep(hf, step, meshes, objects, kept) {
   }
 }
 
-export function run(hf, meshes, scenes) {
+export function run(hf, meshes, scenes, hear) {
   const failures = [];
   for (const scene of scenes) {
     const [objects, kept] = [{}, {}];
     scene.steps.forEach((step, place) => {
       try {
-        checkStep(hf, step, meshes, objects, kept);
+        checkStep(hf, step, meshes, objects, kept, hear);
       } catch (error) {
         failures.push(
           `${scene.name}, step ${place} (${step.do}): ${error instanceof Failure ? error.message : error.stack}`,

@@ -1,4 +1,4 @@
-# Sourced by tests/run: the parts windows, arm64, small, clang, macos, wasm, bevy, godot4, alone and packages. Each builds in build/NAME, runs its tests and
+# Sourced by tests/run: the parts windows, arm64, small, clang, macos, wasm, web, bevy, godot4, alone and packages. Each builds in build/NAME, runs its tests and
 # prints `NAME: N passed, N failed, N skipped`. CMAKE_BUILD_PARALLEL_LEVEL and CTEST_PARALLEL_LEVEL: jobs, else all cores.
 
 # hf_configure NAME CMAKE_ARGUMENTS... and hf_make NAME TARGETS...: the log is build/NAME.log.
@@ -158,6 +158,25 @@ test_wasm() {
   done
   printf 'wasm: %s passed, %s failed, %s skipped\n' "$passed" "$failed" "$skipped"
   [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
+}
+
+# The npm package as bundlers and runtimes take it, each from its lock file: bindings/js/README.md, part for part. It takes
+# the WebAssembly of the part wasm when it is there (HF_WASM: another folder).
+test_web() {
+  local tool wasm=${HF_WASM:-$hf_root/build/wasm}
+  for tool in node npm; do
+    command -v "$tool" >/dev/null || { hf_say "skipped: $tool is not here"; return 77; }
+  done
+  hf_install_node_modules || { hf_say "skipped: no npm packages here"; return 77; }
+  hf_install_locked "$hf_root/tests/web" "$hf_root/build/web" || { hf_say "skipped: the bundlers could not be installed"; return 77; }
+  if [ ! -e "$wasm/hf_slim.wasm" ]; then
+    hf_say "building (wasm)"
+    HF_JOBS=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)} "$hf_root/bindings/js/wasm/build.sh" "$wasm" || return $?
+  fi
+  (hf_build dev hf) || return 1
+  hf_say "testing (web)"
+  HF_WASM=$wasm HF_LIBRARY="$hf_root/build/dev/src/libhf.so" HF_NODE_MODULES="$hf_root/build/npm/node_modules" \
+    HF_WEB_MODULES="$hf_root/build/web/node_modules" node "$hf_root/tests/web/web_test.mjs" all "$hf_root/build/web/apps"
 }
 
 # The Bevy layer: its tests without a renderer, its README, and the demo drawn without a window, by the processor where there is
