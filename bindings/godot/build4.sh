@@ -37,7 +37,7 @@ case "$machine" in
     exit 1
     ;;
 esac
-cp "$here/addon/hf_deformer.gd" "$here/addon/hf_retarget.gd" "$out/"
+cp "$here/addon/hf_deformer.gd" "$here/addon/hf_retarget.gd" "$here/addon/hf_blended.gd" "$here/../shaders/hf_blend.gdshaderinc" "$out/"
 # the lines of libraries that are there
 while IFS= read -r line; do
   file=${line##*/}

@@ -143,6 +143,34 @@ void main() {
 """
 
 
+GODOT = """// For a shader of Godot 4, type spatial. Include it below shader_type.
+//
+// E entries, C clusters. hf_clusters: blend_clusters() of HfSurface, FORMAT_RF. hf_entries: blend_entries(), FORMAT_RGBAF.
+// hf_transforms: blend_transforms() after pose_solve() in every frame, FORMAT_RGBAF, of any width that is a multiple of 3.
+// A texture holds a list row by row: texel i is at (i % width, i / width). The mesh has blend_positions(), blend_normals(),
+// blend_rows() as ARRAY_CUSTOM0 of two floats and blend_offsets() as ARRAY_CUSTOM1. hf_blended.gd of the add-on does all of it.
+uniform sampler2D hf_clusters : filter_nearest, repeat_disable;
+uniform sampler2D hf_entries : filter_nearest, repeat_disable;
+uniform sampler2D hf_transforms : filter_nearest, repeat_disable;
+uniform vec3 hf_centre;  // blend_centre()
+uniform float hf_offset_share;  // of pose_blend_info()
+
+"""
+
+GODOT_ENTRY = """void vertex() {
+  HfVertex rest;
+  rest.position = VERTEX;
+  rest.normal = NORMAL;
+  rest.tangent = TANGENT;
+  HfVertex posed = hf_blend(uvec2(CUSTOM0.xy), 0u, rest);
+  VERTEX = posed.position + hf_offset_share * CUSTOM1.xyz + hf_centre;
+  NORMAL = posed.normal;
+  TANGENT = posed.tangent;
+  BINORMAL = cross(posed.normal, posed.tangent);
+}
+"""
+
+
 def translated(text, language):
     """Returns a part of the source in a language."""
 
@@ -184,6 +212,10 @@ def made(source):
             "glsl", "// GLSL 4.50, for OpenGL and Vulkan. Write the line #version above it.\n", table, GLSL_BINDINGS, GLSL_ENTRY),
         "hf_blend_textures.glsl": WHAT + TEXTURES + translated(transform, "glsl") + TEXTURES_ARRAYS + translated(parts["blend"], "glsl") +
                                   f"#ifndef HF_NO_ENTRY\n// ---- entry: draw N instances ----\n{TEXTURES_ENTRY}#endif\n",
+        "hf_blend.gdshaderinc": WHAT + GODOT + translated(transform, "glsl") +
+                                TEXTURES_ARRAYS.replace("return texelFetch(hf_clusters, hf_texel(e, textureSize(hf_clusters, 0).x), 0).x;",
+                                                        "return uint(texelFetch(hf_clusters, hf_texel(e, textureSize(hf_clusters, 0).x), 0).x + 0.5);") +
+                                translated(parts["blend"], "glsl") + f"#ifndef HF_NO_ENTRY\n{GODOT_ENTRY}#endif\n",
     }
 
 

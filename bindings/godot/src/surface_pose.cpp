@@ -9,6 +9,90 @@ hf_pose pose_of(Surface& s) {
 
 namespace {
 
+// The rows of a blend, as hf_blend_rows has them. The lists are asked for one by one.
+struct BlendRows {
+  hf_blend_rows rows = make<hf_blend_rows>();
+  explicit BlendRows(Surface& s) : pose(pose_of(s)) { check(hf_pose_get_blend_rows(pose, &rows)); }
+  void read() {
+    rows.vertex_capacity = rows.vertex_count;
+    rows.entry_capacity = rows.entry_count;
+    check(hf_pose_get_blend_rows(pose, &rows));
+  }
+
+ private:
+  hf_pose pose;
+};
+
+// blend_rows(): of each vertex the number of its first entry, and the count of its entries
+Value blend_rows(Surface& s, const Arguments&) {
+  BlendRows blend(s);
+  Numbers made(2 * size_t{blend.rows.vertex_count});
+  blend.rows.rows = made.data();
+  blend.read();
+  return numbers(std::move(made));
+}
+
+// blend_clusters(): of each entry the number of its cluster
+Value blend_clusters(Surface& s, const Arguments&) {
+  BlendRows blend(s);
+  std::vector<uint16_t> made(blend.rows.entry_count);
+  blend.rows.clusters = made.data();
+  blend.read();
+  return numbers(Numbers(made.begin(), made.end()));
+}
+
+// blend_entries(): of each entry the gradient and the weight, four numbers
+Value blend_entries(Surface& s, const Arguments&) {
+  BlendRows blend(s);
+  std::vector<float> weights(blend.rows.entry_count), gradients(3 * weights.size());
+  blend.rows.weights = weights.data();
+  blend.rows.gradients = gradients.data();
+  blend.read();
+  Value value;
+  value.kind = Value::reals;
+  for (size_t e = 0; e < weights.size(); ++e) {
+    value.floats.insert(value.floats.end(), &gradients[3 * e], &gradients[3 * e] + 3);
+    value.floats.push_back(weights[e]);
+  }
+  return value;
+}
+
+// blend_positions(), blend_normals(), blend_offsets(): at rest
+template <float* hf_blend_rows::*array>
+Value blend_vectors(Surface& s, const Arguments&) {
+  BlendRows blend(s);
+  Value value;
+  value.kind = Value::vectors;
+  value.floats.resize(3 * size_t{blend.rows.vertex_count});
+  blend.rows.*array = value.floats.data();
+  blend.read();
+  return value;
+}
+
+// blend_centre(): one vector, to which positions of the blend are relative
+Value blend_centre(Surface& s, const Arguments&) {
+  auto info = make<hf_blend_info>();
+  check(hf_pose_get_blend_info(pose_of(s), &info));
+  return vectors(Doubles(info.centre, info.centre + 3));
+}
+
+// pose_solve(iteration_count = 0): a frame without vertices
+Value pose_solve(Surface& s, const Arguments& a) {
+  check(hf_pose_solve(pose_of(s), whole(at(a, 0).number, "iteration_count"), 0, nullptr));
+  return done();
+}
+
+// blend_transforms(): twelve numbers for each cluster, a 3 x 4 matrix row by row
+Value blend_transforms(Surface& s, const Arguments&) {
+  uint32_t count = 0;
+  check(hf_pose_get_blend_transforms(pose_of(s), 0, nullptr, &count));
+  Value value;
+  value.kind = Value::reals;
+  value.floats.resize(12 * size_t{count});
+  check(hf_pose_get_blend_transforms(pose_of(s), count, value.floats.data(), nullptr));
+  return value;
+}
+
 // pose_create(options = {}): replaces the pose; without it the first call makes one of defaults
 Value pose_create(Surface& s, const Arguments& a) {
   auto desc = make<hf_pose_desc>();
@@ -259,7 +343,16 @@ Value transfer_apply(Surface& s, const Arguments& a) {
 
 const std::vector<Entry>& pose_methods() {
   static const std::vector<Entry> all = {
+      {"blend_rows", 0, 0, blend_rows},
+      {"blend_clusters", 0, 0, blend_clusters},
+      {"blend_entries", 0, 0, blend_entries},
+      {"blend_positions", 0, 0, blend_vectors<&hf_blend_rows::positions>},
+      {"blend_normals", 0, 0, blend_vectors<&hf_blend_rows::normals>},
+      {"blend_offsets", 0, 0, blend_vectors<&hf_blend_rows::offsets>},
+      {"blend_centre", 0, 0, blend_centre},
+      {"blend_transforms", 0, 0, blend_transforms},
       {"pose_create", 0, 1, pose_create},
+      {"pose_solve", 0, 1, pose_solve},
       {"add_handles", 1, 4, add_handles},
       {"add_handles_at", 2, 5, add_handles_at},
       {"add_handle_at", 2, 2, add_handle_at},
