@@ -23,8 +23,8 @@ constexpr double lost_cosine = 0.3, lost_ratio = 0.25;
 // The confidence is a product of 1 / (1 + (x / limit)^2) over the faults; these limits halve it: a share of frames that
 // spike, acceleration beyond the source's, stretch, depth under the ground, gap, a share of lost limbs, height over the
 // ground where the source stands, and how uneven the rests are.
-constexpr double spikes_limit = 0.06, acceleration_limit = 1, stretch_limit = 0.7, sunk_limit = 0.02,
-                 gap_limit = 0.02, lost_limit = 0.25, hover_limit = 0.02, uneven_limit = 1;
+constexpr double spikes_limit = 0.06, acceleration_limit = 1, stretch_limit = 0.7, sunk_limit = 0.02, gap_limit = 0.02,
+                 lost_limit = 0.25, hover_limit = 0.05, uneven_limit = 1;
 // The same for degrees of limbs and trunk, boxes a second that standing soles slide, and a share of limbs without a
 // partner.
 constexpr double limbs_limit = 20, trunk_limit = 25, slide_limit = 0.5, unmatched_limit = 0.5;
@@ -32,7 +32,7 @@ constexpr double limbs_limit = 20, trunk_limit = 25, slide_limit = 0.5, unmatche
 constexpr double held_limit = 0.15;
 // Faults that a report names, one by one.
 constexpr double named_acceleration = 1.5, named_stretch = 0.4, named_sunk = 0.01, named_gap = 0.01, named_limbs = 10,
-                 named_trunk = 12, named_slide = 0.2, named_held = 0.02, named_hover = 0.01, named_uneven = 0.5;
+                 named_trunk = 12, named_slide = 0.2, named_held = 0.02, named_hover = 0.02, named_uneven = 0.5;
 
 using Frames = std::vector<std::vector<double>>;
 

@@ -196,6 +196,33 @@ double arms_of(const PoseFit& fit) {
   return count > 0 ? sum / count : -1;
 }
 
+// How good a motion is, of what its frames alone say.
+double confidence_in(const JointModels& models, const JointClip& joints) {
+  const StandingBody source{models.source, models.source_mesh, models.source_known},
+      target{models.target, models.target_mesh, models.target_known};
+  PlayedClip played;
+  played.source_frames = frames_of(models.source, models.source_mesh, joints.source);
+  played.target_frames = frames_of(models.target, models.target_mesh, joints.target);
+  ClipFaults faults = motion_faults(
+      {models.source_mesh, models.target_mesh, beside_flesh(source), beside_flesh(target), joints.scale}, played);
+  faults.hover = hover_of(source, target, joints.scale, played.source_frames, played.target_frames);
+  faults.slide = slide_of(source, target, joints.scale, joints.times, played.source_frames, played.target_frames);
+  return confidence_of(faults, played.target_frames.size());
+}
+
+// Legs point as those of the source. Where a body hovers so, its feet are also led on the scaled path, and the better
+// motion is taken.
+JointClip play_best(const JointModels& models, const Animation& clip, const std::vector<double>& times,
+                    JointOptions options) {
+  // In legs. Half of it is what a heel that lifts costs; double is seen from afar.
+  constexpr double hovers = 0.08;
+  JointClip joints = models.pair.play(clip, times, options);
+  if (!models.pair.two_legged() || !options.ground || !(joints.hover > hovers)) return joints;
+  options.foot_path = true;
+  JointClip led = models.pair.play(clip, times, options);
+  return confidence_in(models, led) > confidence_in(models, joints) ? led : joints;
+}
+
 // Says which meshes beside the skeleton stay behind, and how far the body leaves them.
 void measure_left_behind(const JointModels& models, const Model& written, const FlatMesh& mesh, PlayedClip& played,
                          RunReport& report) {
@@ -276,7 +303,7 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
   JointClip last;
   for (const Animation* clip : clips) {
     bar.begin("turning joints for \"" + clip->name + "\"");
-    JointClip joints = models.pair.play(*clip, times_of(*clip, command.rate), options);
+    JointClip joints = play_best(models, *clip, times_of(*clip, command.rate), options);
     std::optional<Animation> copied;
     if (joints.same && command.rate == 0) copied = copied_channels(models, *clip, joints);
     if (joints.same && command.rate == 0 && !copied) joints = models.pair.play(*clip, key_times(*clip), options);

@@ -79,8 +79,7 @@ struct SkeletonPair::Inside {
   Inside(const JointSide& s, const JointSide& t) : source(s, memory), target(t, memory) {
     if (!target.character) return;
     std::vector<uint8_t> body;
-    for (const hf_inner::JointKind kind : target.character->kinds)
-      body.push_back(kind != hf_inner::JointKind::helper);
+    for (const hf_inner::JointKind kind : target.character->kinds) body.push_back(kind != hf_inner::JointKind::helper);
     riders = find_riders(t.model, t.mesh, target.rest_of(), body);
   }
 
@@ -102,8 +101,6 @@ struct SkeletonPair::Inside {
     for (const BodyLimb& b : target.limbs) out += partner(b) != nullptr;
     return out;
   }
-  JointClip play(const Animation& clip, const std::vector<double>& times, const JointOptions& options,
-                 bool foot_path) const;
   const BodyLimb* partner(const BodyLimb& b) const {
     for (const BodyLimb& a : source.limbs)
       if (a.role == b.role && a.side == b.side && a.number == b.number) return &a;
@@ -190,17 +187,8 @@ glm::dvec3 take_travel(const SkeletonBody& body, const std::vector<double>& time
 
 JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& times,
                              const JointOptions& options) const {
-  // A body hovers if it is this high over the ground while the source stands, in legs. Half of it is what a heel that
-  // lifts costs; at double it is seen from afar.
-  constexpr double hovers = 0.08;
-  JointClip out = in_->play(clip, times, options, false);
-  if (!two_legged() || !(out.hover > hovers)) return out;
-  JointClip other = in_->play(clip, times, options, true);
-  return other.hover < 0.5 * out.hover ? other : out;
-}
-
-JointClip SkeletonPair::Inside::play(const Animation& clip, const std::vector<double>& times,
-                                     const JointOptions& options, bool foot_path) const {
+  const SkeletonBody &source = in_->source, &target = in_->target;
+  hf_inner::Memory& memory = in_->memory;
   JointClip out;
   out.times = times;
   for (const double time : times) out.source.push_back(sample(source.side.model, clip, time));
@@ -210,7 +198,7 @@ JointClip SkeletonPair::Inside::play(const Animation& clip, const std::vector<do
 
   hf_inner::RetargetOptions chosen;
   chosen.goals = options.ground;
-  chosen.foot_path = out.foot_path = foot_path;
+  chosen.foot_path = out.foot_path = options.foot_path;
   chosen.copy_same = options.scale == 0 && options.stride == 1;
   if (times.size() > 1 && options.ground)
     find_ground_velocity(source.retarget_side(), poses.data(), static_cast<std::uint32_t>(times.size()),
@@ -231,7 +219,7 @@ JointClip SkeletonPair::Inside::play(const Animation& clip, const std::vector<do
     retarget.frame(poses.data() + 10 * count * f, f == 0 ? 0 : times[f] - times[f - 1], trs.data());
     ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     out.target.push_back(pose_of(rest, trs));
-    place_riders(target.side.model, riders, out.target.back());
+    place_riders(target.side.model, in_->riders, out.target.back());
   }
   const hf_inner::RetargetReport& report = retarget.report();
   out.same = report.same_skeleton;

@@ -25,10 +25,11 @@ struct JointSide {
 };
 
 struct JointOptions {
-  bool in_place = false;  // the straight travel along the ground is taken out
-  bool ground = true;     // feet reach their places and nothing sinks
-  double stride = 1;      // times the ratio of leg lengths
-  double scale = 0;       // of travel; 0: found
+  bool in_place = false;   // the straight travel along the ground is taken out
+  bool ground = true;      // feet reach their places and nothing sinks
+  bool foot_path = false;  // feet take the scaled path of the source's; else legs point as the source's
+  double stride = 1;       // times the ratio of leg lengths
+  double scale = 0;        // of travel; 0: found
 };
 
 struct JointClip {
@@ -41,7 +42,7 @@ struct JointClip {
   std::vector<std::string> unmatched;  // joints of the source's body without a partner
   double drop = 0;                     // how far the hips sank so that feet reach, in units of the target
   double hover = 0;                    // see RetargetReport
-  bool foot_path = false;  // feet follow the scaled path of the source's: pointing legs alike would let the body hover
+  bool foot_path = false;              // as asked
   double frame_ms = 0;
   glm::dvec3 travel{0, 0, 0};  // of the target, that was taken out
   bool moves = false;          // the body moves at all in this clip

@@ -9,14 +9,19 @@
 namespace hf_inner {
 namespace {
 
+double smooth_step(double low, double high, double x) noexcept {
+  const double t = std::min(1.0, std::max(0.0, (x - low) / (high - low)));
+  return t * t * (3 - 2 * t);
+}
+
 // A sole that dips into the ground stays on it. One that goes as deep as a free one is high was put there: it sinks.
 double held_height(double height) noexcept {
-  return height < 0 ? height * soft_step(standing_height, free_height, -height) : height;
+  return height < 0 ? height * smooth_step(standing_height, free_height, -height) : height;
 }
 
 // How much a sole stands: it is low, and it is slow against the ground.
 double stands(const Retargeter& r, const FootPair& foot, double seconds) noexcept {
-  const double low = 1 - soft_step(standing_height, free_height, foot.height);
+  const double low = 1 - smooth_step(standing_height, free_height, foot.height);
   if (!foot.known || !(seconds > 0) || !r.options.lock_feet) return low;
   const double* g = r.options.ground_velocity;
   const Vec3 ground = r.source.level({g[0], g[1], g[2]});
@@ -24,8 +29,8 @@ double stands(const Retargeter& r, const FootPair& foot, double seconds) noexcep
       slowest_step(r.source, foot.source_was, foot.source_now, seconds * ground, low_share * r.source.leg_length) /
       (seconds * r.source.leg_length);
   const double of_ground = norm(ground) / r.source.leg_length;
-  return low * (1 - soft_step(std::max(standing_speed, standing_share * of_ground),
-                              std::max(free_speed, free_share * of_ground), speed));
+  return low * (1 - smooth_step(std::max(standing_speed, standing_share * of_ground),
+                                std::max(free_speed, free_share * of_ground), speed));
 }
 
 // The ankle over the ground, before heights: where its turns put it, or for legs that are not aligned where the foot
@@ -46,7 +51,7 @@ double follows_down(const Retargeter& r, FootPair& foot) {
   const double ankle = dot(turned_ankle(r, foot) - r.target.tip_place(leg.segments.tip, r.to), r.target.up);
   const double own = ankle + lowest(r.target, foot.target_now) - r.target.ground;
   const double lift = own - r.height_scale * r.source.leg_length * foot.height;
-  return 1 - soft_step(0, free_lift, lift / leg.length);
+  return 1 - smooth_step(0, free_lift, lift / leg.length);
 }
 
 // Reads where the leg is before it is bent, and how the sole of the source moves.
@@ -85,7 +90,7 @@ void aim_foot(const Retargeter& r, FootPair& foot, bool first, double seconds) {
   const double below = lowest(rig, foot.target_now) - dot(now, rig.up);  // of the sole from the ankle
   Vec3 goal = turned_ankle(r, foot);
   const double own = dot(goal, rig.up);
-  const double near = 1 - soft_step(near_height, far_height, foot.height);
+  const double near = 1 - smooth_step(near_height, far_height, foot.height);
   const double sole = rig.ground + r.height_scale * r.source.leg_length * foot.height - below;
   const double free = own + near * (r.options.foot_path ? sole - own : std::max(0.0, sole - own));
   const double height = foot.standing * sole + (1 - foot.standing) * free;
@@ -181,7 +186,7 @@ void Retargeter::measure_hover() {
     if (!leg.sole.empty()) own = std::min(own, lowest(target, points) - target.ground);
   }
   if (!(own < 1e300) || !(target.leg_length > 0) || by > standing_height * source.leg_length) return;
-  hover_sum += (sunk + std::max(0.0, own - height_scale * std::max(0.0, by))) / target.leg_length;
+  hover_sum += std::max(0.0, own - height_scale * std::max(0.0, by)) / target.leg_length;
   hover_frames += 1;
   report_.hover = hover_sum / hover_frames;
 }

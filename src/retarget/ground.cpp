@@ -94,7 +94,6 @@ void Retargeter::find_parts(const RetargetSide& s, const RetargetSide& t) {
     });
     if (chain.role != Role::leg || kept) continue;
     GroundPart leg(memory);
-    leg.leg = true;
     leg.root = root;
     const Chain* by = find_chain(s.character, Role::leg, chain.side, chain.number);
     add_part(*this, s, t, std::move(leg), by ? static_cast<Index>(s.character.chain_joints[by->first]) : -1, is_leg);
@@ -130,28 +129,13 @@ void Retargeter::find_parts(const RetargetSide& s, const RetargetSide& t) {
   }
 }
 
-// How high the body hovers on legs that no goal keeps on the ground, while the source stands.
-double Retargeter::height_of_legs() const {
-  double own = 1e300, by = 1e300;
-  for (const GroundPart& part : parts) {
-    if (!part.leg) continue;
-    for (const SkinPoint& p : part.target) own = std::min(own, target.height_of(p.at(to)));
-    for (const SkinPoint& p : part.source) by = std::min(by, source.height_of(p.at(from)));
-  }
-  if (!feet.empty() || !(own < 1e300) || !(by < 1e300)) return 0;
-  const double stands = 1 - soft_step(standing_height, free_height, by / source.leg_length);
-  return stands * std::min(std::max(0.0, own - height_scale * std::max(0.0, by)), most_drop * target.leg_length);
-}
-
 // A body that lies rises until its trunk is on the ground; an upright one brings its head along.
 void Retargeter::lift_trunk() {
   double lift = 0;
   for (const GroundPart& part : parts) {
     if (part.way == GroundPart::Way::lift) lift = std::max(lift, depth_of(*this, part, nullptr));
   }
-  sunk = lift > 0 ? 0 : height_of_legs();
-  if (!(lift > 0)) lift = -sunk;
-  if (lift == 0) return;
+  if (!(lift > 0)) return;
   mover_place = mover_place + lift * target.up;
   target.place(wanted, mover_place, to);
 }

@@ -218,25 +218,26 @@ void Matcher::add_limbs() {
   }
 }
 
-// Arms of some rigs hang on a row of bones of its own, beside the bones that carry the skin of the trunk. A bone of
-// that row turns as the nearest bone of the trunk.
+// Some rigs have two rows of bones along the trunk: one carries the skin, the other arms or head. A bone of the other
+// row turns as the nearest bone of the trunk. What leads to legs goes with the hips.
 void Matcher::add_second_trunk() {
-  Vector<Index> first(r.target.trunk, &memory);
-  first.insert(first.begin(), r.target.mover);
-  const auto distance = [&](Index a, Index b) { return norm(r.target.rest.place[at(a)] - r.target.rest.place[at(b)]); };
-  for (const Chain& chain : t.character.chains) {
-    if (chain.role != Role::arm && chain.role != Role::wing) continue;
-    Index j = r.target.carriers[at(static_cast<Index>(t.character.chain_joints[chain.first]))];
-    for (Index steps = 0; j >= 0 && j != r.target.mover && steps < r.target.count;
-         ++steps, j = r.target.carriers[at(j)]) {
-      const Role role = t.character.roles[at(j)];
-      if (r.wanted[at(j)] || (role != Role::spine && role != Role::neck)) continue;
-      const Index by = *std::min_element(first.begin(), first.end(),
-                                         [&](Index a, Index b) { return distance(a, j) < distance(b, j); });
-      const auto found =
-          std::find_if(r.follows.begin(), r.follows.end(), [&](const Follow& f) { return f.target == by; });
-      if (found != r.follows.end()) follow(j, found->a, found->b, found->share, {});
-    }
+  Vector<Index> trunk(r.target.trunk, &memory);
+  trunk.insert(trunk.begin(), r.target.mover);
+  Vector<std::uint8_t> to_legs(at(r.target.count), 0, &memory);
+  for (const RigLeg& leg : r.target.legs) {
+    Index j = leg.segments.joints[0];
+    for (Index steps = 0; j >= 0 && steps < r.target.count; ++steps, j = r.target.carriers[at(j)]) to_legs[at(j)] = 1;
+  }
+  for (const Index j : r.target.order) {
+    if (r.wanted[at(j)] || to_legs[at(j)] || t.character.roles[at(j)] != Role::spine ||
+        t.character.kinds[at(j)] != JointKind::body)
+      continue;
+    const auto distance = [&](Index a) { return norm(r.target.rest.place[at(a)] - r.target.rest.place[at(j)]); };
+    const Index by =
+        *std::min_element(trunk.begin(), trunk.end(), [&](Index a, Index b) { return distance(a) < distance(b); });
+    const auto found =
+        std::find_if(r.follows.begin(), r.follows.end(), [&](const Follow& f) { return f.target == by; });
+    if (found != r.follows.end()) follow(j, found->a, found->b, found->share, {});
   }
 }
 

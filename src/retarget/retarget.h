@@ -83,7 +83,7 @@ struct RetargetReport {
   double stride = 1;
   double deepest_drop = 0;  // how far the hips sank so that feet reach, in units of the target
   // How high the lowest sole is above the lowest sole of the source while that stands: the mean over these frames, in
-  // legs of the target, and how far the body sank to bring it down. Without goals it is 0.
+  // legs of the target. Without goals it is 0.
   double hover = 0;
 };
 

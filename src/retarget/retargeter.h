@@ -65,8 +65,7 @@ struct GroundPart {
   explicit GroundPart(Memory& memory)
       : arm(memory), source(&memory), target(&memory), below(&memory), places(&memory), bends(&memory) {}
   enum class Way { lift, pitch, bend } way = Way::lift;  // the body rises, the part turns up, the arm bends
-  bool leg = false;
-  Index root = -1;  // where it turns
+  Index root = -1;                                       // where it turns
   Segments arm;
   Vector<SkinPoint> source, target;
   Vector<Index> below;  // joints that follow and hang on the root
@@ -108,7 +107,6 @@ class Retargeter {
   void meet_goals(double seconds);                                            // feet.cpp
   void find_parts(const RetargetSide& source, const RetargetSide& target);    // ground.cpp
   void lift_trunk();                                                          // ground.cpp
-  double height_of_legs() const;                                              // ground.cpp
   void clear_ground();                                                        // ground.cpp
   void write_joints(double* target) const;                                    // frame.cpp
   void measure();                                                             // report.cpp
@@ -131,7 +129,6 @@ class Retargeter {
   Vec3 mover_place;
   Index root = -1;      // the topmost joint above the mover
   bool people = false;  // both stand upright: legs are aligned
-  double sunk = 0;      // in this frame, so that legs without a goal reach the ground
   double hover_sum = 0, hover_frames = 0;
   Vector<Vec3> points;  // of one sole
   RetargetReport report_;

@@ -1,6 +1,5 @@
 // Rotations and linear maps of joints. Rest frames come as columns of Vec3, so these few products are written by hand.
 #pragma once
-#include <algorithm>
 #include <cmath>
 
 #include "base/elementary.h"
@@ -99,12 +98,6 @@ inline Turn turn_of(const Linear& m) noexcept {
   Vec3 y = unit_vector(m.y - dot(m.y, x) * x);
   if (!(norm(y) > 0)) y = unit_vector(cross(std::fabs(x.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}, x));
   return turn_of_frame(x, y, cross(x, y));
-}
-
-// 0 below the first, 1 above the second, with level ends.
-inline double soft_step(double low, double high, double x) noexcept {
-  const double t = std::min(1.0, std::max(0.0, (x - low) / (high - low)));
-  return t * t * (3 - 2 * t);
 }
 
 }  // namespace hf_inner

@@ -88,7 +88,7 @@ TEST(TransferFaults, AHeldThingInTheGroundIsSaidAndCountsLessThanTheBody) {
 // A walker in the air, and one whose turns count from a stride, are broken.
 TEST(TransferFaults, ABodyThatFloatsOrRestsInAStrideIsSaidAndLowersTheConfidence) {
   ClipFaults good, high, uneven;
-  high.hover = 0.04;
+  high.hover = 0.06;
   uneven.uneven = 1;
   for (const auto& [faults, part] :
        {std::pair<const ClipFaults&, const char*>(high, "it floats"), {uneven, "--source-rest"}}) {

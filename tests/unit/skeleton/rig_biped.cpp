@@ -40,10 +40,11 @@ struct Builder {
       rig.add_block(last, {-0.17, y, -0.1}, {0.17, y + 0.36 / shape.spine, 0.11});
     }
     chest = last;
+    const int skin_chest = chest;
     if (convention == "rigify rows") second_row();
     const double top = hip + 0.5;
     if (has("neck")) {
-      last = rig.add(name("neck"), chest, {0, top, -0.01}, Role::neck);
+      last = rig.add(name("neck"), skin_chest, {0, top, -0.01}, Role::neck);
       rig.add_block(last, {-0.06, top, -0.06}, {0.06, top + 0.08, 0.05});
     }
     head = rig.add(name("head"), last, {0, top + 0.08, 0}, Role::head);
