@@ -15,6 +15,21 @@ const up = identity.with(13, 1);
 /** Seconds of FBX. */
 const TICKS = 46186158000;
 
+/** Readers of the text form go by the tabs of its lines. */
+function tabbed(text) {
+  let depth = 0;
+  return text
+    .split('\n')
+    .map((line) => {
+      const bare = line.trim();
+      if (bare === '}') --depth;
+      const out = '\t'.repeat(depth) + bare;
+      if (bare.endsWith('{')) ++depth;
+      return out;
+    })
+    .join('\n');
+}
+
 export function fbx() {
   const list = (name, numbers) => `${name}: *${numbers.length} {\n a: ${numbers.join(',')}\n }`;
   const share = (id, name, weights, matrix) => {
@@ -39,7 +54,7 @@ export function fbx() {
  ${list('KeyTime', [0, TICKS])}
  ${list('KeyValueFloat', values)}
 }`;
-  return `; FBX 7.4.0 project file
+  return tabbed(`; FBX 7.4.0 project file
 FBXHeaderExtension:  {
  FBXHeaderVersion: 1003
  FBXVersion: 7400
@@ -99,7 +114,7 @@ Connections:  {
  C: "OP",15,10, "d|Y"
  C: "OP",11,10, "d|Z"
 }
-`;
+`);
 }
 
 export function dae() {

@@ -80,11 +80,39 @@ const apart = (studio, name) =>
     return most / view.size;
   }, name);
 
+/** The horse with bumps of a tenth of an edge, as a file. */
+async function bumpy(studio) {
+  const obj = await studio.page.evaluate(() => {
+    const { body, opened, timeline } = window.hfStudio;
+    const { positions, triangles } = body;
+    const [a, b] = [0, 1].map((i) => positions.subarray(3 * triangles[i], 3 * triangles[i] + 3));
+    const edge = Math.hypot(...a.map((x, k) => x - b[k]));
+    const places = timeline.places();
+    const moved = positions.map((x, i) => {
+      const v = places[Math.floor(i / 3)];
+      return x + 0.1 * edge * Math.sin(12.9898 * v * v) * opened.normals[3 * v + (i % 3)];
+    });
+    const rows = (letter, list) => Array.from({ length: list.length / 3 }, (_, i) => `${letter} ${list.slice(3 * i, 3 * i + 3).join(' ')}`);
+    return [...rows('v', Array.from(moved)), ...rows('f', Array.from(triangles, (v) => v + 1))].join('\n');
+  });
+  await studio.page.setInputFiles('#file', { name: 'bumpy.obj', mimeType: 'text/plain', buffer: Buffer.from(obj) });
+  await studio.page.waitForFunction(() => window.hfStudio.body.name === 'bumpy.obj');
+  await studio.ready();
+}
+
 export default async function story(host) {
   const studio = await Studio.open(host);
   const { page } = studio;
   await studio.tool('detail');
   await studio.picture('detail_first');
+  await check('a smooth body says so and what to do; a rough one does not', async () => {
+    assert.match(await page.textContent('#smooth'), /take a body with detail/i);
+    const rough = await Studio.open(host);
+    await bumpy(rough);
+    await rough.tool('detail');
+    assert.equal(await rough.page.locator('#smooth').count(), 0);
+    await rough.close();
+  });
   await check('a loop drawn on the body makes a region', async () => {
     await lasso(studio, await loopAround(studio));
     await studio.settle();

@@ -1,11 +1,10 @@
 // Formats: FBX, DAE, STL and VRM are opened by loaders that no other visitor fetches, with their skins and clips; the shape is
 // saved in the format it came in, or as glb with a sentence.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { Studio, check, folder, passOver, require, shared } from './harness.mjs';
 import { bar, chunks, dae, fbx, stlBinary, stlText, vrm } from './make_foreign.mjs';
-import { existsSync } from 'node:fs';
 
 /** The body of the page: counts, joints, clips, and how far its top goes at the end of the clip. */
 const opened = () => {
@@ -40,7 +39,10 @@ export default async function story(host) {
     await page.setInputFiles('#file', { name, mimeType: 'application/octet-stream', buffer: Buffer.from(bytes) });
     await page.waitForFunction((name) => document.querySelector('#card[open]') || window.hfStudio.body.name === name, name, { timeout: 60000 });
     const card = await page.$eval('#card', (dialog) => (dialog.open ? dialog.textContent : ''));
-    if (card) throw new Error(card);
+    if (card) {
+      await page.keyboard.press('Escape');
+      throw new Error(card);
+    }
     await studio.ready();
   };
   const pull = async () => {

@@ -49,8 +49,22 @@ export default async function story(host) {
     return [canvas.x + middle[0], canvas.y + middle[1] - 20];
   };
   await studio.tool('quads');
+  await check('the size is a count: about so many quads come, and none of the bodies starts with edges wider than its thin parts', async () => {
+    const said = await page.textContent('label:has(#count)');
+    assert.match(said, /about [\d,]+$/);
+    const { count, edge } = await page.evaluate(() => window.hfStudio.tools.quads);
+    assert.ok(count >= 1500 && count <= 4000, `${count}`);
+    await page.click('#make');
+    await page.waitForFunction(() => window.hfStudio.tools.quads?.result && !window.hfStudio.tools.quads.busy);
+    const { faceCount } = await page.evaluate(() => window.hfStudio.tools.quads.result.info);
+    assert.ok(faceCount > 0.8 * count && faceCount < 1.2 * count, `${faceCount} of about ${count}`);
+    await studio.picture('quads_first');
+    await page.locator('#count').fill('9.9');
+    return `${faceCount} of about ${count}, edge ${edge.toFixed(4)}`;
+  });
   await check('quads are made and counted, and every face has four corners', async () => {
     await page.click('#make');
+    await page.waitForFunction(() => window.hfStudio.tools.quads?.busy);
     await page.waitForFunction(() => window.hfStudio.tools.quads?.result && !window.hfStudio.tools.quads.busy, null, { timeout: 60000 });
     await studio.settle();
     const facts = await studio.facts();
@@ -66,7 +80,7 @@ export default async function story(host) {
   });
   await check('the first form is shown while it is evened out; a cancel keeps what is shown, and the next run works', async () => {
     const before = await studio.facts();
-    await page.locator('#edge').fill('0.01');
+    await page.locator('#count').fill('13');
     await page.click('#make');
     await page.waitForSelector('#cancel');
     const count = () => page.evaluate(() => window.hfStudio.tools.quads.result.info.faceCount);
@@ -83,7 +97,7 @@ export default async function story(host) {
     await page.waitForTimeout(500);
     assert.equal(await count(), shown);
     assert.equal((await studio.facts()).quads, shown.toLocaleString('en'));
-    await page.locator('#edge').fill('0.03');
+    await page.locator('#count').fill('9');
     await page.click('#make');
     await page.waitForFunction(
       (old) => !document.querySelector('#cancel') && window.hfStudio.tools.quads?.result.info.faceCount !== old,
@@ -170,7 +184,7 @@ export default async function story(host) {
     await studio.tool('pose');
     await page.keyboard.press('Control+z');
     await studio.tool('quads');
-    await page.locator('#edge').fill('0.022');
+    await page.locator('#count').fill('9.9');
     await page.click('#make');
     await page.waitForFunction(() => !document.querySelector('#cancel'), null, { timeout: 60000 });
     const before = await seen();
@@ -321,7 +335,7 @@ export default async function story(host) {
     await page.setInputFiles('#file', { name: 'cube.obj', mimeType: 'text/plain', buffer: Buffer.from(cube(10)) });
     await page.waitForFunction(() => window.hfStudio.body.name === 'cube.obj' && window.hfStudio.skin.bvh);
     await studio.tool('quads');
-    await page.locator('#edge').fill('0.06');
+    await page.locator('#count').fill('9.1');
     await page.locator('#crease').fill('45');
     await page.click('#make');
     await page.waitForFunction(() => (window.hfStudio.tools.quads?.result && !window.hfStudio.tools.quads.busy) || window.hfStudio.tools.quads?.error, null, {

@@ -235,7 +235,7 @@ export default async function story(host) {
   await check('a link opens each tool as it was: mirror, quads, weights, another body with its dials', async () => {
     await page.selectOption('#mirror', '0');
     await studio.tool('quads');
-    await page.locator('#edge').fill('0.03');
+    await page.locator('#count').fill('9');
     await page.selectOption('#mirror', '0');
     await studio.tool('weights');
     await page.selectOption('#weight-count', '8');

@@ -229,6 +229,20 @@ export default async function story(host) {
       await posed.close();
     }
   });
+  await check('the clip plays at once when a source is taken, where motion is welcome; Stop shows the pairs', async () => {
+    const moving = await Studio.open(host, { reducedMotion: 'no-preference' });
+    try {
+      const { page } = moving;
+      await page.click('#tool-transfer');
+      await page.click('#take-bull');
+      await page.waitForFunction(() => window.hfStudio.tools.transfer?.playing && window.hfStudio.tools.transfer.time > 0);
+      assert.equal(await page.textContent('#transfer-play'), 'Pause');
+      await page.click('#transfer-stop');
+      await page.waitForFunction(() => document.querySelectorAll('.mark').length >= 12);
+    } finally {
+      await moving.close();
+    }
+  });
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();
 }

@@ -48,6 +48,33 @@ export default async function story(host) {
     assert.ok(await page.locator('#legend').isVisible());
     await studio.picture('weights_bone');
   });
+  await check('the bones are seen through the body; a click on one shows its weights, and the others are dim', async () => {
+    await page.selectOption('#bone', 'all');
+    const found = await page.evaluate(() => {
+      const { tools, view } = window.hfStudio;
+      const { drawn, bones } = tools.weights;
+      const box = document.getElementById('canvas').getBoundingClientRect();
+      const middles = drawn.segments.map(({ bone, from, to }) => {
+        const { x, y } = view.onScreen(from.clone().add(to).multiplyScalar(0.5));
+        return { bone, at: [x, y], name: bones.names[bone], found: drawn.under([x, y]) };
+      });
+      const clear = middles.find(({ bone, found, name }) => bone === found && /leg/.test(name));
+      return { seen: drawn.solid.visible && drawn.edges.visible, bones: new Set(middles.map(({ bone }) => bone)).size, clear, at: [box.x, box.y] };
+    });
+    assert.ok(found.seen);
+    assert.equal(found.bones, 38);
+    const { clear, at } = found;
+    await studio.picture('weights_bones');
+    await page.mouse.move(at[0] + clear.at[0], at[1] + clear.at[1]);
+    assert.equal(await page.textContent('#tip'), `bone ${clear.name}`);
+    await page.mouse.click(at[0] + clear.at[0], at[1] + clear.at[1]);
+    await studio.settle();
+    assert.equal(await page.inputValue('#bone'), String(clear.bone));
+    assert.ok(await page.locator('#legend').isVisible());
+    assert.equal(await page.evaluate(() => window.hfStudio.state.pins.length), 0);
+    await page.selectOption('#bone', { index: 5 });
+    return clear.name;
+  });
   await check(
     'a click pins a place to the bone that is shown, and the weights follow; undo takes it back',
     async () => {
@@ -60,9 +87,14 @@ export default async function story(host) {
             if (joints[i] === Number(shown)) sum += weights[i];
           return sum;
         }, vertex);
-      // the first place of the picture that the bone does not hold
+      // the first place of the picture that the bone does not hold, and where no bone lies under it
+      const bone = ([x, y]) =>
+        page.evaluate(([x, y]) => {
+          const box = document.getElementById('canvas').getBoundingClientRect();
+          return window.hfStudio.tools.weights.drawn.under([x - box.x, y - box.y]);
+        }, [x, y]);
       const free = async (list) => {
-        for (const spot of list) if ((await shares(spot[2])) < 0.1) return spot;
+        for (const spot of list) if ((await bone(spot)) < 0 && ((await shares(spot[2])) < 0.1) return spot;
         return list[0];
       };
       const spot = await free((await studio.spots()).slice(10));
@@ -169,6 +201,7 @@ export default async function story(host) {
   await check('the colours go when the tool is left', async () => {
     await studio.tool('pose');
     assert.equal(await page.evaluate(() => window.hfStudio.skin.cover.visible), false);
+    assert.equal(await page.evaluate(() => window.hfStudio.tools.weights.drawn.solid.visible), false);
   });
   await check('no error was written', async () => assert.deepEqual(studio.complaints, []));
   await studio.close();

@@ -12,6 +12,7 @@ const stories = [
   'detail',
   'transfer',
   'history',
+  'session',
   'save',
   'compressed',
   'formats',

@@ -54,11 +54,11 @@ export const tool = (kit) => {
     /** What a link keeps beside strokes and poles. */
     settings() {
       const { edge, crease, mirror } = this;
-      return { edge, crease, mirror, made: Boolean(this.result) };
+      return { edge, crease, mirror };
     }
-    async adopt({ edge, crease, mirror, made }) {
+    async adopt({ edge, crease, mirror }) {
       Object.assign(this, { edge, crease, mirror });
-      const result = made && (await this.app.session?.kept('quads'));
+      const result = await this.app.session?.kept('quads');
       if (!result) return;
       const { strokes, poles } = this.app.state;
       this.result = result;
