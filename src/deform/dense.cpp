@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/compiler.h"
 #include "deform/constants.h"
+#include "deform/dense_panels.h"
 
 namespace hf_inner {
 namespace {
@@ -32,77 +34,50 @@ void dot_four(const double* a, const double* b0, const double* b1, const double*
   for (int r = 0; r < 4; ++r) out[r] = s[r][0] + s[r][1];
 }
 
-// Solves L y = x in place (forward substitution), for four right-hand sides side by side.
-HF_FOUR_LANES
-void solve_lower(const double* lower, const double* inverse_pivot, std::int32_t size, double* x) noexcept {
-  for (std::int32_t i = 0; i < size; ++i) {
-    const double* row = lower + static_cast<std::size_t>(size) * static_cast<std::size_t>(i);
-    double sum[4][4] = {};
-    std::int32_t j = 0;
-    for (; j + 4 <= i; j += 4) {
-      for (int u = 0; u < 4; ++u) {
-        for (int k = 0; k < 4; ++k) sum[u][k] += row[j + u] * x[4 * (j + u) + k];
-      }
+// Copies L to the panels that the loops read.
+void pack(const double* lower, std::size_t size, double* rows, double* columns) noexcept {
+  constexpr std::size_t wide = DensePanels::wide;
+  const std::size_t panels = DensePanels::count(size);
+  std::fill(rows, rows + DensePanels::rows_at(panels), 0.0);
+  std::fill(columns, columns + DensePanels::rows_at(panels), 0.0);
+  for (std::size_t i = 0; i < size; ++i) {
+    double* const row = rows + DensePanels::rows_at(i / wide) + i % wide;
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::size_t p = j / wide;
+      row[wide * j] = lower[size * i + j];
+      columns[DensePanels::columns_at(p, panels) + wide * (i - wide * p) + j % wide] = lower[size * i + j];
     }
-    for (; j < i; ++j) {
-      for (int k = 0; k < 4; ++k) sum[0][k] += row[j] * x[4 * j + k];
-    }
-    double* xi = x + 4 * i;
-    for (int k = 0; k < 4; ++k)
-      xi[k] = (xi[k] - ((sum[0][k] + sum[1][k]) + (sum[2][k] + sum[3][k]))) * inverse_pivot[i];
   }
 }
 
-// Solves L' y = x in place (backward substitution). It takes the rows of L from the last one, two at a time.
-HF_FOUR_LANES
-void solve_upper(const double* lower, const double* inverse_pivot, std::int32_t size, double* x) noexcept {
-  std::int32_t i = size;
-  if (i % 2 == 1) {
-    --i;
-    const double* row = lower + static_cast<std::size_t>(size) * static_cast<std::size_t>(i);
-    double y[4];
-    for (int k = 0; k < 4; ++k) y[k] = x[4 * i + k] *= inverse_pivot[i];
-    for (std::int32_t j = 0; j < i; ++j) {
-      for (int k = 0; k < 4; ++k) x[4 * j + k] -= row[j] * y[k];
-    }
-  }
-  while (i > 0) {
-    i -= 2;
-    const double* first = lower + static_cast<std::size_t>(size) * static_cast<std::size_t>(i);
-    const double* second = first + size;
-    double y[4], z[4];
-    for (int k = 0; k < 4; ++k) {
-      z[k] = x[4 * i + 4 + k] *= inverse_pivot[i + 1];
-      y[k] = x[4 * i + k] = (x[4 * i + k] - second[i] * z[k]) * inverse_pivot[i];
-    }
-    for (std::int32_t j = 0; j < i; ++j) {
-      for (int k = 0; k < 4; ++k) x[4 * j + k] -= first[j] * y[k] + second[j] * z[k];
-    }
-  }
-}
+HF_VECTOR(Lanes, double, 4);  // compiled to two halves without AVX
+
+#include "deform/dense_loops.inl"
 
 }  // namespace
 
-void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& memory) {
-  inverse_pivot_.allocate(memory, static_cast<std::size_t>(size));
+void DenseFactor::factorise(Buffer<double>&& matrix, std::int32_t size, Memory& memory) {
+  const std::size_t stride = static_cast<std::size_t>(size);
+  Buffer<double> pivots(memory, stride), rows(memory, DensePanels::rows_at(DensePanels::count(stride))),
+      columns(memory, rows.size());
+  Buffer<double> lower = std::move(matrix);
+  inverse_pivot_ = std::move(pivots);
   std::fill(inverse_pivot_.begin(), inverse_pivot_.end(), 0.0);
-  lower_ = std::move(lower);
   size_ = size;
   dropped_ = 0;
-  const std::size_t stride = static_cast<std::size_t>(size);
   for (std::int32_t i = 0; i < size; ++i) {
-    double* row = lower_.data() + stride * static_cast<std::size_t>(i);
+    double* row = lower.data() + stride * static_cast<std::size_t>(i);
     const double diagonal = row[i];
     double square = 0;
     for (std::int32_t j = 0; j < i; j += 4) {
       // Four columns are computed at once up to their common part, then the small triangle between them.
-      const std::int32_t columns = std::min(4, i - j);
+      const std::int32_t count = std::min(4, i - j);
       const double* other[4];
       for (int c = 0; c < 4; ++c)
-        other[c] = lower_.data() + stride * static_cast<std::size_t>(j + std::min(c, columns - 1));
+        other[c] = lower.data() + stride * static_cast<std::size_t>(j + std::min(c, count - 1));
       double sums[4];
       dot_four(row, other[0], other[1], other[2], other[3], j, sums);
-      for (int c = 0; c < columns; ++c) {
+      for (int c = 0; c < count; ++c) {
         double sum = sums[c];
         for (int k = 0; k < c; ++k) sum += row[j + k] * other[c][j + k];
         row[j + c] = (row[j + c] - sum) * inverse_pivot_[j + c];
@@ -118,11 +93,25 @@ void DenseFactor::factorise(Buffer<double>&& lower, std::int32_t size, Memory& m
       std::fill(row, row + i, 0.0);
     }
   }
+  pack(lower.data(), stride, rows.data(), columns.data());
+  rows_ = std::move(rows);
+  columns_ = std::move(columns);
 }
 
-void DenseFactor::solve(double* x) const noexcept {
-  solve_lower(lower_.data(), inverse_pivot_.data(), size_, x);
-  solve_upper(lower_.data(), inverse_pivot_.data(), size_, x);
+void solve_dense(const DensePanels& factor, int sides, double* x) noexcept {
+  if (sides == 3) return solve_panels<Lanes, 1, 3>(factor, x);
+  solve_panels<Lanes, 1, 4>(factor, x);
+}
+
+void DenseFactor::solve_sides(int sides, double* x) const noexcept {
+  DenseLoop loop = &solve_dense;
+#ifdef HF_DEFORM_AVX2
+  if (HF_PROCESSOR_HAS("avx2")) loop = &solve_dense_avx2;
+#endif
+#ifdef HF_DEFORM_AVX512
+  if (HF_PROCESSOR_HAS("avx512f")) loop = &solve_dense_avx512;
+#endif
+  loop({static_cast<std::size_t>(size_), rows_.data(), columns_.data(), inverse_pivot_.data()}, sides, x);
 }
 
 }  // namespace hf_inner

@@ -1,9 +1,10 @@
-// Factors a dense symmetric positive semi-definite system once, and solves it for three right-hand sides many times.
+// Factors a dense symmetric positive semi-definite system once, and solves it for three or four right-hand sides many
+// times.
 //
 // The factorisation is a row-oriented Cholesky L L'. If a pivot falls below a fraction of its diagonal, the unknown
 // depends on earlier ones. This happens to clusters on a mesh too coarse to separate them. The unknown is set to zero,
 // and the result still minimises the same quadratic energy. Factoring costs size^3 / 6 multiply-adds, and a solve
-// size^2 per right-hand side. Solving allocates nothing.
+// size^2 per right-hand side. Solving allocates nothing. Every processor gets the same bits.
 //
 // It is written by hand instead of with Eigen's LLT. At size 480 a solve takes a quarter of the time, in every frame.
 // Eigen's LLT also cannot drop dependent unknowns.
@@ -17,18 +18,21 @@ namespace hf_inner {
 class DenseFactor {
  public:
   explicit DenseFactor(Memory&) noexcept {}
-  // Factors the matrix. lower: its lower triangle, row by row with leading dimension size; L overwrites it.
-  void factorise(Buffer<double>&& lower, std::int32_t size, Memory& memory);
-  // Solves in place. x[4 * unknown + k] holds right-hand side k < 3; the fourth number is only padding.
-  void solve(double* x) const noexcept;
+  // Factors the matrix: its lower triangle, row by row with leading dimension size. The buffer is used up.
+  void factorise(Buffer<double>&& matrix, std::int32_t size, Memory& memory);
+  // Solves in place. x[4 * unknown + k] holds right-hand side k < 3; the fourth number stays.
+  void solve(double* x) const noexcept { solve_sides(3, x); }
+  // The same for four right-hand sides.
+  void solve_four(double* x) const noexcept { solve_sides(4, x); }
   std::int32_t size() const noexcept { return size_; }
   std::int32_t dropped() const noexcept { return dropped_; }
 
  private:
   std::int32_t size_ = 0;
   std::int32_t dropped_ = 0;
-  Buffer<double> lower_;
-  Buffer<double> inverse_pivot_;  // 0 for dropped unknowns
+  void solve_sides(int sides, double* x) const noexcept;
+  Buffer<double> rows_, columns_;  // DensePanels
+  Buffer<double> inverse_pivot_;   // 0 for dropped unknowns
 };
 
 }  // namespace hf_inner

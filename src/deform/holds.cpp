@@ -91,7 +91,7 @@ class HoldsPreparation {
       std::fill(columns.begin(), columns.end(), 0.0);
       for (std::size_t k = 0; k < count; ++k)
         for_free_parts(first + k, [&](std::size_t row, double z) { columns[4 * row + k] += z; });
-      in_.subspace.factor.solve(columns.data());
+      in_.subspace.factor.solve_four(columns.data());
       for (std::size_t row = 0; row < size_; ++row) {
         for (std::size_t k = 0; k < count; ++k) out_.response[row * m + first + k] = columns[4 * row + k];
       }

@@ -211,7 +211,7 @@ void Translations::add_influences() {
     const std::size_t width = std::min<std::size_t>(4, count - c);
     std::fill(scratch_.begin(), scratch_.end(), 0.0);
     for (std::size_t k = 0; k < width; ++k) scratch_[4 * (c + k) + k] = 1;
-    factor_.solve(scratch_.data());
+    factor_.solve_four(scratch_.data());
     for (std::size_t k = 0; k < width; ++k)
       for (std::size_t d = 0; d < count; ++d) compliance_[(c + k) * count + d] = scratch_[4 * d + k];
   }
@@ -226,7 +226,7 @@ void Translations::fill_influences(std::size_t first, std::size_t last) noexcept
       for (std::int32_t i = row_start_[row + k]; i < row_start_[row + k + 1]; ++i)
         scratch_[4 * at(row_column_[at(i)]) + k] += row_weight_[at(i)];
     }
-    factor_.solve(scratch_.data());
+    factor_.solve_four(scratch_.data());
     for (std::size_t k = 0; k < width; ++k)
       for (std::size_t c = 0; c < count; ++c) influence_[(row + k) * count + c] = scratch_[4 * c + k];
   }

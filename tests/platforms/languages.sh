@@ -56,7 +56,7 @@ for name in factor/kernels_plain factor/kernels field/directions; do
   try "$name.cpp in MSVC mode" "$cxx" "${kernels[@]}" "$root/src/$name.cpp"
   try "$name.cpp in MSVC mode, plain" "$cxx" "${kernels[@]}" -DHF_PLAIN_COMPILER "$root/src/$name.cpp"
 done
-for name in factor/kernels_avx2 deform/blend_avx2 deform/normals_avx2 deform/rotation_avx2; do
+for name in factor/kernels_avx2 deform/blend_avx2 deform/dense_avx2 deform/normals_avx2 deform/rotation_avx2; do
   try "$name.cpp in MSVC mode" "$cxx" "${kernels[@]}" -mavx2 -mfma "$root/src/$name.cpp"
 done
 for name in factor/kernels_avx512 deform/blend_avx512 deform/rotation_avx512; do

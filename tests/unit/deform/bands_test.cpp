@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 #include "base/error.h"
 #include "cases.h"
 #include "deform/dense.h"
+#include "deform/dense_panels.h"
 #include "deform/groups.h"
 #include "support/dense.h"
 #include "support/eigen.h"
@@ -369,6 +371,64 @@ TEST(DenseFactor, SolvesLikeEigenAndDropsDependentUnknowns) {
     EXPECT_LT((a * solved - b).norm(), 1e-8 * (1 + b.norm()));
     if (rank == size) {
       EXPECT_LT((solved - hf_test::DenseSolver(a).solve(b)).norm(), 1e-6 * truth.norm());
+    }
+  }
+}
+
+// One row after the other, in four sums by column modulo 4, as the header of the loops says; then two rows at a time.
+void solve_by_rows(const std::vector<double>& l, const std::vector<double>& inverse, std::size_t size,
+                   std::size_t sides, double* x) {
+  for (std::size_t k = 0; k < sides; ++k) {
+    for (std::size_t i = 0; i < size; ++i) {
+      double sum[4] = {0, 0, 0, 0};
+      for (std::size_t j = 0; j < i; ++j) sum[j < i / 4 * 4 ? j % 4 : 0] += l[size * i + j] * x[4 * j + k];
+      x[4 * i + k] = (x[4 * i + k] - ((sum[0] + sum[1]) + (sum[2] + sum[3]))) * inverse[i];
+    }
+    std::size_t i = size;
+    if (i % 2 == 1) {
+      --i;
+      const double y = x[4 * i + k] *= inverse[i];
+      for (std::size_t j = 0; j < i; ++j) x[4 * j + k] -= l[size * i + j] * y;
+    }
+    while (i > 0) {
+      i -= 2;
+      const double z = x[4 * i + 4 + k] *= inverse[i + 1];
+      const double y = x[4 * i + k] = (x[4 * i + k] - l[size * (i + 1) + i] * z) * inverse[i];
+      for (std::size_t j = 0; j < i; ++j) x[4 * j + k] -= l[size * i + j] * y + l[size * (i + 1) + j] * z;
+    }
+  }
+}
+
+TEST(DenseFactor, SolvesHaveTheSameBitsOnAllLanes) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::vector<DenseLoop> loops{&solve_dense};
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (__builtin_cpu_supports("avx2")) loops.push_back(&solve_dense_avx2);
+  if (__builtin_cpu_supports("avx512f")) loops.push_back(&solve_dense_avx512);
+#endif
+  for (std::size_t size = 0; size < 70; ++size) {
+    std::vector<double> l(size * size), inverse(size), b(4 * size);
+    for (double& entry : l) entry = number(random);
+    for (double& entry : inverse) entry = 0.3 + number(random) * 0.1;
+    for (double& entry : b) entry = number(random);
+    if (size > 3) inverse[size / 2] = 0;  // a dropped unknown
+    const std::size_t panels = DensePanels::count(size);
+    std::vector<double> rows(DensePanels::rows_at(panels)), columns(rows.size());
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        rows[DensePanels::rows_at(i / 8) + 8 * j + i % 8] = l[size * i + j];
+        columns[DensePanels::columns_at(j / 8, panels) + 8 * (i - j / 8 * 8) + j % 8] = l[size * i + j];
+      }
+    }
+    for (const int sides : {3, 4}) {
+      std::vector<double> expected = b;
+      solve_by_rows(l, inverse, size, static_cast<std::size_t>(sides), expected.data());
+      for (const DenseLoop loop : loops) {
+        std::vector<double> x = b;
+        loop({size, rows.data(), columns.data(), inverse.data()}, sides, x.data());
+        EXPECT_EQ(std::memcmp(x.data(), expected.data(), 4 * size * sizeof(double)), 0) << size;
+      }
     }
   }
 }
