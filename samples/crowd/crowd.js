@@ -19,7 +19,10 @@ const positions = new Float32Array(body.attributes.position.array);
 const triangles = new Uint32Array(body.index.array);
 
 // ---- Workers: each makes the surface, and poses its share of the creatures
-const workers = Array.from({ length: Math.min(count, 4, navigator.hardwareConcurrency) }, () => new Worker('worker.js', { type: 'module' }));
+const workers = Array.from(
+  { length: Math.min(count, 4, navigator.hardwareConcurrency) },
+  () => new Worker('worker.js', { type: 'module' }),
+);
 const answer = (worker, question) =>
   new Promise((done, failed) => {
     worker.onmessage = ({ data }) => (data.error ? failed(new Error(data.error)) : done(data));
@@ -28,7 +31,9 @@ const answer = (worker, question) =>
   });
 const shareOf = (w) => Math.floor((w * count) / workers.length);
 const starts = await Promise.all(
-  workers.map((worker, w) => answer(worker, { positions, triangles, first: shareOf(w), count: shareOf(w + 1) - shareOf(w) })),
+  workers.map((worker, w) =>
+    answer(worker, { positions, triangles, first: shareOf(w), count: shareOf(w + 1) - shareOf(w) }),
+  ),
 );
 const { rows, clusterCount, centre } = starts[0];
 
@@ -48,7 +53,8 @@ const box = new THREE.Box3().setFromArray(rows.positions);
 const side = Math.ceil(Math.sqrt(count));
 const step = 1.1 * Math.max(box.max.x - box.min.x, box.max.z - box.min.z);
 const places = new Float32Array(3 * count);
-for (let i = 0; i < count; ++i) places.set([((i % side) - side / 2) * step, centre[1], (Math.floor(i / side) - side / 2) * step], 3 * i);
+for (let i = 0; i < count; ++i)
+  places.set([((i % side) - side / 2) * step, centre[1], (Math.floor(i / side) - side / 2) * step], 3 * i);
 geometry.setAttribute('hfPlace', new THREE.InstancedBufferAttribute(places, 3));
 
 const material = await makeMaterial({ rows, transforms, clusterCount, colours: Boolean(body.attributes.color) });
@@ -60,7 +66,10 @@ const scene = new THREE.Scene().add(crowd, new THREE.HemisphereLight('#ffffff', 
 const sun = new THREE.DirectionalLight('#fff3dd', 2);
 sun.position.set(3, 5, 2);
 scene.add(sun);
-const ground = new THREE.Mesh(new THREE.PlaneGeometry(400 * step, 400 * step), new THREE.MeshBasicMaterial({ color: '#b9c2b0' }));
+const ground = new THREE.Mesh(
+  new THREE.PlaneGeometry(400 * step, 400 * step),
+  new THREE.MeshBasicMaterial({ color: '#b9c2b0' }),
+);
 ground.rotation.x = -Math.PI / 2;
 scene.add(ground);
 scene.background = new THREE.Color('#dfe6ec');

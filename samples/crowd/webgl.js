@@ -34,7 +34,10 @@ export async function makeMaterial({ rows, transforms, clusterCount, colours }) 
   material.onBeforeCompile = (program) => {
     Object.assign(program.uniforms, uniforms);
     program.vertexShader = program.vertexShader
-      .replace('#include <common>', `#include <common>\n#define HF_NO_ENTRY\n${shader}\nin uvec2 hfRow;\nin vec3 hfPlace;`)
+      .replace(
+        '#include <common>',
+        `#include <common>\n#define HF_NO_ENTRY\n${shader}\nin uvec2 hfRow;\nin vec3 hfPlace;`,
+      )
       .replace(
         '#include <beginnormal_vertex>',
         `HfVertex hfRest;

@@ -16,7 +16,8 @@
 
 namespace {
 
-// Calls act(i, thread) for every character i, on all threads. An engine uses its own workers, as examples/jobs.cpp does.
+// Calls act(i, thread) for every character i, on all threads. An engine uses its own workers, as examples/jobs.cpp
+// does.
 template <class Act>
 void for_each_character(size_t count, unsigned threads, const Act& act) {
   std::atomic<size_t> next{0};

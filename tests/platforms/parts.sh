@@ -247,8 +247,10 @@ test_godot4() {
     if command -v xvfb-run >/dev/null; then
       LIBGL_ALWAYS_SOFTWARE=1 hf_godot4_case picture 'picture: ' xvfb-run -a -s '-screen 0 1024x600x24' "${run[@]}" none "$bindings/godot_picture.gd" \
         --rendering-driver opengl3 --audio-driver Dummy --resolution 1024x600
+      LIBGL_ALWAYS_SOFTWARE=1 hf_godot4_case blended 'blended: moved' xvfb-run -a -s '-screen 0 1024x600x24' "${run[@]}" none "$bindings/godot4_blended.gd" \
+        --rendering-driver opengl3 --audio-driver Dummy --resolution 800x500
     else
-      skipped=1
+      skipped=2
     fi
   } | tee "$log"
   printf 'godot4: %s passed, %s failed, %s skipped\n' "$(grep -c '^passed: ' "$log")" "$(grep -c '^failed: ' "$log")" "$skipped"

@@ -34,10 +34,19 @@ const server = http.createServer((request, response) => {
   const path = url.pathname === '/page.js' ? join(here, 'page.js') : join(roots[root] ?? folder, basename(name ?? ''));
   response.setHeader('content-type', path.endsWith('.js') ? 'text/javascript' : 'text/html');
   if (url.pathname === '/') response.end('<!doctype html><title>shaders</title>');
-  else createReadStream(path).on('error', () => response.writeHead(404).end()).pipe(response);
+  else
+    createReadStream(path)
+      .on('error', () => response.writeHead(404).end())
+      .pipe(response);
 });
 await new Promise((done) => server.listen(0, done));
-const args = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--enable-unsafe-webgpu'];
+const args = [
+  '--no-sandbox',
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+  '--ignore-gpu-blocklist',
+  '--enable-unsafe-webgpu',
+];
 const browser = await chromium.launch({ executablePath, args });
 try {
   const page = await browser.newPage();

@@ -14,7 +14,8 @@ function skip(why) {
   console.log(`skipped: ${why}`);
   process.exit(77);
 }
-for (const name of ['playwright-core', 'three']) if (!existsSync(join(modules, name))) skip(`the npm package ${name} is not here (HF_NODE_MODULES)`);
+for (const name of ['playwright-core', 'three'])
+  if (!existsSync(join(modules, name))) skip(`the npm package ${name} is not here (HF_NODE_MODULES)`);
 if (!existsSync(executablePath)) skip('no chromium here');
 if (!existsSync(join(wasm, 'hf.wasm'))) skip('hf.wasm is not built');
 if (!existsSync(creature)) skip('hf_make_assets made no creature');
@@ -25,7 +26,9 @@ mkdirSync(folder, { recursive: true });
 execFileSync(process.execPath, [join(root, 'samples/crowd/build.mjs'), join(folder, 'page')], {
   env: { ...process.env, HF_WASM: wasm, HF_MODULES: modules, HF_CREATURE: creature },
 });
-const server = spawn(process.execPath, [join(root, 'bindings/js/bin/hf-studio.mjs'), '0', join(folder, 'page')], { stdio: ['ignore', 'pipe', 'inherit'] });
+const server = spawn(process.execPath, [join(root, 'bindings/js/bin/hf-studio.mjs'), '0', join(folder, 'page')], {
+  stdio: ['ignore', 'pipe', 'inherit'],
+});
 const address = await new Promise((done) => server.stdout.on('data', (text) => done(/http\S+/.exec(text)[0])));
 const args = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
 args.push('--enable-unsafe-webgpu', '--enable-features=Vulkan', '--use-vulkan=swiftshader'); // a canvas of WebGPU, too
@@ -76,7 +79,11 @@ try {
       else
         for (const [i, time] of times.entries()) {
           const off = await page.evaluate(difference, [pictures['WebGL 2'][i], pictures.WebGPU[i]]);
-          check(`WebGPU and WebGL 2 draw the same picture at ${time} s`, off < 0.002, `${(100 * off).toFixed(3)} % of the pixels differ`);
+          check(
+            `WebGPU and WebGL 2 draw the same picture at ${time} s`,
+            off < 0.002,
+            `${(100 * off).toFixed(3)} % of the pixels differ`,
+          );
         }
     }
     await page.close();

@@ -35,7 +35,10 @@ export async function webgl() {
   const program = gl.createProgram();
   const vertex = `#version 300 es\nprecision highp float;\n${await text('hf_blend_textures.glsl')}`;
   const fragment = '#version 300 es\nvoid main() {}';
-  for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+  for (const [kind, source] of [
+    [gl.VERTEX_SHADER, vertex],
+    [gl.FRAGMENT_SHADER, fragment],
+  ]) {
     const shader = gl.createShader(kind);
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
@@ -61,7 +64,12 @@ export async function webgl() {
     texture(gl, 0, [gl.R16UI, gl.RED_INTEGER, gl.UNSIGNED_SHORT], set.clusters, 1, 1024);
     texture(gl, 1, [gl.RGBA32F, gl.RGBA, gl.FLOAT], entries, 4, 1000);
     texture(gl, 2, [gl.RGBA32F, gl.RGBA, gl.FLOAT], transformsOf(draw), 4, 96);
-    const attributes = { hf_position: set.positions, hf_normal: set.normals, hf_offset: set.offsets, hf_tangent: set.tangents };
+    const attributes = {
+      hf_position: set.positions,
+      hf_normal: set.normals,
+      hf_offset: set.offsets,
+      hf_tangent: set.tangents,
+    };
     for (const [name, data] of Object.entries({ ...attributes, hf_row: set.rows })) {
       const at = gl.getAttribLocation(program, name);
       gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());

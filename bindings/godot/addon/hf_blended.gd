@@ -26,10 +26,12 @@ var transforms = ImageTexture.new()
 func bind(with, shader = null):
 	surface = with
 	rest = mesh.surface_get_arrays(0)
-	material_override = ShaderMaterial.new()
-	material_override.shader = shader if shader else Shader.new()
 	if shader == null:
-		material_override.shader.code = SHADER
+		shader = Shader.new()
+		shader.code = SHADER # before a material has it
+	var made = ShaderMaterial.new()
+	made.shader = shader
+	material_override = made
 	custom_aabb = mesh.get_aabb().grow(mesh.get_aabb().size.length())
 	return update()
 
