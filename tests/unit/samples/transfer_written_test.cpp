@@ -391,7 +391,8 @@ TEST(TransferWritten, ACalmIdleStaysCalm) {
                      said),
             0)
       << said;
-  EXPECT_LT(read_json(report)["clips"][0]["faults"]["acceleration"].get<double>(), 1.3);  // about 1; twice that before
+  // Keys that are left out may add 3 %; without that bound they add more.
+  EXPECT_LT(read_json(report)["clips"][0]["faults"]["acceleration"].get<double>(), 1.03);
 }
 
 // Computed frames keep their feet on the ground; those of the file sank by .03.
