@@ -755,6 +755,33 @@ struct BlendRows {
   uint32_t longest_row = 0;
 };
 
+// Receives a blend as rows of one length, as vertex buffers of engines have them (JOINTS_0 and WEIGHTS_0 of glTF). The
+// arrays are yours; each may be none. Rows hold the heaviest entries of a vertex, by falling weight. Unused entries
+// have weight 0.
+//
+// The errors say what shorter rows and rounded weights cost. A vertex is off by at most the change of its weights times
+// the largest distance between the places to which its clusters move it.
+struct BlendInfluences {
+  // `[vertex_capacity x influence_count]` each below the count of clusters
+  std::vector<uint16_t> clusters;
+  // `[vertex_capacity x influence_count]` 65535ths; the weights of a vertex sum to 65535
+  std::vector<uint16_t> weights;
+  // `[vertex_capacity x influence_count]` none = not wanted. Refused for more than 256 clusters
+  std::vector<uint8_t> byte_clusters;
+  // `[vertex_capacity x influence_count]` none = not wanted. 255ths, of sum 255; weights that round to 0 are left out
+  std::vector<uint8_t> byte_weights;
+  // the largest change of a vertex's weights, 0 to 1: half the sum of the differences
+  double change = 0;
+  // the same for byte_weights
+  double byte_change = 0;
+  // the largest distance of a vertex from its place in the last frame, in box diagonals
+  double error = 0;
+  // the same for byte_weights
+  double byte_error = 0;
+  // entries of a row, 1 to 64; 0 = 8
+  uint32_t influence_count = 0;
+};
+
 // Quads::mesh writes the quad mesh to these arrays. They are yours: each is none or as large as its capacity.
 struct QuadsMesh {
   // `[vertex_capacity x 3]` in the unit and frame of the mesh as given
@@ -2402,6 +2429,46 @@ class Pose {
     found.normals.resize(c.product({"vertex_capacity", "3"}));
     found.offsets.resize(c.product({"vertex_capacity", "3"}));
     found.longest_row = rows.longest_row;
+    return found;
+  }
+
+  // Writes rows of one length. They change with `revision`, as those of Pose::blend_rows. Call it without arrays for
+  // the count and the errors.
+  //
+  // influence_count: entries of a row, 1 to 64; 0 = 8
+  // byte_clusters: `[vertex_capacity x influence_count]` none = not wanted. Refused for more than 256 clusters
+  // byte_weights: `[vertex_capacity x influence_count]` none = not wanted. 255ths, of sum 255; weights that round to 0
+  // are left out
+  //
+  // Fails with HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+  BlendInfluences blend_influences(uint32_t influence_count = 0, bool want_byte_clusters = false,
+      bool want_byte_weights = false) const {
+    Call c(counts_);
+    auto influences = make<hf_blend_influences>();
+    influences.influence_count = influence_count;
+    c.known("influence_count", influence_count ? influence_count : 8);
+    c.sizes["vertex_capacity"] = c.count("vertex_count", Call::kFirst);
+    BlendInfluences found;
+    for (bool done = false; !done;) {
+      influences.vertex_capacity = c.count("vertex_capacity", 0);
+      influences.clusters = c.room(found.clusters, {"vertex_capacity", "influence_count"});
+      influences.weights = c.room(found.weights, {"vertex_capacity", "influence_count"});
+      influences.byte_clusters = want_byte_clusters ? c.room(found.byte_clusters, {"vertex_capacity",
+          "influence_count"}) : nullptr;
+      influences.byte_weights = want_byte_weights ? c.room(found.byte_weights, {"vertex_capacity",
+          "influence_count"}) : nullptr;
+      const hf_result code = hf_pose_get_blend_influences(get(), &influences);
+      done = c.enough(code, {{"vertex_capacity", influences.vertex_count}});
+    }
+    found.clusters.resize(c.product({"vertex_capacity", "influence_count"}));
+    found.weights.resize(c.product({"vertex_capacity", "influence_count"}));
+    if (want_byte_clusters) found.byte_clusters.resize(c.product({"vertex_capacity", "influence_count"}));
+    if (want_byte_weights) found.byte_weights.resize(c.product({"vertex_capacity", "influence_count"}));
+    found.change = influences.change;
+    found.byte_change = influences.byte_change;
+    found.error = influences.error;
+    found.byte_error = influences.byte_error;
+    found.influence_count = influences.influence_count;
     return found;
   }
 

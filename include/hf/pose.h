@@ -320,7 +320,9 @@ typedef struct hf_skin_info {
  * classic bends, twists and lifts replay within 0.5 per cent of the box. Without scales, bends and twists replay within
  * 1 per cent and stretched surfaces within about 2.5 per cent. Errors: HF_ERROR_INVALID_ARGUMENT (influence_count),
  * HF_ERROR_EMPTY (no handle), HF_ERROR_UNSUPPORTED (handles on higher layers: their surface is not a blend of
- * clusters). Thread safety: reads `pose`. Since 0.1. */
+ * clusters). Thread safety: reads `pose`. Since 0.1.
+ *
+ * The function is for authoring, not for frames of a game: each call fits the joints over all vertices. */
 HF_API hf_result hf_pose_get_skin(hf_pose pose, hf_skin_info* inout_skin);
 
 /* ---- on a GPU ----
@@ -345,6 +347,8 @@ typedef struct hf_blend_info {
   double offset_share;    /* 0 to 1: share of its offset that a vertex gets. 0 unless handles were added in place or
                              rotations freed; it falls as handles move */
   double centre[3];       /* in the unit and frame of the mesh; positions are relative to this point */
+  double low[3];          /* of a box that holds all vertices of the frame, for culling; relative to centre */
+  double high[3];         /* the other corner. It may be larger than needed: see docs/renderer.md */
 } hf_blend_info;
 
 /* Writes the info of a blend. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_UNSUPPORTED (higher layers, rigid pieces or
@@ -373,6 +377,33 @@ typedef struct hf_blend_rows {
  * arrays. If handles do not reach some vertices, a last cluster that never moves holds those vertices. Errors: as
  * hf_pose_get_blend_info, HF_ERROR_TOO_LARGE (too many entries). Thread safety: reads `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_blend_rows(hf_pose pose, hf_blend_rows* inout_rows);
+
+/* Receives a blend as rows of one length, as vertex buffers of engines have them (JOINTS_0 and WEIGHTS_0 of glTF).
+ * The arrays are yours; each may be NULL. Rows hold the heaviest entries of a vertex, by falling weight. Unused entries
+ * have weight 0.
+ *
+ * The errors say what shorter rows and rounded weights cost. A vertex is off by at most the change of its weights times
+ * the largest distance between the places to which its clusters move it. */
+typedef struct hf_blend_influences {
+  uint32_t struct_size;
+  uint32_t vertex_capacity; /* in: vertices the arrays can take */
+  uint32_t influence_count; /* in: entries of a row, 1 to 64; 0 = 8 */
+  uint32_t vertex_count;    /* out: as given to the surface */
+  double change;            /* out: the largest change of a vertex's weights, 0 to 1: half the sum of the differences */
+  double byte_change;       /* out: the same for byte_weights */
+  double error;             /* out: the largest distance of a vertex from its place in the last frame, in box diagonals */
+  double byte_error;        /* out: the same for byte_weights */
+  uint16_t* clusters;       /* [vertex_capacity][influence_count] each below the count of clusters */
+  uint16_t* weights;        /* [vertex_capacity][influence_count] 65535ths; the weights of a vertex sum to 65535 */
+  uint8_t* byte_clusters;   /* [vertex_capacity][influence_count] NULL = not wanted. Refused for more than 256 clusters */
+  uint8_t* byte_weights;    /* [vertex_capacity][influence_count] NULL = not wanted. 255ths, of sum 255; weights that
+                               round to 0 are left out */
+} hf_blend_influences;
+
+/* Writes rows of one length. They change with `revision`, as those of hf_pose_get_blend_rows. Call it without arrays
+ * for the count and the errors. Errors: as hf_pose_get_blend_info, HF_ERROR_INVALID_ARGUMENT (influence_count),
+ * HF_ERROR_TOO_LARGE (byte_clusters). Thread safety: reads `pose`. Since 0.1. */
+HF_API hf_result hf_pose_get_blend_influences(hf_pose pose, hf_blend_influences* inout_influences);
 
 /* Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
  * hf_pose_deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as

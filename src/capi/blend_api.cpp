@@ -5,6 +5,7 @@
 #include "capi/boundary.h"
 #include "capi/pose_object.h"
 #include "capi/vertex_writer.h"
+#include "deform/fixed_row.h"
 #include "deform/graded_rows.h"
 
 namespace hf_inner::capi {
@@ -106,12 +107,85 @@ void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
   }
 }
 
+// One of the two widths of weights: how far its rows are off.
+struct Rounding {
+  std::uint32_t total;
+  double change = 0, error = 0;
+  FixedRow row;
+};
+
+// Makes the row of an inner vertex and takes its errors. A vertex without clusters has one of weight 1.
+void round_row(const Pose& pose, std::int32_t inner, std::uint32_t count, Rounding& out) {
+  static constexpr float whole = 1;
+  const ClusterWeights& weights = *pose.weights();
+  const auto still = static_cast<std::uint16_t>(blend_clusters(pose) - 1);
+  const std::int32_t first = inner == Mesh::none ? 0 : weights.start[inner],
+                     last = inner == Mesh::none ? 0 : weights.start[inner + 1];
+  if (first == last) {
+    fix_row({&still, 1}, {&whole, 1}, count, out.total, out.row);
+    return;
+  }
+  const std::size_t length = static_cast<std::size_t>(last - first);
+  const double change = fix_row({weights.cluster.data() + first, length}, {weights.weight.data() + first, length},
+                                count, out.total, out.row);
+  out.change = std::max(out.change, change);
+  if (!pose.posed()) return;
+  const Vec3 p = pose.core().mesh.positions[inner];
+  const Affine* const transforms = pose.cluster_transforms().data();
+  Vec3 place;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto& a = transforms[out.row.cluster[i]].a;
+    const double share = out.row.units[i] / static_cast<double>(out.total);
+    place = place + share * Vec3{a[0][0] * p.x + a[0][1] * p.y + a[0][2] * p.z + a[0][3],
+                                 a[1][0] * p.x + a[1][1] * p.y + a[1][2] * p.z + a[1][3],
+                                 a[2][0] * p.x + a[2][1] * p.y + a[2][2] * p.z + a[2][3]};
+  }
+  out.error = std::max(out.error, norm(place - blend_vertex(pose.core().mesh, weights, transforms, inner)));
+}
+
+template <class Number, class Value>
+void put_row(std::uint32_t count, const Value* values, std::size_t vertex, Number* out) noexcept {
+  for (std::uint32_t i = 0; i < count && out; ++i) out[vertex * count + i] = static_cast<Number>(values[i]);
+}
+
+void write_blend_influences(const Pose& pose, hf_blend_influences* inout) {
+  constexpr std::uint32_t standard = 8, byte_clusters = 256;
+  hf_blend_influences out = read_struct(inout, "inout_influences");
+  const Mesh& mesh = pose.core().mesh;
+  const std::uint32_t count = count_of(out.influence_count, standard, 1, most_influences, "influence_count");
+  if (out.byte_clusters && blend_clusters(pose) > byte_clusters)
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the blend has %u clusters and a byte counts %u; take clusters of 16 bits",
+         blend_clusters(pose), byte_clusters);
+  out.influence_count = count;
+  out.vertex_count = mesh.report.vertex_count;
+  write_struct(inout, out);
+  check_capacity(out.clusters || out.weights || out.byte_clusters || out.byte_weights, out.vertex_capacity,
+                 out.vertex_count, "vertex_capacity");
+  Rounding wide{0xffff, 0, 0, {}}, narrow{0xff, 0, 0, {}};
+  visit_given(mesh, [&](std::size_t v, std::int32_t inner) {
+    round_row(pose, inner, count, wide);
+    round_row(pose, inner, count, narrow);
+    put_row(count, wide.row.cluster, v, out.clusters);
+    put_row(count, wide.row.units, v, out.weights);
+    put_row(count, narrow.row.cluster, v, out.byte_clusters);
+    put_row(count, narrow.row.units, v, out.byte_weights);
+  });
+  out.change = wide.change;
+  out.error = wide.error;
+  out.byte_change = narrow.change;
+  out.byte_error = narrow.error;
+  write_struct(inout, out);
+}
+
 hf_blend_info blend_info(const Pose& pose) noexcept {
   hf_blend_info info{};
   info.cluster_count = blend_clusters(pose);
   info.revision = pose.blend_revision();
   info.offset_share = pose.crossfade_share();
   put(pose.core().mesh.centre, info.centre);
+  const BlendBox box = pose.blend_box();
+  put(box.low, info.low);
+  put(box.high, info.high);
   return info;
 }
 
@@ -151,6 +225,15 @@ hf_result hf_pose_get_blend_rows(hf_pose handle, hf_blend_rows* inout_rows) {
     check_struct(inout_rows, "inout_rows");
     const Reading reading(*pose);
     write_blend_rows(blended_pose(*pose->pose), inout_rows);
+  });
+}
+
+hf_result hf_pose_get_blend_influences(hf_pose handle, hf_blend_influences* inout_influences) {
+  return guarded("hf_pose_get_blend_influences", [&] {
+    const auto pose = get<PoseObject>(handle, "pose");
+    check_struct(inout_influences, "inout_influences");
+    const Reading reading(*pose);
+    write_blend_influences(blended_pose(*pose->pose), inout_influences);
   });
 }
 

@@ -16,6 +16,7 @@ namespace hf_inner {
 struct Crossfade {
   Crossfade(std::size_t vertices, Memory& memory) : offset(memory, 3 * vertices), placed(&memory) {}
   Buffer<float> offset;        // three per vertex, in the unit of the mesh as given
+  Vec3 low, high;              // a box that holds all offsets and 0
   Vector<RigidMotion> placed;  // the handles then: rotation, and move of the centroid in box diagonals
   double from_rest = 0;        // the largest way of a handle from rest then; 0: rest does not count
 };

@@ -263,6 +263,7 @@ std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) co
   bands.band_count = static_cast<std::int32_t>(options_.band_count);
   layout->weights = make_cluster_weights(*core_, *rest_, layout->reach, layout->fields, bands, memory());
   list_blocks(layout->weights, *core_->jobs);
+  layout->boxes = cluster_boxes(core_->mesh, layout->weights, memory());
   if (options_.scheme) {
     layout->rigid = options_.scheme->prepare(*core_, layout->weights, memory());
   } else {

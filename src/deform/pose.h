@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "deform/blend_box.h"
 #include "deform/crossfade.h"
 #include "deform/limbs.h"
 #include "deform/normals.h"
@@ -130,6 +131,9 @@ class Pose {
   // The surface of the last frame is the blend of clusters plus this share of crossfade().offset. Needs a handle.
   double crossfade_share() const noexcept { return state_->crossfade ? state_->share : 0; }
   const Crossfade* crossfade() const noexcept { return state_->crossfade.get(); }
+  // A box that holds the surface of that blend, isolated vertices included. Relative to the mesh's centre, in the unit
+  // of the mesh as given. Needs a handle.
+  BlendBox blend_box() const noexcept;
   // Counts the changes of weights and offsets.
   std::uint32_t blend_revision() const noexcept { return blend_revision_; }
 

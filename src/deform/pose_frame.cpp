@@ -239,6 +239,15 @@ Vec3 Pose::blended(std::int32_t vertex) const noexcept {
   return p + share * Vec3{d[0], d[1], d[2]};
 }
 
+BlendBox Pose::blend_box() const noexcept {
+  BlendBox box =
+      blended_box(core_->mesh, layout_->weights, layout_->boxes, posed_ ? state_->transforms.data() : nullptr);
+  const double scale = core_->mesh.scale, share = crossfade_share();
+  box = {scale * box.low, scale * box.high};
+  if (share > 0) box = {box.low + share * state_->crossfade->low, box.high + share * state_->crossfade->high};
+  return box;
+}
+
 // Vertices and normals from the transforms.
 void Pose::write_surface(const DeformRequest& request, DeformReport& report) {
   const Mesh& mesh = core_->mesh;

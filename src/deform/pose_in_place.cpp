@@ -70,6 +70,10 @@ void Pose::keep_in_place(const Layout& layout, State& state, bool fades_at_rest)
     offset[0] = static_cast<float>(d.x);
     offset[1] = static_cast<float>(d.y);
     offset[2] = static_cast<float>(d.z);
+    const Vec3 rounded{offset[0], offset[1], offset[2]};
+    Vec3 &low = crossfade->low, &high = crossfade->high;
+    low = {std::min(low.x, rounded.x), std::min(low.y, rounded.y), std::min(low.z, rounded.z)};
+    high = {std::max(high.x, rounded.x), std::max(high.y, rounded.y), std::max(high.z, rounded.z)};
   }
   state.crossfade = std::move(crossfade);
   state.share = 1;

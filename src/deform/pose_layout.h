@@ -10,12 +10,14 @@ struct Pose::Layout {
         sites(std::move(solver)),
         reach(core.mesh, handles, memory),
         fields(0, 0, memory),
-        weights(memory) {}
+        weights(memory),
+        boxes(&memory) {}
   Handles handles;
   std::shared_ptr<SiteSolver> sites;
   Reach reach;
   HandleFields fields;
   ClusterWeights weights;
+  Vector<BlendBox> boxes;  // of the clusters at rest
   std::shared_ptr<const Groups> groups;
   std::shared_ptr<const SmoothSystem> smooth;       // null: with a scheme
   std::shared_ptr<const PoseScheme::System> rigid;  // null: without one

@@ -63,6 +63,22 @@ static hf_blend_info frame_of(hf_pose pose, float* transforms, uint32_t capacity
   return info;
 }
 
+/* The box holds the vertices. Returns how many times its diagonal is longer than needed. */
+static double too_large(const hf_blend_info* info, const float* shaded, uint32_t vertices) {
+  double needed = 0, given = 0;
+  for (size_t c = 0; c < 3; ++c) {
+    double low = 1e30, high = -1e30;
+    for (size_t v = 0; v < vertices; ++v) {
+      low = fmin(low, (double)shaded[3 * v + c]);
+      high = fmax(high, (double)shaded[3 * v + c]);
+    }
+    assert_true(info->low[c] <= low && high <= info->high[c]);
+    needed += (high - low) * (high - low);
+    given += (info->high[c] - info->low[c]) * (info->high[c] - info->low[c]);
+  }
+  return sqrt(given / needed);
+}
+
 /* A frame of two poses that are alike, one by a shader. Returns how far the vertices are apart. */
 static double off(hf_pose pose, hf_pose twin, const Blend* b) {
   static float transforms[12 * 4096], shaded[3 * ALL];
@@ -71,6 +87,7 @@ static double off(hf_pose pose, hf_pose twin, const Blend* b) {
   const hf_blend_info info = frame_of(pose, transforms, 4096);
   assert_int_equal(info.revision, b->info.revision);
   shade(b, &info, transforms, shaded);
+  assert_true(too_large(&info, shaded, b->rows.vertex_count) < 1.1); /* a small mesh: the box of its vertices */
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
   desc.positions = HF_ARRAY_OUT(exact, b->rows.vertex_count);
   assert_ok(hf_pose_deform(twin, &desc, NULL));
@@ -159,6 +176,116 @@ static void a_shader_has_the_vertices_of_hf_deform(void** state) {
   }
 }
 
+/* A frame by rows of one length. Returns the largest change of a vertex's weights and the largest distance of a vertex
+ * from its place; no vertex may go farther than its change allows. */
+static void brute(const Blend* b, const float* transforms, uint32_t count, uint32_t total, const uint32_t* clusters,
+                  const uint32_t* weights, double* change, double* error) {
+  *change = *error = 0;
+  for (size_t v = 0; v < b->rows.vertex_count; ++v) {
+    static double places[4096][3], differences[4096];
+    const float* p = b->rows.positions + 3 * v;
+    uint32_t used[64 + 256], uses = 0, sum = 0;
+    double half = 0, away[3] = {0, 0, 0}, spread = 0, far = 0;
+    for (int known = 0; known < 2; ++known) {
+      const uint32_t length = known ? count : b->rows.rows[2 * v + 1], first = b->rows.rows[2 * v];
+      for (uint32_t e = 0; e < length; ++e) {
+        const uint32_t c = known ? clusters[count * v + e] : b->rows.clusters[first + e];
+        const double w = known ? weights[count * v + e] / (double)total : (double)b->rows.weights[first + e];
+        uint32_t at = 0;
+        while (at < uses && used[at] != c) ++at;
+        if (at == uses) {
+          used[uses++] = c;
+          differences[at] = 0;
+          const float* a = transforms + 12 * (size_t)c;
+          for (int i = 0; i < 3; ++i)
+            places[at][i] = (double)a[4 * i] * (double)p[0] + (double)a[4 * i + 1] * (double)p[1] +
+                            (double)a[4 * i + 2] * (double)p[2] + (double)a[4 * i + 3];
+        }
+        differences[at] += known ? w : -w;
+        if (known) {
+          assert_true(e == 0 || weights[count * v + e] <= weights[count * v + e - 1]);
+          sum += weights[count * v + e];
+        }
+      }
+    }
+    assert_int_equal(sum, total);
+    for (uint32_t i = 0; i < uses; ++i) {
+      half += 0.5 * fabs(differences[i]);
+      for (int k = 0; k < 3; ++k) away[k] += differences[i] * places[i][k];
+      for (uint32_t j = 0; j < i; ++j)
+        spread = fmax(spread, hypot(hypot(places[i][0] - places[j][0], places[i][1] - places[j][1]),
+                                    places[i][2] - places[j][2]));
+    }
+    far = hypot(hypot(away[0], away[1]), away[2]);
+    assert_true(far <= half * spread + 1e-9);
+    *change = fmax(*change, half);
+    *error = fmax(*error, far);
+  }
+}
+
+static void rows_of_one_length_are_off_by_what_they_say(void** state) {
+  (void)state;
+  hf_surface surface = whole_surface(0);
+  hf_surface_report box = HF_INIT(hf_surface_report);
+  uint32_t handles[2], middle;
+  hf_pose pose = tube_pose(surface, AROUND, RINGS, handles);
+  hf_handles_desc desc = HF_INIT(hf_handles_desc);
+  const uint32_t size = 3, region[3] = {15 * AROUND, 15 * AROUND + 1, 15 * AROUND + 2};
+  desc.handle_count = 1;
+  desc.region_counts = &size;
+  desc.region_vertices = region;
+  assert_ok(hf_pose_add_handles(pose, &desc, &middle));
+  const hf_transform to = drag(2.1);
+  assert_ok(hf_pose_set_transform(pose, handles[1], &to));
+  assert_ok(hf_pose_solve(pose, 0, 0, NULL));
+  assert_ok(hf_surface_get_report(surface, &box));
+  Blend b = blend_of(pose);
+  static float transforms[12 * 4096];
+  frame_of(pose, transforms, 4096);
+  double before = 2;
+  for (uint32_t count = 1; count <= 64; count = count < 4 ? count + 1 : 4 * count) {
+    hf_blend_influences rows_of = HF_INIT(hf_blend_influences);
+    rows_of.influence_count = count;
+    assert_ok(hf_pose_get_blend_influences(pose, &rows_of)); /* the errors, without arrays */
+    const double change = rows_of.change, error = rows_of.error;
+    assert_int_equal(rows_of.vertex_count, ALL);
+    rows_of.vertex_capacity = ALL;
+    const size_t entries = (size_t)ALL * count;
+    rows_of.clusters = malloc(sizeof(uint16_t) * entries);
+    rows_of.weights = malloc(sizeof(uint16_t) * entries);
+    rows_of.byte_clusters = malloc(entries);
+    rows_of.byte_weights = malloc(entries);
+    assert_ok(hf_pose_get_blend_influences(pose, &rows_of));
+    assert_true(rows_of.change == change && rows_of.error == error);
+    uint32_t *clusters = malloc(sizeof(uint32_t) * entries), *weights = malloc(sizeof(uint32_t) * entries);
+    for (int bytes = 0; bytes < 2; ++bytes) {
+      for (size_t i = 0; i < entries; ++i) {
+        clusters[i] = bytes ? rows_of.byte_clusters[i] : rows_of.clusters[i];
+        weights[i] = bytes ? rows_of.byte_weights[i] : rows_of.weights[i];
+      }
+      double found, far;
+      brute(&b, transforms, count, bytes ? 255 : 65535, clusters, weights, &found, &far);
+      const double told = bytes ? rows_of.byte_change : rows_of.change;
+      const double farthest = (bytes ? rows_of.byte_error : rows_of.error) * box.bounding_box_diagonal;
+      assert_true(fabs(found - told) < 1e-9);
+      assert_true(fabs(far - farthest) < 1e-5 * box.bounding_box_diagonal); /* transforms are floats here */
+    }
+    assert_true(rows_of.change <= before); /* longer rows are never worse */
+    before = rows_of.change;
+    if (count >= b.rows.longest_row) assert_true(rows_of.change < 64 / 65535.0);
+    free(rows_of.clusters);
+    free(rows_of.weights);
+    free(rows_of.byte_clusters);
+    free(rows_of.byte_weights);
+    free(clusters);
+    free(weights);
+  }
+  assert_true(before < 64 / 65535.0);
+  blend_free(&b);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
+}
+
 /* Where the shader takes a tangent: J u of the header. */
 static void push(const Blend* b, const float* transforms, size_t v, const float u[3], float out[3]) {
   const float* p = b->rows.positions + 3 * v;
@@ -190,7 +317,7 @@ static void normals_of_a_shader_are_those_of_hf_deform(void** state) {
   uint32_t handles[2];
   hf_pose pose = tube_pose(surface, ROUND, LONG, handles);
   Blend b = blend_of(pose);
-  static float transforms[12 * 4096], normals[3 * COUNT];
+  static float transforms[12 * 4096], normals[3 * COUNT], shaded[3 * COUNT];
   double most = 0, mean = 0;
   for (uint32_t f = 0; f < 8; ++f) {
     const hf_transform to = drag(0.3 * f);
@@ -198,21 +325,23 @@ static void normals_of_a_shader_are_those_of_hf_deform(void** state) {
     hf_deform_desc desc = HF_INIT(hf_deform_desc);
     desc.normals = HF_ARRAY_OUT(normals, COUNT);
     assert_ok(hf_pose_deform(pose, &desc, NULL));
-    frame_of(pose, transforms, 4096);
+    const hf_blend_info info = frame_of(pose, transforms, 4096);
+    shade(&b, &info, transforms, shaded);
+    assert_true(too_large(&info, shaded, COUNT) < 2); /* the boxes of the clusters */
     for (size_t v = 0; v < COUNT; ++v) {
       const float *n = b.rows.normals + 3 * v, axis[3] = {fabsf(n[0]) < 0.5f, fabsf(n[0]) >= 0.5f, 0};
-      float u[3], w[3], ju[3], jw[3], shaded[3];
+      float u[3], w[3], ju[3], jw[3], normal[3];
       cross_of(n, axis, u);
       cross_of(n, u, w);
       push(&b, transforms, v, u, ju);
       push(&b, transforms, v, w, jw);
-      cross_of(ju, jw, shaded);
+      cross_of(ju, jw, normal);
       double sine = 0, cosine = 0;
       for (int i = 0; i < 3; ++i) {
-        const double c = (double)shaded[(i + 1) % 3] * (double)normals[3 * v + (size_t)(i + 2) % 3] -
-                         (double)shaded[(i + 2) % 3] * (double)normals[3 * v + (size_t)(i + 1) % 3];
+        const double c = (double)normal[(i + 1) % 3] * (double)normals[3 * v + (size_t)(i + 2) % 3] -
+                         (double)normal[(i + 2) % 3] * (double)normals[3 * v + (size_t)(i + 1) % 3];
         sine += c * c;
-        cosine += (double)(shaded[i] * normals[3 * v + (size_t)i]);
+        cosine += (double)(normal[i] * normals[3 * v + (size_t)i]);
       }
       const double angle = atan2(sqrt(sine), cosine) * 57.29577951308232;
       most = fmax(most, angle);
@@ -337,6 +466,14 @@ static void what_is_no_blend_is_refused(void** state) {
   rows_of.entry_capacity = 12;
   assert_code(HF_ERROR_TOO_SMALL, hf_pose_get_blend_rows(pose, &rows_of));
   rows_of.weights = NULL;
+  hf_blend_influences fixed = HF_INIT(hf_blend_influences);
+  fixed.influence_count = 65;
+  assert_code(HF_ERROR_INVALID_ARGUMENT, hf_pose_get_blend_influences(pose, &fixed));
+  uint8_t bytes[8];
+  fixed.influence_count = 8;
+  fixed.vertex_capacity = 1;
+  fixed.byte_weights = bytes;
+  assert_code(HF_ERROR_TOO_SMALL, hf_pose_get_blend_influences(pose, &fixed));
 
   const uint32_t island = TUBE + CUT_ISLAND;
   assert_ok(hf_pose_set_rigid_pieces(pose, 1, &island));
@@ -355,6 +492,8 @@ static void what_is_no_blend_is_refused(void** state) {
   desc.layer = 1;
   assert_ok(hf_pose_add_handles(pose, &desc, &fine));
   assert_code(HF_ERROR_UNSUPPORTED, hf_pose_get_blend_rows(pose, &rows_of));
+  fixed.byte_weights = NULL;
+  assert_code(HF_ERROR_UNSUPPORTED, hf_pose_get_blend_influences(pose, &fixed));
   assert_ok(hf_pose_remove_handles(pose, 1, &fine));
   assert_ok(hf_pose_get_blend_rows(pose, &rows_of));
   hf_pose_destroy(pose);
@@ -365,6 +504,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_shader_has_the_vertices_of_hf_deform),
       cmocka_unit_test(normals_of_a_shader_are_those_of_hf_deform),
+      cmocka_unit_test(rows_of_one_length_are_off_by_what_they_say),
       cmocka_unit_test(a_solve_has_the_bits_of_a_deform),
       cmocka_unit_test(the_blend_is_that_of_the_last_frame),
       cmocka_unit_test(what_is_no_blend_is_refused),

@@ -269,6 +269,18 @@ static hf_result pose_get_blend_rows(Call* c) {
   c->count[1] = rows_of.entry_count;
   return r;
 }
+static hf_result pose_get_blend_influences(Call* c) {
+  hf_blend_influences rows_of = HF_INIT(hf_blend_influences);
+  rows_of.vertex_capacity = (uint32_t)c->capacity[0];
+  rows_of.influence_count = 4;
+  rows_of.clusters = c->array[0];
+  rows_of.weights = c->array[1];
+  rows_of.byte_clusters = c->array[2];
+  rows_of.byte_weights = c->array[3];
+  const hf_result r = hf_pose_get_blend_influences(scene.pose, &rows_of);
+  c->count[0] = rows_of.vertex_count;
+  return r;
+}
 static hf_result pose_get_blend_transforms(Call* c) {
   uint32_t count = 777;
   const hf_result r = hf_pose_get_blend_transforms(scene.pose, (uint32_t)c->capacity[0], c->array[0], &count);
@@ -365,6 +377,7 @@ static const struct {
      pose_get_blend_rows,
      {{0, 8, 0}, {0, 12, 0}, {0, 12, 0}, {0, 12, 0}, {1, 2, 0}, {1, 4, 0}, {1, 12, 0}},
      1},
+    {"hf_pose_get_blend_influences", pose_get_blend_influences, {{0, 8, 0}, {0, 8, 0}, {0, 4, 0}, {0, 4, 0}}, 0},
     {"hf_pose_get_blend_transforms", pose_get_blend_transforms, {{0, 48, 0}}, 0},
     {"hf_transfer_get_skin",
      transfer_get_skin,

@@ -190,6 +190,8 @@ void Run::other_kinds() {
   call(hf_pose_get_blend_info(pose, &blend), "hf_pose_get_blend_info");
   hf_blend_rows rows = desc<hf_blend_rows>();
   call(hf_pose_get_blend_rows(pose, &rows), "hf_pose_get_blend_rows");
+  hf_blend_influences influences = desc<hf_blend_influences>();
+  call(hf_pose_get_blend_influences(pose, &influences), "hf_pose_get_blend_influences");
   call(hf_pose_get_blend_transforms(pose, static_cast<std::uint32_t>(floats.size() / 12), floats.data(), nullptr),
        "hf_pose_get_blend_transforms");
   take_floats();

@@ -1172,6 +1172,10 @@ namespace Hf
         public double OffsetShare;
         /// <summary>in the unit and frame of the mesh; positions are relative to this point</summary>
         public double[] Centre = new double[3];
+        /// <summary>of a box that holds all vertices of the frame, for culling; relative to centre</summary>
+        public double[] Low = new double[3];
+        /// <summary>the other corner. It may be larger than needed: see docs/renderer.md</summary>
+        public double[] High = new double[3];
 
         internal BlendInfo(hf_blend_info* raw)
         {
@@ -1179,6 +1183,8 @@ namespace Hf
             Revision = raw->revision;
             OffsetShare = raw->offset_share;
             for (int i = 0; i < 3; ++i) Centre[i] = raw->centre[i];
+            for (int i = 0; i < 3; ++i) Low[i] = raw->low[i];
+            for (int i = 0; i < 3; ++i) High[i] = raw->high[i];
         }
     }
 
@@ -1876,6 +1882,35 @@ namespace Hf
         public float[] Offsets;
         /// <summary>entries of the vertex that has the most</summary>
         public uint LongestRow;
+    }
+
+    /// <summary>Receives a blend as rows of one length, as vertex buffers of engines have them (JOINTS_0 and WEIGHTS_0 of
+    /// glTF). The arrays are yours; each may be null. Rows hold the heaviest entries of a vertex, by falling
+    /// weight. Unused entries have weight 0.
+    ///
+    /// The errors say what shorter rows and rounded weights cost. A vertex is off by at most the change of its
+    /// weights times the largest distance between the places to which its clusters move it.</summary>
+    public sealed class BlendInfluences
+    {
+        /// <summary>[vertexCapacity x influenceCount] each below the count of clusters</summary>
+        public ushort[] Clusters;
+        /// <summary>[vertexCapacity x influenceCount] 65535ths; the weights of a vertex sum to 65535</summary>
+        public ushort[] Weights;
+        /// <summary>[vertexCapacity x influenceCount] null = not wanted. Refused for more than 256 clusters</summary>
+        public byte[] ByteClusters;
+        /// <summary>[vertexCapacity x influenceCount] null = not wanted. 255ths, of sum 255; weights that round to 0 are
+        /// left out</summary>
+        public byte[] ByteWeights;
+        /// <summary>the largest change of a vertex's weights, 0 to 1: half the sum of the differences</summary>
+        public double Change;
+        /// <summary>the same for byte_weights</summary>
+        public double ByteChange;
+        /// <summary>the largest distance of a vertex from its place in the last frame, in box diagonals</summary>
+        public double Error;
+        /// <summary>the same for byte_weights</summary>
+        public double ByteError;
+        /// <summary>entries of a row, 1 to 64; 0 = 8</summary>
+        public uint InfluenceCount;
     }
 
     /// <summary>Quads.Mesh writes the quad mesh to these arrays. They are yours: each is null or as large as its capacity.</summary>
@@ -4697,6 +4732,51 @@ namespace Hf
                     Gradients = c.Cut(allGradients, "entry_capacity", "3"), Positions = c.Cut(allPositions,
                     "vertex_capacity", "3"), Normals = c.Cut(allNormals, "vertex_capacity", "3"),
                     Offsets = c.Cut(allOffsets, "vertex_capacity", "3") };
+            }
+        }
+
+        /// <summary>Writes rows of one length. They change with `revision`, as those of Pose.BlendRows. Call it without
+        /// arrays for the count and the errors.
+        ///
+        /// influenceCount: entries of a row, 1 to 64; 0 = 8
+        /// byteClusters: [vertexCapacity x influenceCount] null = not wanted. Refused for more than 256 clusters
+        /// byteWeights: [vertexCapacity x influenceCount] null = not wanted. 255ths, of sum 255; weights that round
+        ///     to 0 are left out
+        ///
+        /// Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        public BlendInfluences BlendInfluences(uint influenceCount = 0, bool byteClusters = false,
+                bool byteWeights = false)
+        {
+            using (var c = new Call(this))
+            {
+                var influencesStruct = new hf_blend_influences { struct_size = (uint)sizeof(hf_blend_influences),
+                    influence_count = influenceCount };
+                hf_blend_influences* influences = &influencesStruct;
+                c.Sizes["influence_count"] = (int)Math.Min(influenceCount == 0 ? 8 : influenceCount, int.MaxValue);
+                ushort[] allClusters = null;
+                ushort[] allWeights = null;
+                byte[] allByteClusters = null;
+                byte[] allByteWeights = null;
+                c.Room("vertex_capacity", "vertex_count");
+                int result;
+                do
+                {
+                        influences->vertex_capacity = (uint)c.Size("vertex_capacity");
+                        influences->clusters = c.Make(out allClusters, "vertex_capacity", "influence_count");
+                        influences->weights = c.Make(out allWeights, "vertex_capacity", "influence_count");
+                        influences->byte_clusters = byteClusters ? c.Make(out allByteClusters, "vertex_capacity",
+                            "influence_count") : IntPtr.Zero;
+                        influences->byte_weights = byteWeights ? c.Make(out allByteWeights, "vertex_capacity",
+                            "influence_count") : IntPtr.Zero;
+                        result = Functions.hf_pose_get_blend_influences(RawHandle, influences);
+                }
+                while (c.Again("hf_pose_get_blend_influences", result, ("vertex_capacity", influences->vertex_count)));
+                return new BlendInfluences { Change = influences->change, ByteChange = influences->byte_change,
+                    Error = influences->error, ByteError = influences->byte_error,
+                    InfluenceCount = influences->influence_count, Clusters = c.Cut(allClusters, "vertex_capacity",
+                    "influence_count"), Weights = c.Cut(allWeights, "vertex_capacity", "influence_count"),
+                    ByteClusters = c.Cut(allByteClusters, "vertex_capacity", "influence_count"),
+                    ByteWeights = c.Cut(allByteWeights, "vertex_capacity", "influence_count") };
             }
         }
 

@@ -820,6 +820,8 @@ namespace Hf.Native
         public uint reserved;
         public double offset_share;
         public fixed double centre[3];
+        public fixed double low[3];
+        public fixed double high[3];
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -838,6 +840,23 @@ namespace Hf.Native
         public IntPtr positions;
         public IntPtr normals;
         public IntPtr offsets;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_blend_influences
+    {
+        public uint struct_size;
+        public uint vertex_capacity;
+        public uint influence_count;
+        public uint vertex_count;
+        public double change;
+        public double byte_change;
+        public double error;
+        public double byte_error;
+        public IntPtr clusters;
+        public IntPtr weights;
+        public IntPtr byte_clusters;
+        public IntPtr byte_weights;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1487,6 +1506,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_skin(IntPtr pose, void* inout_skin);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_blend_info(IntPtr pose, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_blend_rows(IntPtr pose, void* inout_rows);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_blend_influences(IntPtr pose, void* inout_influences);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_solve(IntPtr pose, uint iteration_count, int restart, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_blend_transforms(IntPtr pose, uint capacity, void* out_transforms, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_propose_handles(IntPtr surface, void* desc, uint capacity, void* out_proposals, void* out_count);

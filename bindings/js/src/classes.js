@@ -1228,6 +1228,26 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
               longestRow: rows.get('longest_row') };
     }
 
+    blendInfluences(options = {}) {
+      const { influenceCount = 0, byteClusters = false, byteWeights = false, ...more } = options;
+      none(more);
+      const c = new Call(this);
+      const influences = c.struct('hf_blend_influences', { influence_count: influenceCount });
+      c.n.influence_count = scalar('u32', influenceCount, 'influenceCount') || 8;
+      const found = c.grow(this, 'hf_pose_get_blend_influences', (room, made) => (influences.set('vertex_capacity',
+              room.vertex_capacity).set('clusters', written(made.clusters)).set('weights',
+              written(made.weights)).set('byte_clusters', written(made.byteClusters)).set('byte_weights',
+              written(made.byteWeights)), call('hf_pose_get_blend_influences', this._handle, influences)),
+              () => ({ vertex_capacity: influences.get('vertex_count') }), { vertex_capacity: c.n.vertex_count },
+              { clusters: ['u2', ['vertex_capacity', 'influence_count']], weights: ['u2', ['vertex_capacity',
+              'influence_count']], ...(byteClusters ? { byteClusters: ['u1', ['vertex_capacity',
+              'influence_count']] } : {}), ...(byteWeights ? { byteWeights: ['u1', ['vertex_capacity',
+              'influence_count']] } : {}) });
+      return { ...found, vertexCount: influences.get('vertex_count'), change: influences.get('change'),
+              byteChange: influences.get('byte_change'), error: influences.get('error'),
+              byteError: influences.get('byte_error') };
+    }
+
     solve(iterationCount = 0, restart = false) {
       const c = new Call(this);
       const info = Call.told(this, 'hf_deform_info');

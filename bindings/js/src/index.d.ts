@@ -607,6 +607,10 @@ export interface BlendInfo {
   offsetShare: number;
   /** in the unit and frame of the mesh; positions are relative to this point */
   centre: number[];
+  /** of a box that holds all vertices of the frame, for culling; relative to centre */
+  low: number[];
+  /** the other corner. It may be larger than needed: see docs/renderer.md */
+  high: number[];
 }
 
 /**
@@ -634,6 +638,35 @@ export interface BlendRows {
   normals: Float32Array;
   /** [vertexCapacity x 3] 0 unless handles were added in place or rotations freed */
   offsets: Float32Array;
+}
+
+/**
+ * Receives a blend as rows of one length, as vertex buffers of engines have them (JOINTS_0 and WEIGHTS_0 of glTF).
+ * The arrays are yours; each may be null. Rows hold the heaviest entries of a vertex, by falling weight. Unused
+ * entries have weight 0.
+ *
+ * The errors say what shorter rows and rounded weights cost. A vertex is off by at most the change of its weights
+ * times the largest distance between the places to which its clusters move it.
+ */
+export interface BlendInfluences {
+  /** as given to the surface */
+  vertexCount: number;
+  /** the largest change of a vertex's weights, 0 to 1: half the sum of the differences */
+  change: number;
+  /** the same for byte_weights */
+  byteChange: number;
+  /** the largest distance of a vertex from its place in the last frame, in box diagonals */
+  error: number;
+  /** the same for byte_weights */
+  byteError: number;
+  /** [vertexCapacity x influenceCount] each below the count of clusters */
+  clusters: Uint16Array;
+  /** [vertexCapacity x influenceCount] 65535ths; the weights of a vertex sum to 65535 */
+  weights: Uint16Array;
+  /** [vertexCapacity x influenceCount] null = not wanted. Refused for more than 256 clusters */
+  byteClusters?: Uint8Array;
+  /** [vertexCapacity x influenceCount] null = not wanted. 255ths, of sum 255; weights that round to 0 are left out */
+  byteWeights?: Uint8Array;
 }
 
 /**
@@ -2044,6 +2077,18 @@ export interface Pose extends Recorded {
    * Throws HF_ERROR_EMPTY, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   blendRows(): BlendRows;
+  /**
+   * Writes rows of one length. They change with `revision`, as those of Pose.blendRows. Call it without arrays for
+   * the count and the errors.
+   *
+   * influenceCount: entries of a row, 1 to 64; 0 = 8
+   * byteClusters: [vertexCapacity x influenceCount] null = not wanted. Refused for more than 256 clusters
+   * byteWeights: [vertexCapacity x influenceCount] null = not wanted. 255ths, of sum 255; weights that round to 0
+   *     are left out
+   *
+   * Throws HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
+   */
+  blendInfluences(options?: { influenceCount?: number; byteClusters?: boolean; byteWeights?: boolean }): BlendInfluences;
   /**
    * Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
    * Pose.deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as

@@ -591,6 +591,34 @@ class BlendRows(NamedTuple):
     """entries of the vertex that has the most"""
 
 
+class BlendInfluences(NamedTuple):
+    """Receives a blend as rows of one length, as vertex buffers of engines have them (JOINTS_0 and WEIGHTS_0 of glTF).
+    The arrays are yours; each may be None. Rows hold the heaviest entries of a vertex, by falling weight. Unused
+    entries have weight 0.
+
+    The errors say what shorter rows and rounded weights cost. A vertex is off by at most the change of its weights
+    times the largest distance between the places to which its clusters move it.
+    """
+
+    clusters: np.ndarray
+    """(vertex_capacity, influence_count) each below the count of clusters"""
+    weights: np.ndarray
+    """(vertex_capacity, influence_count) 65535ths; the weights of a vertex sum to 65535"""
+    change: float
+    """the largest change of a vertex's weights, 0 to 1: half the sum of the differences"""
+    byte_change: float
+    """the same for byte_weights"""
+    error: float
+    """the largest distance of a vertex from its place in the last frame, in box diagonals"""
+    byte_error: float
+    """the same for byte_weights"""
+    byte_clusters: Optional[np.ndarray] = None
+    """(vertex_capacity, influence_count) None = not wanted. Refused for more than 256 clusters"""
+    byte_weights: Optional[np.ndarray] = None
+    """(vertex_capacity, influence_count) None = not wanted. 255ths, of sum 255; weights that round to 0 are left out
+    """
+
+
 class QuadsMesh(NamedTuple):
     """Quads.mesh writes the quad mesh to these arrays. They are yours: each is None or as large as its capacity."""
 
@@ -2518,6 +2546,34 @@ class Pose(Recorded):
                 ('vertex_capacity', 3)), 'offsets': (np.float32, ('vertex_capacity', 3))})
         return BlendRows(longest_row=rows.longest_row, **found)
 
+    def blend_influences(self, influence_count: int = 0, *, byte_clusters: bool = False,
+            byte_weights: bool = False) -> BlendInfluences:
+        """Writes rows of one length. They change with `revision`, as those of Pose.blend_rows. Call it without arrays
+        for the count and the errors.
+
+        influence_count: entries of a row, 1 to 64; 0 = 8
+        byte_clusters: (vertex_capacity, influence_count) None = not wanted. Refused for more than 256 clusters
+        byte_weights: (vertex_capacity, influence_count) None = not wanted. 255ths, of sum 255; weights that round to
+            0 are left out
+
+        Raises EmptyError, InvalidArgumentError, TooLargeError, UnsupportedError.
+        """
+        c = Call(self)
+        influences = c.struct(_raw.hf_blend_influences, {'influence_count': influence_count})
+        c.n['influence_count'] = number(influence_count, 'influence_count') or 8
+
+        def run(room: Any, made: Any) -> None:
+            c.into(influences, room, made)
+            call('hf_pose_get_blend_influences', self._handle, ref(influences))
+
+        found = c.grow(self, 'hf_pose_get_blend_influences', run, lambda: {'vertex_capacity': influences.vertex_count},
+                {'vertex_capacity': c.n.get('vertex_count')}, {'clusters': (np.uint16, ('vertex_capacity',
+                'influence_count')), 'weights': (np.uint16, ('vertex_capacity', 'influence_count')),
+                **({'byte_clusters': (np.uint8, ('vertex_capacity', 'influence_count'))} if byte_clusters else {}),
+                **({'byte_weights': (np.uint8, ('vertex_capacity', 'influence_count'))} if byte_weights else {})})
+        return BlendInfluences(change=influences.change, byte_change=influences.byte_change, error=influences.error,
+                byte_error=influences.byte_error, **found)
+
     def solve(self, iteration_count: int = 0, restart: bool = False, *, info: Optional[DeformInfo] = None) -> None:
         """Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
         Pose.deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
@@ -3659,17 +3715,17 @@ class Weights(Recorded):
 
 
 __all__ = [
-    'Base', 'BlendInfo', 'BlendRows', 'BodySide', 'Certificate', 'Chain', 'ChainMatch', 'Critical',
-    'CriticalInfo', 'CriticalPoint', 'CurveKind', 'DeformInfo', 'Detail', 'Direction', 'DirectionStatistics',
-    'DistanceMethod', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo', 'Geodesics', 'Ground',
-    'HandleInfo', 'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines', 'JointFlag', 'JointInfo',
-    'JointKind', 'Levels', 'Link', 'LinkMode', 'LinksInfo', 'MeshStatistics', 'MirrorPairing', 'MirrorPlane',
-    'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo', 'Path', 'Place', 'Pose', 'PoseInfo',
-    'PoseStatistics', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh', 'Region', 'RegionInfo',
-    'RegionList', 'RegionStatistics', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role', 'RootMotion', 'Route',
-    'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo', 'SkinInfo', 'SolveInfo',
-    'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo', 'SurfaceReport',
-    'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode', 'TransferStatistics',
-    'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo', 'WeightsMirrorStatistics', 'WeightsOrigin',
-    'WeightsOut', 'WeightsStatistics', 'WeightsTransferInfo', 'Weld'
+    'Base', 'BlendInfluences', 'BlendInfo', 'BlendRows', 'BodySide', 'Certificate', 'Chain', 'ChainMatch',
+    'Critical', 'CriticalInfo', 'CriticalPoint', 'CurveKind', 'DeformInfo', 'Detail', 'Direction',
+    'DirectionStatistics', 'DistanceMethod', 'Extremity', 'ExtremityKind', 'FieldKind', 'Flow', 'GapsInfo',
+    'Geodesics', 'Ground', 'HandleInfo', 'HandleProposal', 'HandleReason', 'HelperReason', 'Hit', 'Isolines',
+    'JointFlag', 'JointInfo', 'JointKind', 'Levels', 'Link', 'LinkMode', 'LinksInfo', 'MeshStatistics',
+    'MirrorPairing', 'MirrorPlane', 'MirrorTo', 'Operator', 'Ordering', 'PairFlag', 'PairInfo', 'Path', 'Place',
+    'Pose', 'PoseInfo', 'PoseStatistics', 'PreviewInfo', 'Progress', 'Quads', 'QuadsInfo', 'QuadsMesh', 'Region',
+    'RegionInfo', 'RegionList', 'RegionStatistics', 'Retarget', 'RetargetInfo', 'RetargetStep', 'Role',
+    'RootMotion', 'Route', 'ScaleFrom', 'Side', 'Singularity', 'SitesInfo', 'Skeleton', 'SkeletonInfo',
+    'SkinInfo', 'SolveInfo', 'Solver', 'SolverInfo', 'SolverStatistics', 'Streamlines', 'Surface', 'SurfaceInfo',
+    'SurfaceReport', 'SurfaceStatistics', 'Transfer', 'TransferDials', 'TransferInfo', 'TransferMode',
+    'TransferStatistics', 'Transform', 'Weights', 'WeightsInfo', 'WeightsMirrorInfo', 'WeightsMirrorStatistics',
+    'WeightsOrigin', 'WeightsOut', 'WeightsStatistics', 'WeightsTransferInfo', 'Weld'
 ]

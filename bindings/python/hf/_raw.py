@@ -930,8 +930,11 @@ class hf_blend_info(Struct):
     reserved: int
     offset_share: float
     centre: object
+    low: object
+    high: object
     _fields_ = [("struct_size", c_uint32), ("cluster_count", c_uint32), ("revision", c_uint32), ("reserved",
-                c_uint32), ("offset_share", c_double), ("centre", c_double * 3)]
+                c_uint32), ("offset_share", c_double), ("centre", c_double * 3), ("low", c_double * 3), ("high",
+                c_double * 3)]
 
 
 class hf_blend_rows(Struct):
@@ -953,6 +956,26 @@ class hf_blend_rows(Struct):
                 ("vertex_count", c_uint32), ("entry_count", c_uint32), ("longest_row", c_uint32), ("rows", c_void_p),
                 ("clusters", c_void_p), ("weights", c_void_p), ("gradients", c_void_p), ("positions", c_void_p),
                 ("normals", c_void_p), ("offsets", c_void_p)]
+
+
+class hf_blend_influences(Struct):
+    """Receives a blend as rows of one length, as vertex buffers of engines have them (JOINTS_0 and WEIGHTS_0 of glTF)."""
+    struct_size: int
+    vertex_capacity: int
+    influence_count: int
+    vertex_count: int
+    change: float
+    byte_change: float
+    error: float
+    byte_error: float
+    clusters: int
+    weights: int
+    byte_clusters: int
+    byte_weights: int
+    _fields_ = [("struct_size", c_uint32), ("vertex_capacity", c_uint32), ("influence_count", c_uint32),
+                ("vertex_count", c_uint32), ("change", c_double), ("byte_change", c_double), ("error", c_double),
+                ("byte_error", c_double), ("clusters", c_void_p), ("weights", c_void_p), ("byte_clusters", c_void_p),
+                ("byte_weights", c_void_p)]
 
 
 class hf_handle_proposals_desc(Struct):
@@ -1573,7 +1596,7 @@ class hf_weights_mirror_statistics(Struct):
                 ("worst_vertex_off", c_double)]
 
 
-STRUCTS = [hf_array, hf_array_out, hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_faces_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_mesh_statistics, hf_links_info, hf_gaps_info, hf_surface_statistics, hf_place, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_pose_statistics, hf_skin_info, hf_blend_info, hf_blend_rows, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_statistics, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_statistics, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_weights_mirror_statistics]
+STRUCTS = [hf_array, hf_array_out, hf_error_detail, hf_allocator, hf_job_runner, hf_factor_desc, hf_link, hf_links_desc, hf_faces_desc, hf_surface_desc, hf_graph_desc, hf_surface_info, hf_surface_report, hf_mesh_statistics, hf_links_info, hf_gaps_info, hf_surface_statistics, hf_place, hf_pick_desc, hf_hit, hf_solver_desc, hf_solver_info, hf_sites_desc, hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics, hf_isolines, hf_critical_point, hf_critical_info, hf_geodesics_desc, hf_path, hf_extremities_desc, hf_extremity, hf_direction_desc, hf_singularity, hf_direction_statistics, hf_pose_desc, hf_pose_info, hf_handles_desc, hf_transform, hf_handle_info, hf_deform_info, hf_deform_desc, hf_pose_statistics, hf_skin_info, hf_blend_info, hf_blend_rows, hf_blend_influences, hf_handle_proposals_desc, hf_handle_proposal, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_region_desc, hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_morph_desc, hf_detail_desc, hf_retarget_desc, hf_retarget_info, hf_chain_match, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_joint_info, hf_chain, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_statistics, hf_transfer_dials, hf_transfer_frame, hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_statistics, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_weights_mirror_statistics]
 
 # name: (result type, argument types); every pointer and handle is a c_void_p
 PROTOTYPES = {
@@ -1669,6 +1692,7 @@ PROTOTYPES = {
     "hf_pose_get_skin": (c_int32, [c_void_p, c_void_p]),
     "hf_pose_get_blend_info": (c_int32, [c_void_p, c_void_p]),
     "hf_pose_get_blend_rows": (c_int32, [c_void_p, c_void_p]),
+    "hf_pose_get_blend_influences": (c_int32, [c_void_p, c_void_p]),
     "hf_pose_solve": (c_int32, [c_void_p, c_uint32, c_int32, c_void_p]),
     "hf_pose_get_blend_transforms": (c_int32, [c_void_p, c_uint32, c_void_p, c_void_p]),
     "hf_surface_propose_handles": (c_int32, [c_void_p, c_void_p, c_uint32, c_void_p, c_void_p]),

@@ -1418,6 +1418,35 @@ pub struct BlendRows {
     pub longest_row: u32,
 }
 
+/// Receives a blend as rows of one length, as vertex buffers of engines have them (JOINTS_0 and WEIGHTS_0 of glTF). The
+/// arrays are yours; each may be `None`. Rows hold the heaviest entries of a vertex, by falling weight. Unused entries
+/// have weight 0.
+///
+/// The errors say what shorter rows and rounded weights cost. A vertex is off by at most the change of its weights times
+/// the largest distance between the places to which its clusters move it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BlendInfluences {
+    /// `[vertex_capacity x influence_count]` each below the count of clusters
+    pub clusters: Vec<u16>,
+    /// `[vertex_capacity x influence_count]` 65535ths; the weights of a vertex sum to 65535
+    pub weights: Vec<u16>,
+    /// `[vertex_capacity x influence_count]` `None` = not wanted. Refused for more than 256 clusters
+    pub byte_clusters: Vec<u8>,
+    /// `[vertex_capacity x influence_count]` `None` = not wanted. 255ths, of sum 255; weights that round to 0 are left
+    /// out
+    pub byte_weights: Vec<u8>,
+    /// the largest change of a vertex's weights, 0 to 1: half the sum of the differences
+    pub change: f64,
+    /// the same for byte_weights
+    pub byte_change: f64,
+    /// the largest distance of a vertex from its place in the last frame, in box diagonals
+    pub error: f64,
+    /// the same for byte_weights
+    pub byte_error: f64,
+    /// entries of a row, 1 to 64; 0 = 8
+    pub influence_count: u32,
+}
+
 /// `Quads::mesh` writes the quad mesh to these arrays. They are yours: each is `None` or as large as its capacity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuadsMesh {
@@ -3098,6 +3127,49 @@ impl Pose {
         all_offsets.truncate(c.product(&["vertex_capacity", "3"]));
         Ok(BlendRows { longest_row: rows.longest_row, rows: all_rows, clusters: all_clusters, weights: all_weights,
             gradients: all_gradients, positions: all_positions, normals: all_normals, offsets: all_offsets })
+    }
+
+    /// Writes rows of one length. They change with `revision`, as those of `Pose::blend_rows`. Call it without arrays for
+    /// the count and the errors.
+    ///
+    /// influence_count: entries of a row, 1 to 64; 0 = 8
+    /// byte_clusters: `[vertex_capacity x influence_count]` `None` = not wanted. Refused for more than 256 clusters
+    /// byte_weights: `[vertex_capacity x influence_count]` `None` = not wanted. 255ths, of sum 255; weights that round to
+    /// 0 are left out
+    ///
+    /// Fails with [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_TOO_LARGE`],
+    /// [`raw::HF_ERROR_UNSUPPORTED`].
+    pub fn blend_influences(&self, influence_count: u32, want_byte_clusters: bool,
+            want_byte_weights: bool) -> Result<BlendInfluences> {
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        let mut influences = raw::hf_blend_influences { influence_count: influence_count, ..Default::default() };
+        c.learn("influence_count", if influence_count == 0 { 8 } else { influence_count as usize });
+        c.learn("vertex_capacity", c.size("vertex_count").unwrap_or(Call::FIRST));
+        let mut all_clusters: Vec<u16> = Vec::new();
+        let mut all_weights: Vec<u16> = Vec::new();
+        let mut all_byte_clusters: Vec<u8> = Vec::new();
+        let mut all_byte_weights: Vec<u8> = Vec::new();
+        loop {
+            influences.vertex_capacity = c.count("vertex_capacity", 0)?;
+            influences.clusters = c.room(&mut all_clusters, &["vertex_capacity", "influence_count"]);
+            influences.weights = c.room(&mut all_weights, &["vertex_capacity", "influence_count"]);
+            influences.byte_clusters = if want_byte_clusters { c.room(&mut all_byte_clusters, &["vertex_capacity",
+                "influence_count"]) } else { std::ptr::null_mut() };
+            influences.byte_weights = if want_byte_weights { c.room(&mut all_byte_weights, &["vertex_capacity",
+                "influence_count"]) } else { std::ptr::null_mut() };
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_pose_get_blend_influences(self.handle, &mut influences) };
+            if c.enough(code, &[("vertex_capacity", influences.vertex_count)])? {
+                break;
+            }
+        }
+        all_clusters.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_weights.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_byte_clusters.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        all_byte_weights.truncate(c.product(&["vertex_capacity", "influence_count"]));
+        Ok(BlendInfluences { change: influences.change, byte_change: influences.byte_change, error: influences.error,
+            byte_error: influences.byte_error, influence_count: influences.influence_count, clusters: all_clusters,
+            weights: all_weights, byte_clusters: all_byte_clusters, byte_weights: all_byte_weights })
     }
 
     /// Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after

@@ -928,6 +928,8 @@ pub struct hf_blend_info {
     pub reserved: u32,
     pub offset_share: f64,
     pub centre: [f64; 3],
+    pub low: [f64; 3],
+    pub high: [f64; 3],
 }
 
 /// Receives the rows of a blend.
@@ -947,6 +949,24 @@ pub struct hf_blend_rows {
     pub positions: *mut f32,
     pub normals: *mut f32,
     pub offsets: *mut f32,
+}
+
+/// Receives a blend as rows of one length, as vertex buffers of engines have them (JOINTS_0 and WEIGHTS_0 of glTF).
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_blend_influences {
+    pub struct_size: u32,
+    pub vertex_capacity: u32,
+    pub influence_count: u32,
+    pub vertex_count: u32,
+    pub change: f64,
+    pub byte_change: f64,
+    pub error: f64,
+    pub byte_error: f64,
+    pub clusters: *mut u16,
+    pub weights: *mut u16,
+    pub byte_clusters: *mut u8,
+    pub byte_weights: *mut u8,
 }
 
 #[repr(C)]
@@ -1575,12 +1595,13 @@ sized! {
         hf_solver_statistics hf_isolines hf_critical_info hf_geodesics_desc hf_path hf_extremities_desc
         hf_direction_desc hf_direction_statistics hf_pose_desc hf_pose_info hf_handles_desc hf_handle_info
         hf_deform_info hf_deform_desc hf_pose_statistics hf_skin_info hf_blend_info hf_blend_rows
-        hf_handle_proposals_desc hf_quads_desc hf_quads_info hf_quads_mesh hf_streamlines hf_region_desc
-        hf_curve_desc hf_region_edit_desc hf_region_info hf_region_statistics hf_morph_desc hf_detail_desc
-        hf_retarget_desc hf_retarget_info hf_skin_desc hf_skeleton_desc hf_skeleton_info hf_transfer_desc
-        hf_pairs_desc hf_pair_info hf_transfer_info hf_transfer_statistics hf_transfer_dials hf_transfer_frame
-        hf_joints_desc hf_pins_desc hf_weights_out hf_weights_info hf_weights_statistics hf_weights_transfer_desc
-        hf_weights_transfer_info hf_weights_mirror_desc hf_weights_mirror_info hf_weights_mirror_statistics
+        hf_blend_influences hf_handle_proposals_desc hf_quads_desc hf_quads_info hf_quads_mesh hf_streamlines
+        hf_region_desc hf_curve_desc hf_region_edit_desc hf_region_info hf_region_statistics hf_morph_desc
+        hf_detail_desc hf_retarget_desc hf_retarget_info hf_skin_desc hf_skeleton_desc hf_skeleton_info
+        hf_transfer_desc hf_pairs_desc hf_pair_info hf_transfer_info hf_transfer_statistics hf_transfer_dials
+        hf_transfer_frame hf_joints_desc hf_pins_desc hf_weights_out hf_weights_info hf_weights_statistics
+        hf_weights_transfer_desc hf_weights_transfer_info hf_weights_mirror_desc hf_weights_mirror_info
+        hf_weights_mirror_statistics
 }
 
 zeroed! {
@@ -1744,6 +1765,7 @@ extern "C" {
     pub fn hf_pose_get_skin(pose: hf_pose, inout_skin: *mut hf_skin_info) -> i32;
     pub fn hf_pose_get_blend_info(pose: hf_pose, out_info: *mut hf_blend_info) -> i32;
     pub fn hf_pose_get_blend_rows(pose: hf_pose, inout_rows: *mut hf_blend_rows) -> i32;
+    pub fn hf_pose_get_blend_influences(pose: hf_pose, inout_influences: *mut hf_blend_influences) -> i32;
     pub fn hf_pose_solve(pose: hf_pose, iteration_count: u32, restart: i32, out_info: *mut hf_deform_info) -> i32;
     pub fn hf_pose_get_blend_transforms(pose: hf_pose, capacity: u32, out_transforms: *mut f32, out_count: *mut u32) -> i32;
     pub fn hf_surface_propose_handles(surface: hf_surface, desc: *const hf_handle_proposals_desc, capacity: u32, out_proposals: *mut hf_handle_proposal, out_count: *mut u32) -> i32;
