@@ -8,6 +8,13 @@
 #include "factor/kernels_path.inl"
 // clang-format on
 
+// Sweeps in single precision serve previews alone, which the small WebAssembly build leaves out.
+#ifdef HF_WITHOUT_PREVIEWS
+#define HF_PREVIEW_KERNEL(name) nullptr
+#else
+#define HF_PREVIEW_KERNEL(name) name
+#endif
+
 namespace hf_inner {
 
 extern const Kernels HF_KERNEL_SET = {
@@ -22,13 +29,13 @@ extern const Kernels HF_KERNEL_SET = {
     backward_rows,
     backward_triangle,
     backward_narrow,
-    backward_narrow_f32,
-    backward_rows_f32,
-    backward_triangle_f32,
+    HF_PREVIEW_KERNEL(backward_narrow_f32),
+    HF_PREVIEW_KERNEL(backward_rows_f32),
+    HF_PREVIEW_KERNEL(backward_triangle_f32),
     forward_triangle,
     forward_rows,
-    forward_triangle_f32,
-    forward_rows_f32,
+    HF_PREVIEW_KERNEL(forward_triangle_f32),
+    HF_PREVIEW_KERNEL(forward_rows_f32),
     path_triangle,
     path_rows,
     gram,
