@@ -94,7 +94,7 @@ export default async function story(host) {
           return window.hfStudio.tools.weights.drawn.under([x - box.x, y - box.y]);
         }, [x, y]);
       const free = async (list) => {
-        for (const spot of list) if ((await bone(spot)) < 0 && ((await shares(spot[2])) < 0.1) return spot;
+        for (const spot of list) if ((await bone(spot)) < 0 && (await shares(spot[2])) < 0.1) return spot;
         return list[0];
       };
       const spot = await free((await studio.spots()).slice(10));

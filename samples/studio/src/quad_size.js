@@ -1,11 +1,11 @@
 // How many quads a body starts with: its thin parts need a few quads around them, or hands become spikes.
 
 /** Bounds of the number to start with. Twice as many quads take twice as long. */
-const [FEWEST, MOST] = [1500, 4000];
+const [FEWEST, MOST] = [1500, 3000];
 /** Places where the thickness is measured, equally spread over the area. */
 const PLACES = 400;
 /** A part is thin when so much of the area is thinner: fingers, ears, a tail. */
-const THIN = 0.04;
+const THIN = 0.02;
 /** Quads around a thin part. */
 const AROUND = 6;
 /** A ray into the body starts so far under the surface, as part of its size. */

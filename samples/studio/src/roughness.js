@@ -2,9 +2,10 @@
 
 /**
  * The height of a vertex over the middle of its neighbours, less what they have too (so that a bend of the surface does not
- * count), as part of the length of an edge: its mean over the body. places: the first vertex at the place of each.
+ * count), as part of the length of an edge: its mean over the body, for each length of an edge as part of the size. So a body
+ * has the same roughness when it is meshed finer. places: the first vertex at the place of each.
  */
-export function roughness({ positions: p, triangles }, normals, places) {
+export function roughness({ positions: p, triangles }, normals, places, size) {
   const count = p.length / 3;
   const [heights, around, lengths, degrees] = [0, 1, 2, 3].map(() => new Float32Array(count));
   const edges = (act) => {
@@ -26,11 +27,11 @@ export function roughness({ positions: p, triangles }, normals, places) {
     around[a] += heights[b];
     around[b] += heights[a];
   });
-  let [sum, seen] = [0, 0];
+  let [sum, edge] = [0, 0];
   for (let v = 0; v < count; ++v) {
     if (!(lengths[v] > 0)) continue;
     sum += (degrees[v] * Math.abs(heights[v] - around[v] / degrees[v])) / lengths[v];
-    ++seen;
+    edge += lengths[v] / degrees[v];
   }
-  return seen ? sum / seen : 0;
+  return edge > 0 ? (size * sum) / edge : 0;
 }

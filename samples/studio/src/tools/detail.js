@@ -7,8 +7,8 @@ const [STEP_PIXELS, LEAST_POINTS] = [8, 5];
 /** Colours of a region: inside, its rim, and the rest. */
 const [INSIDE, RIM, REST] = [[0.93, 0.62, 0.33], [0.35, 0.2, 0.12], 0.78];
 
-/** Bodies less rough than this have nothing to smooth: ours of the samples have a third of it, a scan five times as much. */
-const ROUGH = 0.03;
+/** Bodies less rough than this have nothing to smooth: those of the samples. Scans and low meshes of games are rougher. */
+const ROUGH = 2.7;
 
 /** Copies of a vertex take what the first at their place has. */
 function shared(values, size, places) {
@@ -63,7 +63,12 @@ export const tool = (kit) => {
       if (this.app.tool === this) this.enter();
     }
     enter() {
-      this.rough ??= roughness(this.app.body, this.app.opened.normals, this.app.timeline.places());
+      this.rough ??= roughness(
+        this.app.body,
+        this.app.opened.normals,
+        this.app.timeline.places(),
+        this.app.opened.report.boundingBoxDiagonal,
+      );
       if (this.source) {
         this.source.skin.group.visible = true;
         lookAtBoth(kit, this.app, this.source);
