@@ -152,7 +152,7 @@ void write_blend_influences(const Pose& pose, hf_blend_influences* inout) {
   constexpr std::uint32_t standard = 8, byte_clusters = 256;
   hf_blend_influences out = read_struct(inout, "inout_influences");
   const Mesh& mesh = pose.core().mesh;
-  const std::uint32_t count = count_of(out.influence_count, standard, 1, most_influences, "influence_count");
+  const std::uint32_t count = count_of(out.influence_count, standard, 1, longest_row, "influence_count");
   if (out.byte_clusters && blend_clusters(pose) > byte_clusters)
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the blend has %u clusters and a byte counts %u; take clusters of 16 bits",
          blend_clusters(pose), byte_clusters);
