@@ -9,7 +9,7 @@ const REACH = 8;
 const DIM = 0.45;
 /** An octahedron along x: ends, and corners around its widest place. */
 const CORNERS = [[0, 0, 0], [1, 0, 0], [WIDEST, WIDE, 0], [WIDEST, 0, WIDE], [WIDEST, -WIDE, 0], [WIDEST, 0, -WIDE]];
-const FACES = [2, 3, 4, 5].flatMap((a, i, around) => [a, around[(i + 1) % 4]].flatMap((v, k, [p, q]) => (k ? [1, q, p] : [0, p, q])));
+const FACES = [2, 3, 4, 5].flatMap((a, i, around) => [a, around[(i + 1) % 4]].flatMap((v, k, [p, q]) => (k ? [1, p, q] : [0, q, p])));
 
 export class Bones {
   /** tool: { app, bones, colours, shown, bend } of the Weights tool. */

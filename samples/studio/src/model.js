@@ -87,7 +87,14 @@ async function readForeign(bytes, name, ending) {
   } catch {
     throw new ModelError(`What reads ${name} could not be loaded.`, 'Open it when the network is there, or export it as glb.');
   }
-  const read = await translated(() => loaders.readForeign(bytes, ending), name);
+  const read = await translated(async () => {
+    try {
+      return await loaders.readForeign(bytes, ending);
+    } catch (error) {
+      // a loader that stumbles over what is not there says so in words of JavaScript
+      throw error instanceof TypeError || error instanceof RangeError ? new Error(`it is not what a ${ending} file should be`) : error;
+    }
+  }, name);
   const body = bodyOf(await readGlb(read.bytes, name), name);
   body.notes.push(...read.notes);
   return body;

@@ -11,21 +11,25 @@ const AROUND = 6;
 /** A ray into the body starts so far under the surface, as part of its size. */
 const UNDER = 1e-4;
 
-/** Twice the normal of a triangle as long as its area. */
-function normalOf(p, triangles, t) {
-  const [a, b, c] = [0, 1, 2].map((k) => 3 * triangles[3 * t + k]);
-  const [u, v] = [b, c].map((corner) => [0, 1, 2].map((k) => p[corner + k] - p[a + k]));
-  return [0, 1, 2].map((k) => u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
+/** The normal of a triangle, as long as twice its area, and that length. */
+function normalOf(p, triangles, t, out) {
+  const [a, b, c] = [3 * triangles[3 * t], 3 * triangles[3 * t + 1], 3 * triangles[3 * t + 2]];
+  const ux = p[b] - p[a];
+  const uy = p[b + 1] - p[a + 1];
+  const uz = p[b + 2] - p[a + 2];
+  const vx = p[c] - p[a];
+  const vy = p[c + 1] - p[a + 1];
+  const vz = p[c + 2] - p[a + 2];
+  out[0] = uy * vz - uz * vy;
+  out[1] = uz * vx - ux * vz;
+  out[2] = ux * vy - uy * vx;
+  return Math.sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
 }
 
-export function areaOf({ positions: p, triangles }) {
+export function areaOf({ positions, triangles }) {
+  const normal = [0, 0, 0];
   let area = 0;
-  for (let i = 0; i < triangles.length; i += 3) {
-    const [a, b, c] = [3 * triangles[i], 3 * triangles[i + 1], 3 * triangles[i + 2]];
-    const [ux, uy, uz] = [p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]];
-    const [vx, vy, vz] = [p[c] - p[a], p[c + 1] - p[a + 1], p[c + 2] - p[a + 2]];
-    area += Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
-  }
+  for (let t = 0; 3 * t < triangles.length; ++t) area += normalOf(positions, triangles, t, normal) / 2;
   return area;
 }
 
@@ -35,9 +39,9 @@ function thicknesses({ skin, view, body: { triangles } }, area, size) {
   const p = skin.positions;
   const ray = view.ray(0, 0);
   let [sum, next] = [0, 0.5];
+  const normal = [0, 0, 0];
   for (let t = 0; 3 * t < triangles.length; ++t) {
-    const normal = normalOf(p, triangles, t);
-    const length = Math.hypot(...normal);
+    const length = normalOf(p, triangles, t, normal);
     sum += length / 2;
     if (!(sum > (next * area) / PLACES)) continue;
     next = Math.ceil((sum * PLACES) / area) + 0.5;

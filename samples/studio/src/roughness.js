@@ -16,7 +16,7 @@ export function roughness({ positions: p, triangles }, normals, places, size) {
     const [x, y, z] = [p[3 * b] - p[3 * a], p[3 * b + 1] - p[3 * a + 1], p[3 * b + 2] - p[3 * a + 2]];
     heights[a] -= x * normals[3 * a] + y * normals[3 * a + 1] + z * normals[3 * a + 2];
     heights[b] += x * normals[3 * b] + y * normals[3 * b + 1] + z * normals[3 * b + 2];
-    const length = Math.hypot(x, y, z);
+    const length = Math.sqrt(x * x + y * y + z * z);
     lengths[a] += length;
     lengths[b] += length;
     ++degrees[a];
