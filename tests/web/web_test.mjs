@@ -122,8 +122,8 @@ async function look({ address, end }, wanted) {
   page.on('pageerror', (error) => complaints.push(error.message));
   page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
   try {
-    await page.goto(address);
-    await page.waitForFunction((text) => document.body?.innerText.includes(text), wanted, { timeout: 60000 });
+    await page.goto(address, { timeout: 120000 });
+    await page.waitForFunction((text) => document.body?.innerText.includes(text), wanted, { timeout: 120000 });
   } catch (error) {
     throw new Error(`the page says "${await page.innerText('body').catch(() => '')}". ${complaints.join('; ') || error.message}`);
   } finally {
