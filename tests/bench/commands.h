@@ -58,6 +58,8 @@ Rows run_flow(const Run& run, Report& report);
 void plot_flow(const Runs& runs, const std::string& file);
 Rows run_directions(const Run& run, Report& report);
 void plot_directions(const Runs& runs, const std::string& file);
+// A frame without vertices beside a frame of hf_deform, eight handles; run_deform calls it.
+nlohmann::json solve_without_vertices(const Mesh& mesh, const Run& run, Report& report);
 Rows run_deform(const Run& run, Report& report);
 void plot_deform(const Runs& runs, const std::string& file);
 Rows run_deform_quality(const Run& run, Report& report);

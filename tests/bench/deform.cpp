@@ -11,8 +11,8 @@
 #include "bench/svg_plot.h"
 #include "deform/pose_stack.h"
 #include "support/arap_oracle.h"
-#include "support/meshes.h"
 #include "support/arrays.h"
+#include "support/meshes.h"
 #include "support/pose_modes.h"
 
 namespace bench {
@@ -347,6 +347,16 @@ Rows run_deform(const Run& run, Report& report) {
       row["allocations"] = exact.allocations;
       row["paper"] = run_paper_mode(*mesh, solver, regions, run, arap);
     }
+    rows.push_back(row);
+  }
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  for (const uint32_t vertices : {5000u, 50000u, 300000u}) meshes.push_back(make_mesh(Family::torus, vertices));
+  meshes.push_back(make_mesh(Family::creature, 50000));
+  if (run.small) meshes = {make_mesh(Family::torus, Size::k84, true)};
+  for (const auto& mesh : meshes) {
+    if (!run.wants(mesh->name)) continue;
+    nlohmann::json row = {{"name", mesh->name + ", no vertices"}, {"n", mesh->vertex_count()}};
+    row["handles_8"] = solve_without_vertices(*mesh, run, report);
     rows.push_back(row);
   }
   return rows;

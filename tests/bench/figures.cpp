@@ -110,6 +110,8 @@ const std::vector<Figure>& all_figures() {
        {5, 15},
        {2, 6},
        "%.2f"},
+      {"solve_frame", "pose: a frame without vertices, eight handles, ms", false, both(0.25), both(0.1), "%.3f"},
+      {"solve_bytes", "pose: kB of transforms a frame, eight handles", false, both(12), both(6), "%.1f"},
       {"deform_arap", "pose: one ARAP iteration of the full mesh over a drag frame", true, both(15), both(50), "%.0fx"},
       {"deform_add", "pose: all from scratch over a handle more and its first frame", true, both(5), both(20), "%.1fx"},
       {"deform_allocations", "pose: allocations in 1,000 drag frames", false, both(0), both(0), "%.0f"},
