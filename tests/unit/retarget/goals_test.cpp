@@ -67,6 +67,17 @@ std::vector<double> played(const RigActor& source, const RigActor& target, const
   return out;
 }
 
+std::size_t joint_of(const RigActor& actor, Role role, bool last = false) {
+  std::size_t found = 0;
+  for (std::size_t j = 0; j < actor.parents().size(); ++j) {
+    const RigJoint& joint = actor.rig().joints[j];
+    if (joint.role != role || joint.side != Side::left || joint.helper || !joint.judged) continue;
+    found = j;
+    if (!last) break;
+  }
+  return found;
+}
+
 // The whole body slides: 20 steps with the ground, 8 steps otherwise. The most common velocity wins.
 TEST(GroundVelocity, IsTheMostCommonVelocityOfTheSoles) {
   const RigActor actor("mixamo", {});
@@ -131,13 +142,19 @@ TEST(Feet, ThatHoverStandOnTheScaledPath) {
     low = lowest_of(source, pose, {Role::foot, Role::toe});
   }
   ASSERT_GT(bent, 40);
+  const std::vector<double> first = pose;
   for (const bool path : {false, true}) {
+    pose = first;
     Memory memory;
     RetargetOptions options;
     options.foot_path = path;
     Retarget retarget(source.side(), target.side(), options, memory);
     std::vector<double> out(10 * target.parents().size());
-    retarget.frame(pose.data(), 0, out.data());
+    // It slides along, so fast that no foot counts as standing.
+    for (int f = 0; f < 8; ++f) {
+      retarget.frame(pose.data(), f == 0 ? 0 : 1.0 / 30, out.data());
+      pose[10 * static_cast<std::size_t>(source.rig().find("mixamorig:Hips")) + 2] += 0.2;
+    }
     const double height = lowest_of(target, out, {Role::foot, Role::toe}) * target.height();
     if (path) {
       EXPECT_NEAR(height, 0, 0.01 * target.height());
@@ -147,6 +164,34 @@ TEST(Feet, ThatHoverStandOnTheScaledPath) {
       EXPECT_NEAR(retarget.report().hover, height / target.side().character.leg_length, 0.03);
     }
   }
+}
+
+// The same pose, and one in which the knees are bent less and the body is higher: the toes stay where they are. On the
+// scaled path the toes of the other body stay too.
+TEST(Feet, OnTheScaledPathStayWhereTheyStand) {
+  const RigActor source("mixamo", {0.45, 1, 1, 3, Rest::t}), target("unreal", {1.5, 1, 1, 3, Rest::t});
+  const std::size_t hips = static_cast<std::size_t>(source.rig().find("mixamorig:Hips"));
+  const auto toe = [](const RigActor& actor, const std::vector<double>& pose) {
+    return place_at(world_of(actor.parents(), pose.data()), joint_of(actor, Role::toe));
+  };
+  Memory memory;
+  RetargetOptions options;
+  options.foot_path = true;
+  Retarget retarget(source.side(), target.side(), options, memory);
+  std::vector<Vec3> by, own;
+  for (int f = 0; f < 8; ++f) {
+    std::vector<double> pose = rest_trs(source.side().input);
+    for (const char* leg : {"mixamorig:RightLeg", "mixamorig:LeftLeg"})
+      turn_joint(source, pose, leg, hf_inner::turn_about({1, 0, 0}, (70 - 3 * f) * degree));
+    pose[10 * hips + 1] -= lowest_of(source, pose, {Role::foot, Role::toe}) * source.height();
+    if (f > 0) pose[10 * hips + 2] += by[0].z - toe(source, pose).z;
+    std::vector<double> out(10 * target.parents().size());
+    retarget.frame(pose.data(), f == 0 ? 0 : 1.0 / 30, out.data());
+    by.push_back(toe(source, pose));
+    own.push_back(toe(target, out));
+  }
+  EXPECT_LT(std::fabs(by.back().z - by[0].z), 1e-6);
+  EXPECT_LT(std::fabs(own.back().z - own[0].z), 0.03 * target.height());
 }
 
 // The whole source is put into the ground, straight legs and all. A little of it is an error: soles stay on the ground.
@@ -196,17 +241,6 @@ TEST(Feet, ALegDoesNotFoldIntoItsHip) {
       EXPECT_LT(chain.worst_degrees, 60);
     }
   }
-}
-
-std::size_t joint_of(const RigActor& actor, Role role, bool last = false) {
-  std::size_t found = 0;
-  for (std::size_t j = 0; j < actor.parents().size(); ++j) {
-    const RigJoint& joint = actor.rig().joints[j];
-    if (joint.role != role || joint.side != Side::left || joint.helper || !joint.judged) continue;
-    found = j;
-    if (!last) break;
-  }
-  return found;
 }
 
 // The hips sink with knees that bend backward, so that feet would be in the ground: the knees go forward.

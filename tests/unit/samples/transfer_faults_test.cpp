@@ -3,6 +3,7 @@
 
 #include "gltf/animate.h"
 #include "transfer/faults.h"
+#include "transfer/soles.h"
 #include "unit/samples/transfer_program_support.h"
 
 namespace {
@@ -97,6 +98,27 @@ TEST(TransferFaults, ABodyThatFloatsOrRestsInAStrideIsSaidAndLowersTheConfidence
     ASSERT_EQ(said.size(), 1u);
     EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
   }
+}
+
+// A hat beside a body: the body goes two units aside, and the hat goes along or stays.
+TEST(TransferFaults, AMeshThatStaysBehindComesOff) {
+  Model model = make_model("body", {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 1}}, {0, 1, 2, 0, 2, 3});
+  const Model hat = make_model("hat", {{0, 2, 0}, {1, 3, 0}, {0, 3, 1}}, {0, 1, 2});
+  Node node = hat.nodes[0];
+  node.mesh = 1;
+  model.meshes.push_back(hat.meshes[0]);
+  model.nodes.push_back(node);
+  model.scene_roots.push_back(1);
+  const FlatMesh mesh = flatten(model);
+  std::vector<double> along = double_positions(mesh.positions), stays = along;
+  for (const FlatPart& part : mesh.parts) {
+    for (size_t v = part.first_vertex; v < part.first_vertex + part.vertex_count; ++v) {
+      along[3 * v] += 2;
+      if (part.node == 0) stays[3 * v] += 2;
+    }
+  }
+  EXPECT_NEAR(comes_off(model, mesh, 1, {along}), 0, 1e-12);
+  EXPECT_NEAR(comes_off(model, mesh, 1, {along, stays}), 2 / SurfaceBox(mesh).diagonal(), 1e-12);
 }
 
 TEST(TransferFaults, TheReportHoldsThem) {

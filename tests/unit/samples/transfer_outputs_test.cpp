@@ -21,7 +21,8 @@ TEST(TransferOutputs, ProposedPairsFindEveryPlaceAndCrossNone) {
   const json proposed = read_json(list);
   for (const json& pair : proposed["pairs"]) {
     names.push_back(pair["name"]);
-    if (pair["name"] == "nose") EXPECT_FALSE(pair.value("align", true));  // each carries its head as its kind does
+    const bool nose = pair["name"] == "nose";  // each body carries its head as its kind does
+    EXPECT_TRUE(!nose || !pair.value("align", true));
   }
   for (const char* name :
        {"nose", "tail", "front foot left", "front foot right", "hind foot left", "hind foot right", "withers", "rump"})
