@@ -252,15 +252,22 @@ async function long() {
   });
   await bundler('webpack 5', ['webpack', 'webpack-cli']);
   await bundler('Rollup', ['rollup', '@rollup/plugin-node-resolve'], { entry: secondEntry });
+  // as files, so that any server shows it
+  const next = (options) => ({
+    'next.config.mjs': `export default { output: 'export', turbopack: { root: ${JSON.stringify(resolve(scratch, '..'))} }, ${options} };`,
+    'app/layout.jsx': 'export default ({ children }) => <html><body>{children}</body></html>;',
+  });
   for (const more of ['', ' --webpack'])
-    await check(`Next.js${more} makes a page of a client component`, ['next', 'chromium'], () => {
-      // as files, so that any server shows it
-      const files = {
-        'next.config.mjs': `export default { output: 'export', turbopack: { root: ${JSON.stringify(resolve(scratch, '..'))} } };`,
-        'app/layout.jsx': 'export default ({ children }) => <html><body>{children}</body></html>;',
-      };
-      return build('Next.js', { name: `Next${more}`, files, change: (line) => line + more, shown: 'out' });
-    });
+    await check(`Next.js${more} makes a page of a client component`, ['next', 'chromium'], () =>
+      build('Next.js', { name: `Next${more}`, files: next(''), change: (line) => line + more, shown: 'out' }),
+    );
+  await check('Next.js makes a page on the server', ['next', 'chromium'], () => {
+    const [option] = /serverExternalPackages: \['hf-fields'\]/.exec(readFileSync(join(js, 'README.md'), 'utf8'));
+    const page = `import { load } from 'hf-fields';
+      import { field } from '../field.js';
+      export default async function Page() { return <p>{field(await load())}</p>; }`;
+    return build('Next.js', { name: 'Next server', files: { ...next(option), 'app/page.jsx': page }, shown: 'out' });
+  });
   await check('Deno', ['deno'], async () => same((await run(onDeno, folderOf('deno', onConsole))).text, expected('wasm')));
   await check('Bun', ['bun'], async () => same((await run(onBun, folderOf('bun', onConsole))).text, expected('wasm')));
 }
