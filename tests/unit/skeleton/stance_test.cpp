@@ -171,6 +171,20 @@ Pose parts_of(const Model& model) {
   return hf_gltf::pose_of(rest_pose(model), numbers);
 }
 
+// Turns since rest mean little where a body rests in a stride: a pair says how uneven its rests are.
+TEST(Stance, APairSaysThatOneRestsInAStride) {
+  const Rig standing = make_biped("mixamo", {});
+  Rig striding = standing;
+  striding.turn(striding.find("mixamorig:LeftUpLeg"), {1, 0, 0}, -50);
+  striding.turn(striding.find("mixamorig:RightUpLeg"), {1, 0, 0}, 50);
+  const hf_gltf::Model a = make_rig_model(PlacedRig(standing, {}), "a.glb"),
+                       b = make_rig_model(PlacedRig(striding, {}), "b.glb");
+  const hf_gltf::FlatMesh mesh_a = hf_gltf::flatten(a), mesh_b = hf_gltf::flatten(b);
+  EXPECT_EQ(hf_gltf::SkeletonPair({a, mesh_a}, {a, mesh_a}).unevenness(), 0);
+  EXPECT_GT(hf_gltf::SkeletonPair({a, mesh_a}, {b, mesh_b}).unevenness(), 0.5);
+  EXPECT_GT(hf_gltf::SkeletonPair({b, mesh_b}, {a, mesh_a}).unevenness(), 0.5);
+}
+
 TEST(Stance, AClipThatBeginsEvenlyStandsForAPoseThatIsNot) {
   const Rig rig = make_block_rig(false);
   const Model even = make_rig_model(PlacedRig(rig, {}), "body.glb");
