@@ -61,7 +61,7 @@ export default async function story(host) {
     await page.waitForFunction(() => window.hfStudio.tools.quads?.result && !window.hfStudio.tools.quads.busy);
     const { faceCount } = await page.evaluate(() => window.hfStudio.tools.quads.result.info);
     assert.ok(faceCount > 0.8 * count && faceCount < 1.2 * count, `${faceCount} of about ${count}`);
-    await studio.picture('quads_first');
+    await studio.picture('quads_first', { kept: false });
     await page.locator('#count').fill('9.9');
     return `${faceCount} of about ${count}, edge ${edge.toFixed(4)}`;
   });

@@ -64,7 +64,7 @@ export default async function story(host) {
         assert.deepEqual(found.eye, eye, act);
         assert.ok(found.inside && found.fills > 0.3, `${act}: ${JSON.stringify(found)}`);
         assert.equal(await page.getAttribute('#tool-pose', 'aria-selected'), 'true');
-        if (act.startsWith('#')) await studio.picture(`view_${side}`);
+        if (act.startsWith('#')) await studio.picture(`view_${side}`, { kept: false });
       }
     await page.click('#view-home');
   });

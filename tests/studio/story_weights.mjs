@@ -64,7 +64,7 @@ export default async function story(host) {
     assert.ok(found.seen);
     assert.equal(found.bones, 38);
     const { clear, at } = found;
-    await studio.picture('weights_bones');
+    await studio.picture('weights_bones', { kept: false });
     await page.mouse.move(at[0] + clear.at[0], at[1] + clear.at[1]);
     assert.equal(await page.textContent('#tip'), `bone ${clear.name}`);
     await page.mouse.click(at[0] + clear.at[0], at[1] + clear.at[1]);

@@ -2,6 +2,8 @@
 
 /** A bone is as wide as this part of its length, and widest at this part of it. */
 const [WIDE, WIDEST] = [0.09, 0.18];
+/** A bone longer than this part of the size of the body gets no wider: one from the ground to the hips is no leg. */
+const LONG = 0.15;
 /** The dot of a bone without a child, as part of the size of the body. */
 const DOT = 0.012;
 /** A pointer so many pixels from the line of a bone means the bone. */
@@ -84,7 +86,8 @@ export class Bones {
       const bright = shown === 'all' || Number(shown) === bone ? 1 : DIM;
       const { r, g, b } = colours[bone];
       CORNERS.forEach((place, v) => {
-        corner.fromArray(place).multiplyScalar(length).applyQuaternion(turn).add(from).toArray(places, 3 * (6 * s + v));
+        const wide = Math.min(length, LONG * this.view.size);
+        corner.set(place[0] * length, place[1] * wide, place[2] * wide).applyQuaternion(turn).add(from).toArray(places, 3 * (6 * s + v));
         tint.set([r * bright, g * bright, b * bright], 3 * (6 * s + v));
       });
       faces.push(...FACES.map((v) => 6 * s + v));
