@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <limits>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "common/program.h"
 #include "gltf/animate.h"
 #include "gltf/clip_binding.h"
+#include "gltf/file_bytes.h"
 #include "gltf/file_kind.h"
 #include "gltf/file_write.h"
 #include "gltf/gltf_read.h"
@@ -253,6 +256,19 @@ double least_confidence(const RunReport& report) {
   return out;
 }
 
+// A folder for files of a trial. It goes with the object.
+struct TrialFolder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("hf_transfer_" + std::to_string(std::random_device()()));
+  TrialFolder() { std::filesystem::create_directory(path); }
+  ~TrialFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  TrialFolder(const TrialFolder&) = delete;
+  TrialFolder& operator=(const TrialFolder&) = delete;
+};
+
 // Where the surface leaves doubt and joints could lead too, both are written, and the better file is kept. True: joints
 // were better.
 bool try_joints(const JointModels& models, const RunReport& by_surface, const TransferCommand& command,
@@ -260,21 +276,17 @@ bool try_joints(const JointModels& models, const RunReport& by_surface, const Tr
   constexpr double sure = 0.8;  // an artist uses such a run as it is; a higher bound costs a second run for nothing
   const double doubted = least_confidence(by_surface);
   if (doubted >= sure || (!command.kind.empty() && command.kind != "own-skin")) return false;
-  const auto beside = [](const std::filesystem::path& file) {  // the ending says the kind of file
-    return file.empty() ? file : std::filesystem::path(file).replace_extension(".joints" + file.extension().string());
-  };
+  const TrialFolder folder;
   TransferCommand trial = command;
-  trial.output = beside(command.output);
-  trial.sheet = beside(command.sheet);
+  trial.output = folder.path / command.output.filename();
+  if (!command.sheet.empty()) trial.sheet = folder.path / command.sheet.filename();
   RunReport report = run_by_joints(models, choose_clips(models.source, command.clip), trial, bar);
   const bool better = least_confidence(report) > doubted;
-  for (const auto& [from, to] : {std::pair(trial.output, command.output), {trial.sheet, command.sheet}}) {
-    if (from.empty()) continue;
-    if (better)
-      std::filesystem::rename(from, to);
-    else
-      std::filesystem::remove(from);
-  }
+  for (const auto& [from, to] : {std::pair(trial.output, command.output), {trial.sheet, command.sheet}})
+    if (better && !to.empty()) {
+      const std::vector<uint8_t> bytes = read_bytes(from, std::numeric_limits<uint64_t>::max());
+      write_bytes(to, bytes.data(), bytes.size());
+    }
   if (!better) return false;
   char why[128];
   std::snprintf(why, sizeof why, "the surfaces reach %.2f of confidence here; --way surface takes them", doubted);
