@@ -278,7 +278,7 @@ bool try_joints(const JointModels& models, const RunReport& by_surface, const Tr
   if (doubted >= sure || (!command.kind.empty() && command.kind != "own-skin")) return false;
   const TrialFolder folder;
   TransferCommand trial = command;
-  trial.output = folder.path / command.output.filename();
+  if (!command.output.empty()) trial.output = folder.path / command.output.filename();
   if (!command.sheet.empty()) trial.sheet = folder.path / command.sheet.filename();
   RunReport report = run_by_joints(models, choose_clips(models.source, command.clip), trial, bar);
   const bool better = least_confidence(report) > doubted;

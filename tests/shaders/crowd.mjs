@@ -26,7 +26,7 @@ mkdirSync(folder, { recursive: true });
 execFileSync(process.execPath, [join(root, 'samples/crowd/build.mjs'), join(folder, 'page')], {
   env: { ...process.env, HF_WASM: wasm, HF_MODULES: modules, HF_CREATURE: creature },
 });
-const server = spawn(process.execPath, [join(root, 'bindings/js/bin/hf-studio.mjs'), '0', join(folder, 'page')], {
+const server = spawn(process.execPath, [join(root, 'bindings/js/studio/bin/hf-studio.mjs'), '0', join(folder, 'page')], {
   stdio: ['ignore', 'pipe', 'inherit'],
 });
 const address = await new Promise((done) => server.stdout.on('data', (text) => done(/http\S+/.exec(text)[0])));
