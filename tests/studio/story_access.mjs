@@ -192,15 +192,15 @@ export default async function story(host) {
     const before = await page.evaluate(() => [window.hfStudio.view.turn, window.hfStudio.view.distance]);
     await touch(
       page,
-      line([20, canvas.y + 30], [90, canvas.y + 30]).map((point) => [point]),
+      line([20, canvas.y + 90], [60, canvas.y + 90]).map((point) => [point]),
     );
-    // above the body, where no handle is
-    const middle = [canvas.x + canvas.width / 2, canvas.y + 40];
+    // beside the body, where no handle and no button is
+    const middle = [canvas.x + canvas.width - 30, canvas.y + 150];
     await touch(
       page,
       [40, 60, 80, 110].map((d) => [
-        [middle[0] - d, middle[1]],
-        [middle[0] + d, middle[1]],
+        [middle[0], middle[1] - d],
+        [middle[0], middle[1] + d],
       ]),
     );
     const after = await page.evaluate(() => [window.hfStudio.view.turn, window.hfStudio.view.distance]);
