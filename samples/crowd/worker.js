@@ -1,12 +1,12 @@
 // Poses a share of the creatures. The first message has the body and answers with rows; others have a time and answer with
 // the transforms of all clusters of the share.
-import { load } from './hf/web.js';
+import { apiOf } from './hf/wasm.js';
 import factory from './hf_module.js';
 
 let poses, tips, first, size;
 
 async function start(message) {
-  const hf = await load({ factory, wasm: await (await fetch('hf.wasm')).arrayBuffer() });
+  const hf = await apiOf(factory, await (await fetch('hf.wasm')).arrayBuffer());
   const surface = new hf.Surface(message.positions, message.triangles);
   // fewer groups and bands than usual: a frame is cheaper, and a clone smaller
   const pose = new hf.Pose(surface, { groupCount: 60, bandCount: 5 });
