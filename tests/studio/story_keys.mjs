@@ -150,7 +150,7 @@ export default async function story(host) {
     // the vertex under the dot is where the dot is
     const off = await other.page.evaluate(() => {
       const { skin, state, tools, view } = window.hfStudio;
-      const handle = state.handles.find(({ label }) => label === 'foot 1');
+      const handle = state.handles.find(({ label }) => label.endsWith('foot 1'));
       const a = view.onScreen(tools.pose.placeOf(handle));
       const b = view.onScreen(skin.at({ corners: [handle.vertex], barycentrics: [1] }));
       return Math.hypot(a.x - b.x, a.y - b.y);

@@ -45,13 +45,13 @@ export default async function story(host) {
     const triangles = Uint32Array.from([0, 1, 2, 2, 1, 3]);
     for (const format of ['obj', 'off', 'ply']) {
       const data = meshFile(format, positions, triangles);
-      const back = readMesh(typeof data === 'string' ? new TextEncoder().encode(data) : data, `a.${format}`);
+      const back = await readMesh(typeof data === 'string' ? new TextEncoder().encode(data) : data, `a.${format}`);
       assert.deepEqual([back.positions, back.triangles], [positions, triangles], format);
     }
     const strips =
       'ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n' +
       'property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 2 0\n8 0 1 2 3 -1 1 4 3\n';
-    const read = readMesh(new TextEncoder().encode(strips), 'strips.ply');
+    const read = await readMesh(new TextEncoder().encode(strips), 'strips.ply');
     assert.deepEqual([...read.triangles], [0, 1, 2, 1, 3, 2, 1, 4, 3]);
     return '3 formats';
   });
@@ -101,8 +101,8 @@ export default async function story(host) {
     const text = sheetObj(12);
     await page.setInputFiles('#file', { name: 'sheet.obj', mimeType: 'text/plain', buffer: Buffer.from(text) });
     await page.waitForFunction(() => window.hfStudio.body.name === 'sheet.obj' && window.hfStudio.skin.bvh);
-    const back = readMesh(readFileSync(await studio.save('save-mesh')), 'back.obj');
-    const given = readMesh(Buffer.from(text), 'given.obj');
+    const back = await readMesh(readFileSync(await studio.save('save-mesh')), 'back.obj');
+    const given = await readMesh(Buffer.from(text), 'given.obj');
     assert.deepEqual(back.triangles, given.triangles);
     assert.deepEqual(back.positions, await page.evaluate(() => Array.from(window.hfStudio.shape.positions)).then((x) => Float32Array.from(x)));
     return `${given.positions.length / 3} vertices`;
