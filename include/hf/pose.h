@@ -43,6 +43,12 @@ HF_API hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* desc, hf
  * Since 0.1. */
 HF_API hf_result hf_pose_clone(hf_pose pose, hf_pose* out_pose);
 
+/* Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
+ * hf_deform shows the surface with its new stiffness. surface: made by hf_surface_edit from the pose's surface, or the
+ * other way round, in any number of steps. Cost: as adding all handles at once. Errors: HF_ERROR_CONFLICT (the surfaces
+ * have no common origin). Thread safety: changes `pose`, reads `surface`. Since 0.1. */
+HF_API hf_result hf_pose_move_to(hf_pose pose, hf_surface surface);
+
 /* Destroys a pose. Ignores NULL and destroyed objects. Since 0.1. */
 HF_API void hf_pose_destroy(hf_pose pose);
 

@@ -2,7 +2,7 @@
  *
  * Make one surface per mesh, or per graph of your own (hf_surface_create_graph). Solvers, poses, direction fields,
  * regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any number of
- * threads may use it. An object made on a surface keeps the data it needs, so you can destroy objects in any order. */
+ * threads may use it: an edit makes another one (hf_surface_edit). An object made on a surface keeps the data it needs, so you can destroy objects in any order. */
 #ifndef HF_SURFACE_H
 #define HF_SURFACE_H
 
@@ -364,6 +364,41 @@ HF_API hf_result hf_surface_measure_gaps(hf_surface surface, const hf_array* pos
  * 0.1. */
 HF_API hf_result hf_surface_relink(hf_surface surface, const hf_links_desc* links, hf_progress progress,
                                    hf_surface* out_surface);
+
+/* ---- edits ---- */
+
+/* What hf_surface_edit changes. The stiffness of a vertex is a number by which the weights of its edges are multiplied:
+ * an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A region of large stiffness bends
+ * and stretches little and hardly changes its surroundings: a belt, a shield, a shell. A region of small stiffness
+ * takes up the bending around it. */
+typedef struct hf_surface_edit_desc {
+  uint32_t struct_size;
+  uint32_t vertex_count;    /* entries of vertices and stiffness */
+  const uint32_t* vertices; /* [vertex_count] as given; the others keep what they have. NULL: all vertices in order */
+  const double* stiffness;  /* [vertex_count] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one */
+  hf_progress progress;     /* NULL, or an object to poll and cancel through */
+} hf_surface_edit_desc;
+
+/* Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the factor: an
+ * edit of some hundred vertices costs elimination paths, as sites do, and no factorisation. The library factorises
+ * again with the same ordering where that costs less, and for bi-harmonic fields. A surface that is edited back has the
+ * fields of the old one.
+ *
+ * Fields, poses, weights and transfers on the new surface follow its stiffness. Lengths do not change: regions,
+ * distances, directions and quads are those of the old surface. hf_solver_move_to and hf_pose_move_to take sites and
+ * handles along. Soft sites keep the unit of their stiffness. hf_surface_save is refused; save the factor of the
+ * surface before its edits. Memory limits hold for both surfaces together. out_surface: as in hf_surface_create.
+ * Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a stiffness out of range) and
+ * HF_ERROR_CONFLICT (a vertex, or a welded copy, listed twice with different numbers), index = position in the list;
+ * HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT (vertices is NULL and vertex_count is not that of the surface),
+ * HF_ERROR_NOT_POSITIVE_DEFINITE (a graph with negative weights), HF_ERROR_CANCELLED. Thread safety: reads `surface`.
+ * Since 0.1. */
+HF_API hf_result hf_surface_edit(hf_surface surface, const hf_surface_edit_desc* desc, hf_surface* out_surface);
+
+/* Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices. out_stiffness: NULL, or
+ * double[capacity]. out_count: NULL, or receives vertex_count. Thread safety: reads `surface`. Since 0.1. */
+HF_API hf_result hf_surface_get_stiffness(hf_surface surface, uint32_t capacity, double* out_stiffness,
+                                          uint32_t* out_count);
 
 /* hf_surface_get_statistics writes sizes and times of a surface here. Times are in milliseconds. Bytes are doubles
  * (exact to 2^53). */

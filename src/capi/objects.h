@@ -46,6 +46,10 @@ struct SurfaceObject final : Object {
   static constexpr Kind kind_of = Kind::surface;
   SurfaceObject(std::shared_ptr<const Geometry> geometry, const CoreOptions& options, const hf_surface_info& given)
       : Object(kind_of, geometry->memory), surface(std::move(geometry), options), info(given) {}
+  // A surface edited from another one.
+  SurfaceObject(std::shared_ptr<const Surface> from, std::shared_ptr<const Vector<double>> stiffness,
+                const hf_surface_info& given)
+      : Object(kind_of, from->geometry().memory), surface(std::move(from), std::move(stiffness)), info(given) {}
   const Surface surface;
   const hf_surface_info info;
 };
@@ -59,11 +63,16 @@ inline std::shared_ptr<SurfaceObject> mesh_surface(hf_surface handle, const char
   return object;
 }
 
-// Returns the harmonic core (operator and factor) of such a surface, with its links. Poses and transfers are built on
-// this core.
+// Returns the harmonic core (operator and factor) of such a surface, with its links. Poses are built on this core,
+// transfers on that without edits.
 inline std::shared_ptr<const Core> harmonic_core(hf_surface handle, const char* purpose, const char* name = "surface",
                                                  std::uint32_t index = HF_NO_INDEX) {
   return mesh_surface(handle, purpose, name, index)->surface.core(FieldKind::harmonic);
+}
+
+// The harmonic core with links, without edits.
+inline std::shared_ptr<const Core> unedited_core(hf_surface handle, const char* name, std::uint32_t index) {
+  return mesh_surface(handle, "a transfer", name, index)->surface.unedited().core(FieldKind::harmonic);
 }
 
 // The same without links, for what works on triangles: directions, distances, extremities and quads.

@@ -31,7 +31,7 @@ hf_result hf_region_create(hf_surface handle, const hf_region_desc* given, hf_re
     const hf_region_desc desc = read_optional(given, "desc");
     const RegionOptions options = read_region_options(desc, surface->surface.geometry().mesh.report.vertex_count);
     return with_progress(desc.progress, [&] {
-      const auto core = surface->surface.core(options.field_kind);
+      const auto core = surface->surface.unedited().core(options.field_kind);
       return make_owner_in<RegionObject>(
           core->memory, make_owner_in<RegionSurface>(core->memory, core, positions_of(*core, options.positions)));
     });

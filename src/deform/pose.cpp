@@ -68,6 +68,22 @@ std::shared_ptr<Pose> Pose::clone() const {
   return copy;
 }
 
+std::shared_ptr<Pose> Pose::on(std::shared_ptr<const Core> core) const {
+  ensure_surface();
+  auto moved = clone();
+  moved->core_ = core;
+  moved->rest_ = make_shared_in<Rest>(memory(), *core, memory());
+  moved->previous_layout_.reset();
+  moved->previous_state_.reset();
+  if (!layout_) return moved;
+  const Handles none(&memory());
+  std::shared_ptr<const Layout> layout = moved->make_layout(layout_->handles, SiteSolver::make(core), none);
+  std::shared_ptr<State> state = moved->carry_over(*layout);
+  state->changed = true;
+  moved->install(std::move(layout), std::move(state));
+  return moved;
+}
+
 std::shared_ptr<Pose> Pose::without_handles() const {
   auto copy = make_owner_in<Pose>(core_->memory, core_, options_, rest_);
   copy->groups_ = groups_;
@@ -238,11 +254,15 @@ std::shared_ptr<const Groups> Pose::meet(const Layout& layout) const {
 }
 
 std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles) const {
-  auto layout = make_shared_in<Layout>(memory(), handles, layout_ ? layout_->sites->clone() : SiteSolver::make(core_),
-                                       *core_, memory());
-  const Handles none(&memory());
+  if (layout_) return make_layout(handles, layout_->sites->clone(), layout_->handles);
+  return make_layout(handles, SiteSolver::make(core_), Handles(&memory()));
+}
+
+std::shared_ptr<const Pose::Layout> Pose::make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
+                                                      const Handles& present) const {
+  auto layout = make_shared_in<Layout>(memory(), handles, std::move(sites), *core_, memory());
   const auto solve = [&] {
-    set_handle_sites(*core_, *layout->sites, layout_ ? layout_->handles : none, layout->handles, memory());
+    set_handle_sites(*core_, *layout->sites, present, layout->handles, memory());
     layout->fields = solve_handle_fields(*core_, *layout->sites, layout->handles, layout->reach, memory());
   };
   if (options_.scheme) {

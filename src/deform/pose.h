@@ -142,6 +142,9 @@ class Pose {
   // Throws for regions that add_handles would refuse.
   void check_regions(Span<const std::uint32_t> start, Span<const std::int32_t> vertices) const;
 
+  // Returns this pose on another core of the same geometry, with its handles and their transforms.
+  std::shared_ptr<Pose> on(std::shared_ptr<const Core> core) const;
+
   // ---- for layers of handles (pose_stack.h), whose poses must depend only on the arguments of these calls ----
 
   // Returns a pose without handles that shares the data prepared from the mesh.
@@ -226,6 +229,9 @@ class Pose {
   std::int32_t require(std::uint32_t number, std::uint32_t position) const;
   void check_free_turn(bool free_turn) const;
   std::shared_ptr<const Groups> meet(const Layout& layout) const;
+  // sites: an engine that holds the handles of `present`.
+  std::shared_ptr<const Layout> make_layout(const Handles& handles, std::shared_ptr<SiteSolver> sites,
+                                            const Handles& present) const;
   std::shared_ptr<const Layout> make_layout(const Handles& handles) const;
   // Returns a state for `layout` (handles and the clusters they make). Handles and clusters of the present state keep
   // their motions, so the surface does not jump.

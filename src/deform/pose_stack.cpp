@@ -28,6 +28,18 @@ std::shared_ptr<PoseStack> PoseStack::clone() const {
   return copy;
 }
 
+void PoseStack::move_to(std::shared_ptr<const Core> core) {
+  std::shared_ptr<Pose> base = base_->on(core);
+  std::array<std::shared_ptr<Layer>, layer_limit> layers;
+  for (std::uint32_t k = 1; k < layer_limit; ++k) {
+    if (layers_[k]) layers[k] = make_layer(layers_[k]->plain->on(core));
+  }
+  base_ = std::move(base);
+  layers_ = std::move(layers);
+  core_ = std::move(core);
+  mark_stale(0);
+}
+
 bool PoseStack::has_layers() const noexcept {
   return std::any_of(layers_.begin(), layers_.end(), [](const auto& layer) { return layer != nullptr; });
 }

@@ -69,6 +69,9 @@ class PoseStack {
   // one layer.
   DeformReport deform(const DeformRequest& request);
 
+  // Goes to another core of the same geometry, with all handles and their transforms.
+  void move_to(std::shared_ptr<const Core> core);
+
   std::uint32_t handle_count() const noexcept { return static_cast<std::uint32_t>(entries_.size()); }
   std::uint32_t layer_of(std::uint32_t number) const;
   HandleReport handle(std::uint32_t number) const;

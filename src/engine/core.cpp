@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "base/timer.h"
 #include "engine/lost_components.h"
+#include "engine/stiffness.h"
 #include "factor/factor_bytes.h"
 #include "factor/work_limit.h"
 #include "mesh/biharmonic.h"
@@ -33,13 +34,12 @@ Core::Core(std::shared_ptr<const Geometry> shape)
 
 namespace {
 
-// Finds the mean diagonal of every component and the vertex to pin.
-void find_grounds(Core& core) {
+// Finds the mean diagonal of every component and the vertex to pin. diagonal: that of K, by vertex.
+void find_grounds(Core& core, const Vector<double>& diagonal) {
   const std::size_t components = static_cast<std::size_t>(core.mesh.component_count());
   core.ground.assign(components, Mesh::none);
   core.mean_diagonal.assign(components, 0.0);
   Vector<double> count(components, 0.0, core.memory.get());
-  const Vector<double> diagonal = operator_diagonal(core);
   for (std::int32_t v = 0; v < core.size(); ++v) {
     const std::size_t c = static_cast<std::size_t>(core.mesh.component[static_cast<std::size_t>(v)]);
     if (core.ground[c] == Mesh::none) core.ground[c] = v;
@@ -104,8 +104,9 @@ Vector<std::uint8_t> widened_vertices(const Mesh& mesh, Memory& memory) {
 
 // Builds the operator K for the options, on the mesh's own edges or on the intrinsic Delaunay edges. The number `cap`
 // is a position in weight_caps and tie_shares. The list `confined` is empty, or marks the components whose weights are
-// limited as a last resort.
-void make_operator(Core& core, const CoreOptions& options, int cap, const Vector<std::uint8_t>& confined) {
+// limited as a last resort. Returns the diagonal of K with a stiffness of 1, if there is another: it is the unit of
+// soft sites.
+Vector<double> make_operator(Core& core, const CoreOptions& options, int cap, const Vector<std::uint8_t>& confined) {
   Memory& pool = *core.memory;
   Vector<double> areas(&pool);
   Vector<std::uint8_t> changed(&pool);
@@ -148,25 +149,34 @@ void make_operator(Core& core, const CoreOptions& options, int cap, const Vector
   }
   core.changed_count = static_cast<std::uint32_t>(std::count(changed.begin(), changed.end(), 1));
   core.first_changed = core.mesh.first_of_given([&](Index v) { return changed[at(v)] != 0; });
-  if (!harmonic) {
-    if (options.field_kind == FieldKind::biharmonic) areas = inverse_masses(core.mesh, std::move(areas));
-    for (std::size_t v = 0; !confined.empty() && v < areas.size(); ++v) {
-      if (confined[static_cast<std::size_t>(core.mesh.component[v])])
-        areas[v] = std::min(std::max(areas[v], 1 / spread), spread);
-    }
-    if (exceeds_valence(core.laplacian, options.formed_valence)) {
-      core.inverse_mass.swap(areas);
-    } else {
-      refuse_soup(core.laplacian, options.flop_limit, 1, pool);  // the product costs more than four times as much
-      core.laplacian = biharmonic(core.laplacian, areas, pool, core.jobs.get());
-      core.refinements = 1;
-    }
+  if (options.field_kind == FieldKind::biharmonic) areas = inverse_masses(core.mesh, std::move(areas));
+  for (std::size_t v = 0; !harmonic && !confined.empty() && v < areas.size(); ++v) {
+    if (confined[static_cast<std::size_t>(core.mesh.component[v])])
+      areas[v] = std::min(std::max(areas[v], 1 / spread), spread);
   }
-  find_grounds(core);
+  Vector<double> unit(&pool), plain_diagonal(&pool);
+  if (core.stiffness) {
+    plain_diagonal = operator_diagonal(core);
+    unit = harmonic ? plain_diagonal : biharmonic_diagonal(core.laplacian, areas, pool);
+    stiffen(core.laplacian, *core.stiffness);
+  }
+  if (!harmonic && exceeds_valence(core.laplacian, options.formed_valence)) {
+    core.inverse_mass.swap(areas);
+    find_grounds(core, core.stiffness ? plain_diagonal : operator_diagonal(core));
+    return unit;
+  }
+  if (!harmonic) {
+    refuse_soup(core.laplacian, options.flop_limit, 1, pool);  // the product costs more than four times as much
+    core.laplacian = biharmonic(core.laplacian, areas, pool, core.jobs.get());
+    core.refinements = 1;
+  }
+  find_grounds(core, core.stiffness ? unit : operator_diagonal(core));
+  return unit;
 }
 
-// Makes the core of a bi-harmonic operator that is not formed, on the finished core of its Laplacian.
-std::shared_ptr<const Core> on_root(std::shared_ptr<Core> root) {
+// Makes the core of a bi-harmonic operator that is not formed, on the finished core of its Laplacian. unit: what
+// make_operator returned.
+std::shared_ptr<const Core> on_root(std::shared_ptr<Core> root, const Vector<double>& unit) {
   const std::shared_ptr<Core> core = make_owner_in<Core>(root->memory, root->geometry);
   core->field_kind = root->field_kind;
   core->ordering = root->ordering;
@@ -178,10 +188,11 @@ std::shared_ptr<const Core> on_root(std::shared_ptr<Core> root) {
   core->factor = root->factor;
   core->refinements = 1;
   core->inverse_mass.swap(root->inverse_mass);
+  core->stiffness = root->stiffness;
   root->field_kind = FieldKind::harmonic;
   root->is_long = false;  // the corrections of the whole field are enough
   core->root = std::move(root);
-  find_grounds(*core);
+  find_grounds(*core, core->stiffness ? unit : operator_diagonal(*core));
   return core;
 }
 
@@ -271,9 +282,10 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
   Timer operator_timer;
   std::shared_ptr<Core> core = make_owner_in<Core>(shape->memory, shape);
   core->field_kind = options.field_kind;
+  core->stiffness = options.stiffness;
   core->times.weld_ms = shape->weld_ms;
   Vector<std::uint8_t> confined(&pool);
-  make_operator(*core, options, 0, confined);
+  Vector<double> unit = make_operator(*core, options, 0, confined);
   core->ordering = options.ordering;
   core->flop_limit = options.flop_limit;
   core->formed_valence = options.formed_valence;
@@ -301,10 +313,10 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
       confined = lost_components(*core, factor_options(*core, options));
     else
       ++cap;
-    make_operator(*core, options, cap, confined);
+    unit = make_operator(*core, options, cap, confined);
   }
   report(1.0f);
-  if (options.field_kind != FieldKind::harmonic && core->refinements == 0) return on_root(std::move(core));
+  if (options.field_kind != FieldKind::harmonic && core->refinements == 0) return on_root(std::move(core), unit);
   return core;
 }
 

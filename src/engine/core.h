@@ -35,6 +35,8 @@ struct CoreOptions {
   std::int32_t formed_valence = most_formed_valence;
   // A core whose ordering is used again if the matrix has the same pattern, or null.
   const Core* like = nullptr;
+  // By vertex, as Core::stiffness.
+  std::shared_ptr<const Vector<double>> stiffness;
 };
 
 struct CoreTimes {
@@ -94,8 +96,13 @@ struct Core {
   // The factor of K, or of the root's operator, with raised diagonals at the pinned vertices; null if need_factor is
   // false.
   std::shared_ptr<const Factor> factor;
+  // How stiff the surface is at every vertex: an edge of the operator counts the harmonic mean of its two ends times.
+  // Null: 1 everywhere.
+  std::shared_ptr<const Vector<double>> stiffness;
+  std::shared_ptr<const Core> unedited;  // the same with a stiffness of 1; null: this one
+  std::shared_ptr<const Core> factored;  // the core beside whose factor that of this one is; null: it has its own
   CoreTimes times;
-  mutable PreviewCache preview;  // the factor in single precision
+  mutable PreviewCache preview;  // the factor in single precision; not for a core with `factored`
   WorkspacePool& workspaces;     // the geometry's
   WorkspacePool& zeroed_workspaces;
 };
@@ -109,6 +116,8 @@ std::uint64_t grounded_hash(const Core& core);
 Vector<double> operator_diagonal(const Core& core);
 // Writes out = K u with `channels` numbers per vertex, by differences of u. out must not be u.
 void apply_operator(const Core& core, const double* u, std::int32_t channels, double* out);
+// The stiffness of an edge beside that of its ends. Two springs in a row, one of each end, are as stiff.
+inline double edge_stiffness(double a, double b) noexcept { return 2 * a * b / (a + b); }
 // Returns the coordinates of the welded vertices in the format that the ordering needs; none for a graph.
 Vector<float> ordering_coordinates(const Mesh& mesh, Memory& memory);
 

@@ -37,6 +37,7 @@ std::shared_ptr<const Screening> Screening::make(std::shared_ptr<const Core> cor
   const auto made =
       make_owner_in<Screening>(memory, ScreenedOperator::make(std::move(core), strength, ScreenedOptions{}), *memory);
   const ScreenedOperator& screened = *made->screened;
+  made->strength.assign(strength.begin(), strength.end());
   for (Index c = 0; c < screened.core->mesh.component_count(); ++c) {
     made->reaches.push_back(screened.screened(c));
     made->reaches_any |= screened.screened(c);

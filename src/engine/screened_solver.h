@@ -10,7 +10,7 @@ namespace hf_inner {
 // The screening of a solver and the field that it gives without sites. Immutable.
 struct Screening {
   Screening(std::shared_ptr<const ScreenedOperator> made, Memory& memory)
-      : screened(std::move(made)), reaches(&memory), target(&memory) {}
+      : screened(std::move(made)), reaches(&memory), strength(&memory), target(&memory) {}
   // strength: H by inner vertex, in 1 / (inner unit)^2, at least 0. target: p, [vertex][channels]; null: 0. Throws
   // HF_ERROR_TOO_LARGE (index = vertex as given), and HF_ERROR_NOT_POSITIVE_DEFINITE if H of a component is so small
   // that rounding hides it.
@@ -19,7 +19,8 @@ struct Screening {
   std::shared_ptr<const ScreenedOperator> screened;  // first member: its memory outlives the rest
   Vector<std::uint8_t> reaches;                      // by component: 1 if some H in it is above 0
   bool reaches_any = false;
-  Vector<double> target;  // p, [vertex][channels]; empty: 0
+  Vector<double> strength;  // H, as given to make
+  Vector<double> target;    // p, [vertex][channels]; empty: 0
   Buffer<double> field;   // [vertex][channels] without sites; 0 on components without screening
 
  private:
@@ -40,6 +41,7 @@ class ScreenedSolver final : public SiteSolver {
                 double* out) const override;
   bool correct(const double* values, std::int32_t channels, const double* field, const double* flux, double* change,
                double* flux_change) const override;
+  std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core) const override { return make(std::move(core)); }
   std::shared_ptr<SiteSolver> clone() const override { return make_owner_in<ScreenedSolver>(core().memory, *this); }
   void rebase(JobRunner& jobs) override { system_.rebase(jobs); }
   bool takes_screening() const noexcept override { return true; }

@@ -99,6 +99,11 @@ class SiteSolver {
   virtual void respond(const double* load, const double* values, std::int32_t channels, double* field,
                        double* flux) const;
 
+  // Returns an engine of hosts without sites on another core, for one of hosts; null for baselines.
+  virtual std::shared_ptr<SiteSolver> on(std::shared_ptr<const Core> core) const {
+    (void)core;
+    return nullptr;
+  }
   // Returns a copy that shares all immutable parts.
   virtual std::shared_ptr<SiteSolver> clone() const = 0;
 

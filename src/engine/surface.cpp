@@ -1,5 +1,7 @@
 #include "engine/surface.h"
 
+#include "engine/stiffness.h"
+
 namespace hf_inner {
 
 // Runs when the last user of an operator is gone.
@@ -22,12 +24,19 @@ Surface::Surface(std::shared_ptr<const Geometry> geometry, const CoreOptions& op
       own_(Core::make(geometry_, options)),
       made_(make_shared_in<Made>(*geometry_->memory)) {}
 
+Surface::Surface(std::shared_ptr<const Surface> from, std::shared_ptr<const Vector<double>> stiffness)
+    : geometry_(from->geometry_),
+      own_(edit_core(from->own_, std::move(stiffness))),
+      made_(make_shared_in<Made>(*geometry_->memory)),
+      origin_(from->origin_ ? from->origin_ : std::move(from)) {}
+
 std::shared_ptr<const Core> Surface::core(FieldKind kind) const {
   if (kind == own_->field_kind) return own_;
   return make_core(static_cast<std::size_t>(kind), geometry_, kind);
 }
 
 std::shared_ptr<const Core> Surface::unlinked_core() const {
+  if (origin_) return origin_->unlinked_core();
   if (!geometry_->plain) return core(FieldKind::harmonic);
   constexpr std::size_t unlinked_slot = 3;
   return make_core(unlinked_slot, geometry_->plain, FieldKind::harmonic);
@@ -46,6 +55,7 @@ std::shared_ptr<const Core> Surface::make_core(std::size_t slot, std::shared_ptr
   options.ordering = own_->ordering;
   options.flop_limit = own_->flop_limit;
   options.formed_valence = own_->formed_valence;
+  options.stiffness = own_->stiffness;
   const std::shared_ptr<const Core> core = Core::make(std::move(geometry), options);
   const std::shared_ptr<const Core> counted(core.get(), Forget{core, made_, slot},
                                             OwningAllocator<Core>(geometry_->memory));

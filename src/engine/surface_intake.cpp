@@ -1,5 +1,8 @@
 #include "engine/surface_intake.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/arguments.h"
 #include "factor/factor_bytes.h"
 #include "factor/ordering.h"
@@ -10,6 +13,9 @@ namespace {
 // Bounds and defaults that hf/surface.h states. They bound what the mistake of a host can cost; no result depends on
 // them. A closed mesh has two triangles per vertex.
 constexpr std::uint32_t most_threads = 256, default_vertex_limit = 20000000, triangles_per_vertex = 8;
+// Stiffness of a vertex. With 1e4 a region is rigid to four digits and fields are right to 1e-11. With 1e6 rounding in
+// a diagonal shows in the ninth digit.
+constexpr double least_vertex_stiffness = 1e-4, largest_vertex_stiffness = 1e4;
 // An hour of one core.
 constexpr std::uint32_t default_work_limit_gflop = 100000;
 // Most edges per vertex of the vertex limit without an edge_limit. Tetrahedra have 7, neighbours of points 5 to 10.
@@ -121,6 +127,39 @@ void read_saved_factor(const hf_factor_desc& saved, std::int32_t ordering, CoreO
          "ordering is %d, but the saved factor has ordering %d; set it to 0 to take the factor's", ordering,
          static_cast<int>(found));
   options.ordering = found;
+}
+
+std::shared_ptr<const Vector<double>> read_stiffness(const hf_surface_edit_desc& desc, const Surface& before) {
+  const Mesh& mesh = before.geometry().mesh;
+  const std::uint32_t given = mesh.report.vertex_count;
+  require_list(desc.vertex_count, desc.stiffness, "vertex_count", "stiffness");
+  if (!desc.vertices && desc.vertex_count != given)
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
+         "vertex_count is %u; without a list of vertices it is that of the surface, %u", desc.vertex_count, given);
+  Memory& memory = *before.geometry().memory;
+  auto stiffness = make_shared_in<Vector<double>>(memory, mesh.positions.size(), 1.0);
+  if (before.stiffness()) *stiffness = *before.stiffness();
+  Vector<std::uint8_t> named(mesh.positions.size(), 0, &memory);
+  for (std::uint32_t i = 0; i < desc.vertex_count; ++i) {
+    const std::uint32_t vertex = desc.vertices ? desc.vertices[i] : i;
+    const double s = desc.stiffness[i];
+    if (vertex >= given)
+      fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of vertices is %u; the surface has %u vertices", i, vertex, given);
+    if (!std::isfinite(s)) fail(HF_ERROR_NON_FINITE, i, "entry %u of stiffness is not finite", i);
+    if (!(s >= least_vertex_stiffness && s <= largest_vertex_stiffness))
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "entry %u of stiffness is %g; it must be %g to %g", i, s, least_vertex_stiffness,
+           largest_vertex_stiffness);
+    const std::int32_t v = mesh.inner_of_given[vertex];
+    if (v == Mesh::none) continue;
+    double& out = (*stiffness)[static_cast<std::size_t>(v)];
+    if (named[static_cast<std::size_t>(v)] && out != s)
+      fail(HF_ERROR_CONFLICT, i, "entry %u: vertex %u, or a welded copy of it, is listed before with stiffness %g", i,
+           vertex, out);
+    named[static_cast<std::size_t>(v)] = 1;
+    out = s;
+  }
+  const bool plain = std::all_of(stiffness->begin(), stiffness->end(), [](double s) { return s == 1; });
+  return plain ? nullptr : stiffness;
 }
 
 }  // namespace hf_inner

@@ -30,4 +30,8 @@ CoreOptions options_like(const Surface& other);
 // HF_ERROR_INVALID_ARGUMENT (another ordering, damaged bytes), HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER.
 void read_saved_factor(const hf_factor_desc& saved, std::int32_t ordering, CoreOptions& options);
 
+// Reads the stiffness by inner vertex that a surface has after an edit; null: 1 everywhere. Throws as hf_surface_edit
+// documents.
+std::shared_ptr<const Vector<double>> read_stiffness(const hf_surface_edit_desc& desc, const Surface& before);
+
 }  // namespace hf_inner

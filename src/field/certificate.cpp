@@ -27,6 +27,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "field/flow_bound.h"
+#include "engine/stiffness.h"
 #include "mesh/laplacian.h"
 
 namespace hf_inner {
@@ -106,7 +107,9 @@ SymmetricMatrix given_weights(const Core& core) {
   const Geometry& plain = core.geometry->unlinked();
   if (!core.mesh.is_graph() || core.field_kind != FieldKind::harmonic || core.changed_count == 0)
     return SymmetricMatrix(*core.memory);
-  return laplacian(plain.topology, plain.weights, *core.memory, core.jobs.get());
+  SymmetricMatrix given = laplacian(plain.topology, plain.weights, *core.memory, core.jobs.get());
+  if (core.stiffness) stiffen(given, *core.stiffness);
+  return given;
 }
 
 // The checks of one field.

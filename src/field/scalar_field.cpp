@@ -118,11 +118,33 @@ void ScalarField::set_screening(Span<const double> strength, const double* targe
   if (!strength.empty()) screening = Screening::make(core_, strength, target, sites_.channels());
   std::shared_ptr<SiteSolver> engine =
       screening ? make_owner_in<ScreenedSolver>(core_->memory, screening) : SiteSolver::make(core_);
+  take_engine(std::move(engine));
+  screening_ = std::move(screening);
+}
+
+// Replaces the engine by one without sites, which gets all of them.
+void ScalarField::take_engine(std::shared_ptr<SiteSolver> engine) {
   const SiteDifference difference(SiteSet(memory(), sites_.channels()), sites_, memory());
   if (!difference.empty()) engine->edit(difference.edit());
   prepared_.reset();
   engine_ = std::move(engine);
+}
+
+void ScalarField::move_to(std::shared_ptr<const Core> core) {
+  const std::lock_guard<std::mutex> lock(guard_);
+  std::shared_ptr<SiteSolver> engine = engine_->on(core);
+  if (!engine)
+    fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX, "a baseline stays on its surface; make the solver with hf_create");
+  std::shared_ptr<const Screening> screening;
+  if (screening_) {
+    const Vector<double>& target = screening_->target;
+    screening =
+        Screening::make(core, screening_->strength, target.empty() ? nullptr : target.data(), sites_.channels());
+    engine = make_owner_in<ScreenedSolver>(core->memory, screening);
+  }
+  take_engine(std::move(engine));
   screening_ = std::move(screening);
+  core_ = std::move(core);
 }
 
 void ScalarField::require_sites() const {

@@ -36,6 +36,9 @@ class ScalarField {
 
   // out_sites: null, or room for add.count numbers. The numbers are written only on success.
   void edit(const FieldEdit& edit, std::uint32_t* out_sites);
+  // Moves the sites to another core of the same geometry. Throws HF_ERROR_UNSUPPORTED (baselines) and what SiteSolver
+  // and Screening::make throw.
+  void move_to(std::shared_ptr<const Core> core);
   // Screens the field: (K + A H) u = A H p + W lambda. strength: H by inner vertex; empty: no screening. target: p,
   // [vertex][channels]; null: 0. Throws HF_ERROR_UNSUPPORTED (baselines, bi-harmonic fields, graphs) and
   // what Screening::make throws.
@@ -78,6 +81,7 @@ class ScalarField {
     std::shared_ptr<const Screening> screening;
   };
   bool adopt(const SiteSet& next) noexcept;
+  void take_engine(std::shared_ptr<SiteSolver> engine);
   Memory& memory() const noexcept { return *core_->memory; }
 
   std::shared_ptr<const Core> core_;

@@ -1,0 +1,20 @@
+// A surface whose stiffness was edited: its operator, and its factor beside that of the surface before.
+//
+// The stiffness s of a vertex is a number by which the host multiplies the weights of its edges: an edge ij counts
+// 2 s_i s_j / (s_i + s_j) times. A stiff region has nearly constant fields, so poses move it as one. The operator stays
+// a Laplacian: a field keeps to the range of its sites, and K of ones is 0.
+#pragma once
+#include "engine/core.h"
+
+namespace hf_inner {
+
+// Multiplies the edges of a Laplacian by the stiffness of their ends, and sums the diagonals of changed rows again.
+void stiffen(SymmetricMatrix& laplacian, const Vector<double>& stiffness);
+
+// Returns a core with this stiffness by vertex; null: 1 everywhere. A harmonic core shares the factor of `from`, or
+// factorises again with the same ordering where sharing costs more than `most` times as much; tests raise it. Other
+// kinds of field are made anew. Throws HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED or std::bad_alloc.
+std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, std::shared_ptr<const Vector<double>> stiffness,
+                                      double most = 1);
+
+}  // namespace hf_inner

@@ -1,0 +1,184 @@
+// Fields on surfaces whose stiffness was edited, against a core made with that stiffness and against dense solves.
+#include "engine/stiffness.h"
+
+#include "support/engines.h"
+#include "unit/engine/edit_script.h"
+
+namespace {
+
+using hf_inner::at;
+using hf_inner::Core;
+using hf_inner::Index;
+using hf_inner::Site;
+using hf_test::EditScript;
+
+using Stiffness = std::shared_ptr<const hf_inner::Vector<double>>;
+constexpr double always_rows = 1e9, never_rows = 0;
+
+hf_test::PlainMesh islands() {
+  hf_test::PlainMesh mesh = hf_test::grid(14, 11, 1, 0.3);
+  append(mesh, hf_test::torus(16, 9), 30);
+  return mesh;
+}
+
+// Vertices near a random one, as a brush takes them.
+Stiffness stroke(const Core& core, const Stiffness& before, double radius, double s, std::uint32_t seed) {
+  auto out = std::make_shared<hf_inner::Vector<double>>(at(core.size()), 1.0, core.memory.get());
+  if (before) *out = *before;
+  const hf_inner::Vec3 centre = core.mesh.positions[seed * 2654435761u % at(core.size())];
+  for (std::size_t v = 0; v < out->size(); ++v) {
+    if (norm(core.mesh.positions[v] - centre) < radius) (*out)[v] = s;
+  }
+  return out;
+}
+
+// The field of three sites an island, one of them soft and one in a triangle.
+std::vector<Site> sites_on(const Core& core) {
+  std::vector<Site> sites;
+  for (Index c = 0; c < core.mesh.component_count(); ++c) {
+    std::vector<Index> there;
+    for (Index v = 0; v < core.size(); ++v) {
+      if (core.mesh.component[at(v)] == c) there.push_back(v);
+    }
+    sites.push_back(Site::at_vertex(core.mesh, there[3]));
+    sites.push_back(Site::at_vertex(core.mesh, there[there.size() - 5], 0.3));
+    sites.push_back(Site::at_vertex(core.mesh, there[there.size() / 2]));
+  }
+  return sites;
+}
+
+double error_of(const std::shared_ptr<const Core>& core) {
+  const std::vector<Site> sites = sites_on(*core);
+  std::vector<Index> slots;
+  std::vector<double> values;
+  Eigen::MatrixXd exact(static_cast<Eigen::Index>(sites.size()), 1);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    slots.push_back(static_cast<Index>(i));
+    values.push_back(i % 2 == 0 ? 1.0 : -2.5);
+    exact(static_cast<Eigen::Index>(i), 0) = values[i];
+  }
+  const auto solver = hf_inner::SiteSolver::make(core);
+  hf_inner::SiteEdit edit;
+  edit.add = slots;
+  edit.sites = sites;
+  solver->edit(edit);
+  std::vector<double> u(at(core->size()));
+  solver->solve(values.data(), 1, u.data(), nullptr);
+  const Eigen::MatrixXd field = hf_test::dense_field(*core, sites, exact);
+  double worst = 0;
+  for (Index v = 0; v < core->size(); ++v) worst = std::max(worst, std::fabs(u[at(v)] - field(v, 0)));
+  return worst;
+}
+
+TEST(Stiffness, AnEditedCoreHasTheOperatorOfAFreshOne) {
+  for (const double most : {always_rows, never_rows}) {
+    const auto plain = hf_test::make_core(islands());
+    hf_inner::CoreOptions options;
+    options.stiffness = stroke(*plain, nullptr, 0.06, 30, 5);
+    const auto fresh = hf_test::make_core(islands(), 1, options);
+    const auto edited = hf_inner::edit_core(plain, options.stiffness, most);
+    EXPECT_EQ(edited->factored != nullptr, most == always_rows);
+    ASSERT_EQ(edited->laplacian.row, fresh->laplacian.row);
+    EXPECT_EQ(edited->laplacian.value, fresh->laplacian.value);
+    EXPECT_EQ(edited->mean_diagonal, fresh->mean_diagonal);
+    EXPECT_EQ(edited->ground, fresh->ground);
+    EXPECT_NE(edited->laplacian.value, plain->laplacian.value);
+  }
+}
+
+TEST(Stiffness, FieldsAreThoseOfADenseSolve) {
+  for (const double s : {1e-4, 1e-2, 3.0, 1e2, 1e4}) {
+    const auto plain = hf_test::make_core(islands());
+    for (const double most : {always_rows, never_rows}) {
+      const auto edited = hf_inner::edit_core(plain, stroke(*plain, nullptr, 0.06, s, 5), most);
+      EXPECT_LT(error_of(edited), 1e-10) << s << " " << most;
+    }
+  }
+}
+
+// Strokes over strokes: rows are always counted from the factor, so errors do not add up.
+TEST(Stiffness, ManyStrokesLoseNoDigits) {
+  auto core = hf_test::make_core(islands());
+  const auto first = core;
+  Stiffness stiffness;
+  std::uint32_t factors = 0;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    stiffness = stroke(*core, stiffness, 0.03 + 0.002 * (i % 7), std::pow(10.0, -2.0 + i % 5), 31 * i + 7);
+    const auto next = hf_inner::edit_core(core, stiffness, i % 20 == 19 ? never_rows : always_rows);
+    factors += next->factored == nullptr;
+    if (next->factored) {
+      EXPECT_EQ(next->factored, core->factored ? core->factored : core);
+    }
+    core = next;
+    if (i % 6 == 0) {
+      ASSERT_LT(error_of(core), 1e-10) << i;
+    }
+  }
+  EXPECT_EQ(factors, 3u);
+  EXPECT_EQ(hf_inner::edit_core(core, nullptr), first);
+}
+
+// Edits, rebases, refused batches, partial fields and previews of sites on an edited surface.
+TEST(Stiffness, SitesAreEditedAsOnAnyOtherSurface) {
+  const auto plain = hf_test::make_core(islands());
+  const auto core = hf_inner::edit_core(plain, stroke(*plain, nullptr, 0.08, 25, 3), always_rows);
+  ASSERT_NE(core->factored, nullptr);
+  EditScript script(core, hf_test::engines(), 2, 17, 0);
+  for (int i = 0; i < 60; ++i) {
+    script.step(i % 20 < 10 ? 20 : 3, 6);
+    if (i % 12 == 5) script.refused_step();
+    if (i % 10 != 9 || script.count() == 0) continue;
+    std::vector<Site> used;
+    Eigen::MatrixXd values;
+    script.present(used, values);
+    script.expect_fields(hf_test::dense_field(*core, used, values), used, 1e-9, 1e-4);
+  }
+}
+
+TEST(Stiffness, OtherKindsOfFieldAreMadeAnew) {
+  for (const auto kind : {hf_inner::FieldKind::biharmonic, hf_inner::FieldKind::biharmonic_graph}) {
+    for (const std::int32_t valence : {hf_inner::most_formed_valence, 5}) {
+      hf_inner::CoreOptions options;
+      options.field_kind = kind;
+      options.formed_valence = valence;
+      const auto plain = hf_test::make_core(islands(), 1, options);
+      const auto edited = hf_inner::edit_core(plain, stroke(*plain, nullptr, 0.06, 20, 5));
+      EXPECT_EQ(edited->root != nullptr, valence == 5);
+      for (std::size_t c = 0; c < plain->mean_diagonal.size(); ++c)
+        EXPECT_NEAR(edited->mean_diagonal[c], plain->mean_diagonal[c], 1e-12 * plain->mean_diagonal[c]);
+      EXPECT_LT(error_of(edited), 1e-6) << static_cast<int>(kind) << " " << valence;
+    }
+  }
+}
+
+TEST(Stiffness, MovedSolversHaveTheFieldsOfNewOnes) {
+  const auto plain = hf_test::make_core(islands());
+  const auto edited = hf_inner::edit_core(plain, stroke(*plain, nullptr, 0.07, 40, 9), always_rows);
+  for (const bool screened : {false, true}) {
+    std::vector<double> u(at(plain->size())), again(u), fresh(u);
+    const std::uint32_t vertices[3] = {2, 60, 200};
+    const double values[3] = {1, -1, 4};
+    const std::vector<double> strength(u.size(), 3.0), target(u.size(), 0.5);
+    const auto fill = [&](hf_inner::ScalarField& field) {
+      hf_inner::FieldEdit edit;
+      edit.add = {3, vertices, nullptr, nullptr};
+      edit.add_holds.values = values;
+      field.edit(edit, nullptr);
+      if (screened) field.set_screening(strength, target.data());
+    };
+    hf_inner::ScalarField field(plain, 1, 100), made(edited, 1, 100);
+    fill(field);
+    fill(made);
+    field.solve(u.data());
+    made.solve(fresh.data());
+    field.move_to(edited);
+    field.solve(again.data());
+    EXPECT_EQ(again, fresh);
+    EXPECT_NE(again, u);
+    field.move_to(plain);
+    field.solve(again.data());
+    EXPECT_EQ(again, u);
+  }
+}
+
+}  // namespace
