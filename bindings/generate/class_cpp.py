@@ -437,7 +437,7 @@ class Writer(class_rust.Writer):
         objects = [f"const {camel(q['type'])}& {q['name']}" for q in m.parents]
         given = ", ".join([*objects, f"const {p['type']}& desc"])
         if not constructor:
-            if m.kind == "create":
+            if m.kind == "create" or m.outputs:
                 return []
             others = [q for q in m.inputs if q is not p]
             return [f"  // With the struct of C.", f"  void {title(m)}(const {p['type']}& desc) {{ check({m.name}(get(), &desc)); }}"] if not others else []

@@ -164,6 +164,20 @@ struct GraphOptions {
       const Reals& weights) const;
 };
 
+// What Surface::edit changes. The stiffness of a vertex is a number by which the weights of its edges are multiplied:
+// an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A region of large stiffness bends
+// and stretches little and hardly changes its surroundings: a belt, a shield, a shell. A region of small stiffness
+// takes up the bending around it.
+struct SurfaceEdit {
+  // `[vertex_count]` as given; the others keep what they have. none: all vertices in order
+  std::vector<uint32_t> vertices{};
+  // `[vertex_count]` 1e-4 to 1e4; 1: as the surface was made. Welded copies share one
+  std::vector<double> stiffness{};
+  // none, or an object to poll and cancel through
+  const Progress* progress = nullptr;
+  hf_surface_edit_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
+};
+
 // Options of picking: posed positions, if the surface is not at rest, and which triangles count.
 struct PickOptions {
   // none, or `[vertex_count x 3]` of float or double: posed positions (Pose.deform writes them). none: the rest
@@ -862,7 +876,8 @@ class Progress {
 //
 // Make one surface per mesh, or per graph of your own (Surface::from_graph). Solvers, poses, direction fields, regions,
 // transfers and quads are made on a surface and share its factor. A surface never changes, so any number of threads may
-// use it. An object made on a surface keeps the data it needs, so you can destroy objects in any order.
+// use it: an edit makes another one (Surface::edit). An object made on a surface keeps the data it needs, so you can
+// destroy objects in any order.
 class Surface {
  public:
   // Makes a surface: welds and checks the mesh, builds the operator, orders and factorises it. The call copies the
@@ -1032,6 +1047,41 @@ class Surface {
     hf_surface raw = nullptr;
     check(hf_surface_relink(get(), &desc, progress ? progress->get() : nullptr, &raw));
     return Surface(raw, c.counts({"vertex_count"}));
+  }
+
+  // Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the factor: an
+  // edit of some hundred vertices costs elimination paths, as sites do, and no factorisation. The library factorises
+  // again with the same ordering where that costs less, and for bi-harmonic fields. A surface that is edited back has
+  // the fields of the old one.
+  //
+  // Fields, poses and weights on the new surface follow its stiffness. Lengths do not change: regions, transfers,
+  // distances, directions and quads are those of the old surface. Solver::move_to and Pose::move_to take sites and
+  // handles along. Soft sites keep the unit of their stiffness. Surface::save is refused; save the factor of the
+  // surface before its edits. Memory limits hold for both surfaces together.
+  //
+  // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+  // HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE.
+  Surface edit(const SurfaceEdit& options = {}) const {
+    Call c(counts_);
+    const hf_surface_edit_desc desc = options.fill(c, "");
+    hf_surface raw = nullptr;
+    check(hf_surface_edit(get(), &desc, &raw));
+    return Surface(raw, c.counts({"vertex_count"}));
+  }
+
+  // Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices.
+  std::vector<double> stiffness() const {
+    Call c(counts_);
+    uint32_t count = 0;
+    c.sizes["capacity"] = Call::kFirst;
+    std::vector<double> stiffness;
+    for (bool done = false; !done;) {
+      auto* stiffness_at = c.room(stiffness, {"capacity"});
+      const hf_result code = hf_surface_get_stiffness(get(), c.count("capacity", 0), stiffness_at, &count);
+      done = c.enough(code, {{"capacity", count}});
+    }
+    stiffness.resize(c.product({"capacity"}));
+    return stiffness;
   }
 
   // Writes the statistics of a surface and of the factor it was made with.
@@ -1249,6 +1299,7 @@ class Surface {
 
 
 
+
   uint32_t vertex_count() const noexcept { return known(counts_, "vertex_count"); }
 
   hf_surface get() const noexcept { return handle_.get(); }
@@ -1287,6 +1338,17 @@ class Solver {
     hf_solver raw = nullptr;
     check(hf_solver_clone(get(), &raw));
     return Solver(raw, c.counts({"channel_count", "vertex_count"}));
+  }
+
+  // Moves a solver to an edited surface: its sites keep their numbers, values and screening.
+  //
+  // surface: made by Surface::edit from the solver's surface, or the other way round, in any number of steps.
+  //
+  // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.
+  void move_to(const Surface& surface) {
+    Call c(counts_);
+    c.parent("surface", surface.known_counts());
+    check(hf_solver_move_to(get(), surface.get()));
   }
 
   // Writes the options of a solver.
@@ -2042,6 +2104,18 @@ class Pose {
     hf_pose raw = nullptr;
     check(hf_pose_clone(get(), &raw));
     return Pose(raw, c.counts({"vertex_count"}));
+  }
+
+  // Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
+  // Pose.deform shows the surface with its new stiffness.
+  //
+  // surface: made by Surface::edit from the pose's surface, or the other way round, in any number of steps.
+  //
+  // Fails with HF_ERROR_CONFLICT.
+  void move_to(const Surface& surface) {
+    Call c(counts_);
+    c.parent("surface", surface.known_counts());
+    check(hf_pose_move_to(get(), surface.get()));
   }
 
   // Writes the options of a pose.
@@ -3781,6 +3855,16 @@ inline hf_graph_desc GraphOptions::fill([[maybe_unused]] Call& c, [[maybe_unused
   desc.masses = c.view(masses, false, "masses", {"vertex_count"});
   desc.progress = progress ? progress->get() : nullptr;
   if (saved_factor) desc.saved_factor = c.keep(saved_factor->fill(c, "saved_factor."));
+  return desc;
+}
+
+inline hf_surface_edit_desc SurfaceEdit::fill([[maybe_unused]] Call& c,
+    [[maybe_unused]] const std::string& prefix) const {
+  auto desc = make<hf_surface_edit_desc>();
+  desc.vertices = c.array(vertices, false, "vertices", {prefix + "vertex_count"});
+  desc.stiffness = c.array(stiffness, false, "stiffness", {prefix + "vertex_count"});
+  desc.progress = progress ? progress->get() : nullptr;
+  desc.vertex_count = c.count(prefix + "vertex_count", 0);
   return desc;
 }
 

@@ -397,13 +397,13 @@ typedef struct hf_blend_influences {
   uint32_t vertex_count;    /* out: as given to the surface */
   double change;            /* out: the largest change of a vertex's weights, 0 to 1: half the sum of the differences */
   double byte_change;       /* out: the same for byte_weights */
-  double error;             /* out: the largest distance of a vertex from its place in the last frame, in box diagonals */
-  double byte_error;        /* out: the same for byte_weights */
-  uint16_t* clusters;       /* [vertex_capacity][influence_count] each below the count of clusters */
-  uint16_t* weights;        /* [vertex_capacity][influence_count] 65535ths; the weights of a vertex sum to 65535 */
-  uint8_t* byte_clusters;   /* [vertex_capacity][influence_count] NULL = not wanted. Refused for more than 256 clusters */
-  uint8_t* byte_weights;    /* [vertex_capacity][influence_count] NULL = not wanted. 255ths, of sum 255; weights that
-                               round to 0 are left out */
+  double error;           /* out: the largest distance of a vertex from its place in the last frame, in box diagonals */
+  double byte_error;      /* out: the same for byte_weights */
+  uint16_t* clusters;     /* [vertex_capacity][influence_count] each below the count of clusters */
+  uint16_t* weights;      /* [vertex_capacity][influence_count] 65535ths; the weights of a vertex sum to 65535 */
+  uint8_t* byte_clusters; /* [vertex_capacity][influence_count] NULL = not wanted. Refused for more than 256 clusters */
+  uint8_t* byte_weights;  /* [vertex_capacity][influence_count] NULL = not wanted. 255ths, of sum 255; weights that
+                             round to 0 are left out */
 } hf_blend_influences;
 
 /* Writes rows of one length. They change with `revision`, as those of hf_pose_get_blend_rows. Call it without arrays

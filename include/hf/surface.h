@@ -2,7 +2,8 @@
  *
  * Make one surface per mesh, or per graph of your own (hf_surface_create_graph). Solvers, poses, direction fields,
  * regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any number of
- * threads may use it: an edit makes another one (hf_surface_edit). An object made on a surface keeps the data it needs, so you can destroy objects in any order. */
+ * threads may use it: an edit makes another one (hf_surface_edit). An object made on a surface keeps the data it needs,
+ * so you can destroy objects in any order. */
 #ifndef HF_SURFACE_H
 #define HF_SURFACE_H
 
@@ -384,7 +385,7 @@ typedef struct hf_surface_edit_desc {
  * again with the same ordering where that costs less, and for bi-harmonic fields. A surface that is edited back has the
  * fields of the old one.
  *
- * Fields, poses, weights and transfers on the new surface follow its stiffness. Lengths do not change: regions,
+ * Fields, poses and weights on the new surface follow its stiffness. Lengths do not change: regions, transfers,
  * distances, directions and quads are those of the old surface. hf_solver_move_to and hf_pose_move_to take sites and
  * handles along. Soft sites keep the unit of their stiffness. hf_surface_save is refused; save the factor of the
  * surface before its edits. Memory limits hold for both surfaces together. out_surface: as in hf_surface_create.

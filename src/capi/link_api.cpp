@@ -107,8 +107,8 @@ hf_result hf_surface_relink(hf_surface handle, const hf_links_desc* links, hf_pr
       LinksIn in(object->memory.get());
       if (links) read_links(read_struct(links, "links"), plain->mesh, in);
       auto geometry = Geometry::linked(std::move(plain), in.options);
-      auto unedited = make_owner_in<SurfaceObject>(object->memory, std::move(geometry), options_like(old.unedited()),
-                                                   object->info);
+      auto unedited =
+          make_owner_in<SurfaceObject>(object->memory, std::move(geometry), options_like(old.unedited()), object->info);
       if (!old.stiffness()) return unedited;
       const std::shared_ptr<const Surface> from(unedited, &unedited->surface);
       return make_owner_in<SurfaceObject>(object->memory, from, old.own().stiffness, object->info);

@@ -60,8 +60,7 @@ hf_result create_transfer(const char* function, hf_surface source, hf_surface ta
     get<SurfaceObject>(target, "target", 1);
     const hf_transfer_desc given = read_optional(desc, "desc");
     read_transfer_options(given, options);
-    const auto from = unedited_core(source, "source", 0),
-               to = unedited_core(target, "target", 1);
+    const auto from = unedited_core(source, "source", 0), to = unedited_core(target, "target", 1);
     const Vector<Vec3> source_rest = read_rest(given.source_rest, *from, "source_rest"),
                        target_rest = read_rest(given.target_rest, *to, "target_rest");
     options.source_rest = {source_rest.data(), source_rest.size()};

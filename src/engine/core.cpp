@@ -104,8 +104,8 @@ Vector<std::uint8_t> widened_vertices(const Mesh& mesh, Memory& memory) {
 
 // Builds the operator K for the options, on the mesh's own edges or on the intrinsic Delaunay edges. The number `cap`
 // is a position in weight_caps and tie_shares. The list `confined` is empty, or marks the components whose weights are
-// limited as a last resort. Returns the diagonal of K with a stiffness of 1, if there is another: it is the unit of
-// soft sites.
+// limited as a last resort. Returns the diagonal that a bi-harmonic K has with a stiffness of 1, if there is another:
+// it is the unit of soft sites.
 Vector<double> make_operator(Core& core, const CoreOptions& options, int cap, const Vector<std::uint8_t>& confined) {
   Memory& pool = *core.memory;
   Vector<double> areas(&pool);
@@ -157,12 +157,13 @@ Vector<double> make_operator(Core& core, const CoreOptions& options, int cap, co
   Vector<double> unit(&pool), plain_diagonal(&pool);
   if (core.stiffness) {
     plain_diagonal = operator_diagonal(core);
-    unit = harmonic ? plain_diagonal : biharmonic_diagonal(core.laplacian, areas, pool);
+    if (!harmonic) unit = biharmonic_diagonal(core.laplacian, areas, pool);
     stiffen(core.laplacian, *core.stiffness);
   }
   if (!harmonic && exceeds_valence(core.laplacian, options.formed_valence)) {
     core.inverse_mass.swap(areas);
-    find_grounds(core, core.stiffness ? plain_diagonal : operator_diagonal(core));
+    if (!core.stiffness) plain_diagonal = operator_diagonal(core);
+    find_grounds(core, plain_diagonal);
     return unit;
   }
   if (!harmonic) {
@@ -170,7 +171,8 @@ Vector<double> make_operator(Core& core, const CoreOptions& options, int cap, co
     core.laplacian = biharmonic(core.laplacian, areas, pool, core.jobs.get());
     core.refinements = 1;
   }
-  find_grounds(core, core.stiffness ? unit : operator_diagonal(core));
+  if (!core.stiffness) plain_diagonal = operator_diagonal(core);
+  find_grounds(core, core.stiffness && !harmonic ? unit : plain_diagonal);
   return unit;
 }
 
@@ -192,7 +194,10 @@ std::shared_ptr<const Core> on_root(std::shared_ptr<Core> root, const Vector<dou
   root->field_kind = FieldKind::harmonic;
   root->is_long = false;  // the corrections of the whole field are enough
   core->root = std::move(root);
-  find_grounds(*core, core->stiffness ? unit : operator_diagonal(*core));
+  if (core->stiffness)
+    find_grounds(*core, unit);
+  else
+    find_grounds(*core, operator_diagonal(*core));
   return core;
 }
 

@@ -8,8 +8,8 @@
 //     K du - W dlambda = r,  W'du + D dlambda = g
 //
 // Each correction reduces the error by the relative error of the two sweeps. So the error that remains is about the
-// size of the last correction times that factor. If sites are inside the factor after a rebase, or if it is an edited one, a preview is
-// the exact field. A correction costs a product with K and two single-precision sweeps.
+// size of the last correction times that factor. If sites are inside the factor after a rebase, or if it is an edited
+// one, a preview is the exact field. A correction costs a product with K and two single-precision sweeps.
 //
 // A field that takes corrections in double (bi-harmonic, long, crowded) may have no digit in single precision. Nothing
 // is known of the error of its preview without a correction. With corrections, the last one measures it.

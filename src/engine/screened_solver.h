@@ -21,7 +21,7 @@ struct Screening {
   bool reaches_any = false;
   Vector<double> strength;  // H, as given to make
   Vector<double> target;    // p, [vertex][channels]; empty: 0
-  Buffer<double> field;   // [vertex][channels] without sites; 0 on components without screening
+  Buffer<double> field;     // [vertex][channels] without sites; 0 on components without screening
 
  private:
   void correct_field(Index channels);

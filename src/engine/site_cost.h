@@ -27,8 +27,7 @@ struct SiteCost {
   // Cost of an edited factor of k changed rows (edited_factor.h): paths, products of paths, and two dense factors of
   // k^3 / 3 and a product of k^3 / 3 operations, without fast kernels.
   double edit_ns(double k) const noexcept {
-    return 2 * k * factor_.path_entries / path_rate + k * k * factor_.path_rows / gram_rate +
-           2 * cube(k) / signed_rate;
+    return 2 * k * factor_.path_entries / path_rate + k * k * factor_.path_rows / gram_rate + 2 * cube(k) / signed_rate;
   }
   // Cost of factorising again the rows [first, k) of a dense system with signs of both kinds.
   double signed_ns(double first, double k) const noexcept { return (cube(k) - cube(first)) / 3 / signed_rate; }

@@ -67,7 +67,8 @@ MatrixChange difference(const SymmetricMatrix& to, const SymmetricMatrix& from, 
 
 void stiffen(SymmetricMatrix& laplacian, const Vector<double>& stiffness) {
   for (Index v = 0; v < laplacian.size(); ++v)
-    write_row(laplacian, v, [&](Index u) { return stiffness[at(u)]; }, laplacian.value.data());
+    write_row(
+        laplacian, v, [&](Index u) { return stiffness[at(u)]; }, laplacian.value.data());
 }
 
 namespace {
@@ -108,8 +109,8 @@ std::shared_ptr<Core> edited_copy(const Core& plain, std::shared_ptr<const Vecto
 
 }  // namespace
 
-std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from,
-                                      std::shared_ptr<const Vector<double>> stiffness, double most) {
+std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, std::shared_ptr<const Vector<double>> stiffness,
+                                      double most) {
   if (from->field_kind != FieldKind::harmonic) return make_again(*from, std::move(stiffness));
   const std::shared_ptr<const Core> plain = from->unedited ? from->unedited : from;
   if (!stiffness) return plain;

@@ -18,8 +18,8 @@ class Surface {
   // Makes the operator and factor of options.field_kind, or loads the factor from options.saved_factor.
   Surface(std::shared_ptr<const Geometry> geometry, const CoreOptions& options);
 
-  // Makes a surface of the same geometry whose vertices have this stiffness (stiffness.h); null: 1 everywhere. It shares
-  // the factor of `from`. Throws what edit_core throws.
+  // Makes a surface of the same geometry whose vertices have this stiffness (stiffness.h); null: 1 everywhere. It
+  // shares the factor of `from`. Throws what edit_core throws.
   Surface(std::shared_ptr<const Surface> from, std::shared_ptr<const Vector<double>> stiffness);
 
   const Geometry& geometry() const noexcept { return *geometry_; }
@@ -39,7 +39,8 @@ class Surface {
   // that ask for them wait. Throws HF_ERROR_REENTRANT if a callback asks during the making, and what Core::make throws.
   // Thread safety: any thread.
   std::shared_ptr<const Core> core(FieldKind kind) const;
-  // Returns the harmonic operator and factor of the triangles alone, without links and edits. Thread safety and errors as above.
+  // Returns the harmonic operator and factor of the triangles alone, without links and edits. Thread safety and errors
+  // as above.
   std::shared_ptr<const Core> unlinked_core() const;
 
  private:

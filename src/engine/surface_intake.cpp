@@ -147,8 +147,8 @@ std::shared_ptr<const Vector<double>> read_stiffness(const hf_surface_edit_desc&
       fail(HF_ERROR_OUT_OF_RANGE, i, "entry %u of vertices is %u; the surface has %u vertices", i, vertex, given);
     if (!std::isfinite(s)) fail(HF_ERROR_NON_FINITE, i, "entry %u of stiffness is not finite", i);
     if (!(s >= least_vertex_stiffness && s <= largest_vertex_stiffness))
-      fail(HF_ERROR_INVALID_ARGUMENT, i, "entry %u of stiffness is %g; it must be %g to %g", i, s, least_vertex_stiffness,
-           largest_vertex_stiffness);
+      fail(HF_ERROR_INVALID_ARGUMENT, i, "entry %u of stiffness is %g; it must be %g to %g", i, s,
+           least_vertex_stiffness, largest_vertex_stiffness);
     const std::int32_t v = mesh.inner_of_given[vertex];
     if (v == Mesh::none) continue;
     double& out = (*stiffness)[static_cast<std::size_t>(v)];

@@ -26,8 +26,8 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "field/flow_bound.h"
 #include "engine/stiffness.h"
+#include "field/flow_bound.h"
 #include "mesh/laplacian.h"
 
 namespace hf_inner {

@@ -294,6 +294,37 @@ static void surfaces_of_graphs_refuse_what_needs_triangles(void** state) {
   finish_rows("calls that need triangles");
 }
 
+/* Stiff vertices pull their edges: the field of a chain is the voltage along resistors in a row. */
+static void graphs_take_a_stiffness(void** state) {
+  (void)state;
+  scene_create(&scene);
+  make_graph_solvers();
+  const uint32_t vertex[2] = {1, 7};
+  const double stiffness[2] = {10, 10};
+  double out[VERTICES], again[VERTICES];
+  uint32_t count = 0;
+  hf_surface_edit_desc edit = HF_INIT(hf_surface_edit_desc);
+  edit.vertex_count = 2;
+  edit.vertices = vertex;
+  edit.stiffness = stiffness;
+  hf_surface stiff = NULL;
+  assert_ok(hf_surface_edit(graph, &edit, &stiff));
+  assert_ok(hf_surface_get_stiffness(stiff, VERTICES, out, &count));
+  assert_true(count == VERTICES && out[1] == 10 && out[0] == 1 && out[7] == 1);
+  assert_ok(hf_solver_solve(solver, OUT(out), NULL));
+  assert_ok(hf_solver_move_to(solver, stiff));
+  assert_ok(hf_solver_move_to(solver, graph));
+  assert_ok(hf_solver_solve(solver, OUT(again), NULL));
+  for (int v = 0; v < VERTICES; ++v) assert_float_equal(again[v], out[v], 1e-12);
+  hf_pose none = NULL;
+  assert_code(HF_ERROR_INVALID_OBJECT, hf_pose_move_to(none, stiff));
+  hf_surface_destroy(stiff);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(vectors);
+  hf_surface_destroy(graph);
+  scene_destroy(&scene);
+}
+
 static void surfaces_of_graphs_do_all_else(void** state) {
   (void)state;
   scene_create(&scene);
@@ -381,6 +412,7 @@ int main(void) {
       cmocka_unit_test(hf_surface_create_graph_survives_every_refused_allocation),
       cmocka_unit_test(surfaces_of_graphs_refuse_what_needs_triangles),
       cmocka_unit_test(surfaces_of_graphs_do_all_else),
+      cmocka_unit_test(graphs_take_a_stiffness),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

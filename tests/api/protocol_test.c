@@ -30,6 +30,12 @@ typedef struct Call {
 
 static hf_array heights(void) { return HF_ARRAY(height, TUBE_VERTICES); }
 
+static hf_result get_stiffness(Call* c) {
+  uint32_t count = 0;
+  const hf_result r = hf_surface_get_stiffness(scene.sheet, (uint32_t)c->capacity[0], c->array[0], &count);
+  c->count[0] = count;
+  return r;
+}
 static hf_result get_components(Call* c) {
   uint32_t count = 777;
   const hf_result r = hf_surface_get_components(scene.sheet, (uint32_t)c->capacity[0], c->array[0], &count);
@@ -336,6 +342,7 @@ static const struct {
   int together;         /* what an array holds depends on which others are asked for */
 } functions[] = {
     {"hf_surface_get_components", get_components, {{0, 4, 0}}, 0},
+    {"hf_surface_get_stiffness", get_stiffness, {{0, 8, 0}}, 0},
     {"hf_surface_get_links", get_links, {{0, sizeof(hf_link), 0}}, 0},
     {"hf_surface_get_pieces", get_pieces, {{0, 4, 0}, {0, 4, 0}}, 0},
     {"hf_surface_measure_gaps", measure_gaps, {{0, 8, 0}}, 0},

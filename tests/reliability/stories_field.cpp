@@ -113,6 +113,49 @@ void edits(Story& s, const hf_surface_desc& on, const hf_solver_desc& desc, std:
   hf_solver_destroy(copy);
 }
 
+// A stroke of stiffness: fields and a pose move to the edited surface and back.
+void edited(Story& s, const Tube& tube, Allocator& memory) {
+  const hf_surface_desc on = tube.desc(memory);
+  hf_surface surface = nullptr, stiff = nullptr;
+  hf_solver solver = nullptr;
+  hf_pose pose = nullptr;
+  s.make_factor("hf_surface_create", surface, [&] { return hf_surface_create(&on, &surface); });
+  if (surface) s.make("hf_create", solver, [&] { return hf_create(surface, nullptr, &solver); });
+  if (surface) s.make("hf_pose_create", pose, [&] { return hf_pose_create(surface, nullptr, &pose); });
+  if (!solver || !pose) return;
+  const std::uint32_t places[3] = {0, 40, 79}, counts[2] = {2 * Tube::around, 2 * Tube::around};
+  const hf_sites_desc sites = sites_at(3, places, values);
+  s.call("hf_add_sites", [&] { return hf_add_sites(solver, &sites, nullptr); });
+  hf_handles_desc handles = HF_INIT(hf_handles_desc);
+  handles.handle_count = 2;
+  handles.region_counts = counts;
+  handles.region_vertices = tube.ends.data();
+  s.call("hf_pose_add_handles", [&] { return hf_pose_add_handles(pose, &handles, nullptr); });
+  const std::uint32_t belt[4] = {30, 31, 32, 33};
+  const double stiffness[4] = {20, 20, 0.5, 20};
+  hf_surface_edit_desc edit = HF_INIT(hf_surface_edit_desc);
+  edit.vertex_count = 4;
+  edit.vertices = belt;
+  edit.stiffness = stiffness;
+  s.make("hf_surface_edit", stiff, [&] { return hf_surface_edit(surface, &edit, &stiff); });
+  const hf_surface way[2] = {stiff, surface};
+  for (const hf_surface to : way) {
+    s.call("hf_solver_move_to", [&] { return hf_solver_move_to(solver, to); });
+    take_field(s, solver);
+    std::vector<double> posed(3 * Tube::vertices);
+    hf_deform_desc deform = HF_INIT(hf_deform_desc);
+    deform.positions = ROWS_OUT(posed.data());
+    deform.restart = 1;
+    s.call("hf_pose_move_to", [&] { return hf_pose_move_to(pose, to); });
+    s.call("hf_pose_deform", [&] { return hf_pose_deform(pose, &deform, nullptr); });
+    s.take(posed.data(), posed.size());
+  }
+  hf_surface_destroy(stiff);
+  hf_surface_destroy(surface);
+  hf_solver_destroy(solver);
+  hf_pose_destroy(pose);
+}
+
 void green(Story& s, const Tube& tube, Allocator& memory) { edits(s, tube.desc(memory), HF_INIT(hf_solver_desc)); }
 void refactor(Story& s, const Tube& tube, Allocator& memory) {
   edits(s, tube.desc(memory), HF_INIT(hf_solver_desc), ENGINE_REFACTOR);
@@ -356,6 +399,7 @@ std::vector<Chapter> field_chapters() {
   std::vector<Chapter> chapters;
   if (has_gpl()) chapters.push_back({"updown", updown});
   const Chapter others[] = {{"green", green},
+                            {"edited", edited},
                             {"refactor", refactor},
                             {"biharmonic", biharmonic},
                             {"points_and_discs", points_and_discs},

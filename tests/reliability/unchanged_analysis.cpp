@@ -242,6 +242,22 @@ struct AnalysisCalls {
     if (result != HF_OK) s.expect(made == nullptr, "a refused graph is no NULL");
     return hf_surface_destroy(made), result;
   }
+  static hf_result edit(Subject& subject, Random& random) {
+    Analysis& s = of(subject);
+    std::vector<std::uint32_t> list(1 + random.below(4));
+    for (std::uint32_t& v : list) v = random.index(s.world.shape->vertices());
+    std::vector<double> stiffness(list.size());
+    for (double& x : stiffness) x = random.one_in(12) ? random.number() : random.pick({1.0, 30.0, 0.2});
+    hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
+    desc.vertex_count = static_cast<std::uint32_t>(list.size());
+    desc.vertices = list.data();
+    desc.stiffness = stiffness.data();
+    desc.progress = s.world.progress();
+    hf_surface made = s.world.surface;
+    const hf_result result = hf_surface_edit(s.world.surface, random.spoiled(desc), &made);
+    if (result != HF_OK) s.expect(made == nullptr, "a refused surface is no NULL");
+    return hf_surface_destroy(made), result;
+  }
   static hf_result relink(Subject& subject, Random& random) {
     Analysis& s = of(subject);
     const auto vertex = [&] { return random.index(s.world.shape->vertices()); };
@@ -290,6 +306,7 @@ const std::vector<Command>& Analysis::commands() const {
       {"hf_surface_create", 5, AnalysisCalls::surface},
       {"hf_surface_create_graph", 4, AnalysisCalls::graph},
       {"hf_surface_relink", 5, AnalysisCalls::relink},
+      {"hf_surface_edit", 5, AnalysisCalls::edit},
       {"hf_geodesics_find_path", 4, AnalysisCalls::path},
       {"hf_geodesics_get_map", 3, AnalysisCalls::map},
   };

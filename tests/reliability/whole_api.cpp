@@ -7,6 +7,35 @@
 
 namespace reliability {
 
+// A stiff stroke, and what moves to the surface that has it.
+void Run::edits(hf_surface surface) {
+  const std::uint32_t stroke[3] = {5, 6, 222};
+  const double stiffness[3] = {30, 30, 0.2};
+  hf_surface_edit_desc edit = desc<hf_surface_edit_desc>();
+  edit.vertex_count = 3;
+  edit.vertices = stroke;
+  edit.stiffness = stiffness;
+  hf_surface stiff = nullptr;
+  hf_solver solver = nullptr;
+  hf_pose pose = nullptr;
+  call(hf_create(surface, nullptr, &solver), "hf_create");
+  call(hf_solver_add_site(solver, 5, s.values.data(), nullptr), "hf_solver_add_site");
+  call(hf_solver_add_site(solver, 111, s.values.data() + 1, nullptr), "hf_solver_add_site");
+  call(hf_pose_create(surface, nullptr, &pose), "hf_pose_create");
+  call(hf_surface_edit(surface, &edit, &stiff), "hf_surface_edit");
+  call(hf_solver_move_to(solver, stiff), "hf_solver_move_to");
+  call(hf_pose_move_to(pose, stiff), "hf_pose_move_to");
+  Numbers field(n), whole(n);
+  call(hf_solver_solve(solver, OUT(field.data()), nullptr), "hf_solver_solve");
+  take(field.data(), field.size());
+  std::uint32_t count = 0;
+  call(hf_surface_get_stiffness(stiff, n, whole.data(), &count), "hf_surface_get_stiffness");
+  take(whole.data(), count);
+  hf_surface_destroy(stiff);
+  hf_solver_destroy(solver);
+  hf_pose_destroy(pose);
+}
+
 void Run::surface_and_picking() {
   hf_progress progress = nullptr;
   call(hf_progress_create(&progress), "hf_progress_create");
@@ -71,6 +100,7 @@ void Run::surface_and_picking() {
   call(hf_surface_measure_gaps(linked, &gaps, 0, nullptr, &opened), "hf_surface_measure_gaps");
   take(&opened, 1);
   hf_surface_destroy(linked);
+  edits(surface);
   hf_surface_destroy(surface);
 }
 

@@ -18,6 +18,7 @@ class Run {
   Outcome outcome;
 
   void surface_and_picking();
+  void edits(hf_surface surface);
   void solver_and_sites();
   void other_kinds();
   void other_engines();

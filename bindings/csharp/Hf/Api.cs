@@ -2235,8 +2235,8 @@ namespace Hf
     ///
     /// Make one surface per mesh, or per graph of your own (Surface.FromGraph). Solvers, poses, direction fields,
     /// regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any
-    /// number of threads may use it. An object made on a surface keeps the data it needs, so you can destroy
-    /// objects in any order.
+    /// number of threads may use it: an edit makes another one (Surface.Edit). An object made on a surface keeps
+    /// the data it needs, so you can destroy objects in any order.
     ///
     /// Makes a surface: welds and checks the mesh, builds the operator, orders and factorises it. The call copies
     /// the mesh. Afterwards the surface uses only the allocator and the job runner of the desc. The mesh may be
@@ -2599,6 +2599,60 @@ namespace Hf
                 var made = new Surface();
                 made.Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
                 return made;
+            }
+        }
+
+        /// <summary>Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the
+        /// factor: an edit of some hundred vertices costs elimination paths, as sites do, and no factorisation. The
+        /// library factorises again with the same ordering where that costs less, and for bi-harmonic fields. A
+        /// surface that is edited back has the fields of the old one.
+        ///
+        /// Fields, poses and weights on the new surface follow its stiffness. Lengths do not change: regions,
+        /// transfers, distances, directions and quads are those of the old surface. Solver.MoveTo and Pose.MoveTo
+        /// take sites and handles along. Soft sites keep the unit of their stiffness. Surface.Save is refused; save
+        /// the factor of the surface before its edits. Memory limits hold for both surfaces together.
+        ///
+        /// vertices: [vertexCount] as given; the others keep what they have. null: all vertices in order
+        /// stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one
+        /// progress: an object to poll and cancel through
+        ///
+        /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT,
+        /// HF_ERROR_NON_FINITE, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE.</summary>
+        public Surface Edit(uint[] vertices = null, double[] stiffness = null, Progress progress = null)
+        {
+            using (var c = new Call(this))
+            {
+                var descStruct = new hf_surface_edit_desc { struct_size = (uint)sizeof(hf_surface_edit_desc) };
+                hf_surface_edit_desc* desc = &descStruct;
+                desc->vertices = (IntPtr)c.Array(vertices, "vertices", "vertex_count");
+                desc->stiffness = (IntPtr)c.Array(stiffness, "stiffness", "vertex_count");
+                desc->progress = c.Handle(progress);
+                desc->vertex_count = (uint)c.Count("vertex_count", 0);
+                var raw = (IntPtr*)c.New(sizeof(IntPtr));
+                HfException.Check(Functions.hf_surface_edit(RawHandle, desc, raw));
+                var made = new Surface();
+                made.Own(*raw, Functions.hf_surface_destroy, c, "vertex_count");
+                return made;
+            }
+        }
+
+        /// <summary>Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices.</summary>
+        public double[] Stiffness()
+        {
+            using (var c = new Call(this))
+            {
+                uint count = 0;
+                double[] allStiffness = null;
+                c.Room("capacity", "hf_surface_get_stiffness.capacity");
+                int result;
+                do
+                {
+                        void* stiffnessPlace = (void*)c.Make(out allStiffness, "capacity");
+                        result = Functions.hf_surface_get_stiffness(RawHandle, (uint)c.Size("capacity"), stiffnessPlace,
+                            &count);
+                }
+                while (c.Again("hf_surface_get_stiffness", result, ("capacity", count)));
+                return c.Cut(allStiffness, "capacity");
             }
         }
 
@@ -2979,6 +3033,20 @@ namespace Hf
                 var made = new Solver();
                 made.Own(*raw, Functions.hf_solver_destroy, c, "channel_count", "vertex_count");
                 return made;
+            }
+        }
+
+        /// <summary>Moves a solver to an edited surface: its sites keep their numbers, values and screening.
+        ///
+        /// surface: made by Surface.Edit from the solver's surface, or the other way round, in any number of steps.
+        ///
+        /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.</summary>
+        public void MoveTo(Surface surface)
+        {
+            using (var c = new Call(this))
+            {
+                c.Parent("surface.", surface);
+                HfException.Check(Functions.hf_solver_move_to(RawHandle, c.Handle(surface)));
             }
         }
 
@@ -4121,6 +4189,21 @@ namespace Hf
                 var made = new Pose();
                 made.Own(*raw, Functions.hf_pose_destroy, c, "vertex_count");
                 return made;
+            }
+        }
+
+        /// <summary>Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The
+        /// next Pose.Deform shows the surface with its new stiffness.
+        ///
+        /// surface: made by Surface.Edit from the pose's surface, or the other way round, in any number of steps.
+        ///
+        /// Throws HF_ERROR_CONFLICT.</summary>
+        public void MoveTo(Surface surface)
+        {
+            using (var c = new Call(this))
+            {
+                c.Parent("surface.", surface);
+                HfException.Check(Functions.hf_pose_move_to(RawHandle, c.Handle(surface)));
             }
         }
 

@@ -402,6 +402,16 @@ namespace Hf.Native
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct hf_surface_edit_desc
+    {
+        public uint struct_size;
+        public uint vertex_count;
+        public IntPtr vertices;
+        public IntPtr stiffness;
+        public IntPtr progress;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct hf_surface_statistics
     {
         public uint struct_size;
@@ -1433,12 +1443,15 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_pieces(IntPtr surface, uint capacity, void* out_pieces, void* out_light, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_measure_gaps(IntPtr surface, void* positions, uint capacity, void* out_gaps, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_relink(IntPtr surface, void* links, IntPtr progress, void* out_surface);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_edit(IntPtr surface, void* desc, void* out_surface);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_stiffness(IntPtr surface, uint capacity, void* out_stiffness, void* out_count);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_get_statistics(IntPtr surface, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_save(IntPtr surface, int field_kind, IntPtr progress, UIntPtr capacity, void* out_bytes, void* out_size);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_cast_ray(IntPtr surface, void* origin, void* direction, void* desc, void* out_hit);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_surface_find_vertex(IntPtr surface, void* point, void* desc, void* out_vertex, void* out_distance);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_create(IntPtr surface, void* desc, void* out_solver);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_clone(IntPtr solver, void* out_solver);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_move_to(IntPtr solver, IntPtr surface);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_solver_destroy(IntPtr solver);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_solver_get_info(IntPtr solver, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_add_sites(IntPtr solver, void* sites, void* out_sites);
@@ -1485,6 +1498,7 @@ namespace Hf.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_direction_get_statistics(IntPtr direction, void* out_statistics);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_create(IntPtr surface, void* desc, void* out_pose);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_clone(IntPtr pose, void* out_pose);
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_move_to(IntPtr pose, IntPtr surface);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern void hf_pose_destroy(IntPtr pose);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_get_info(IntPtr pose, void* out_info);
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl)] public static extern int hf_pose_add_handles(IntPtr pose, void* handles, void* out_handles);

@@ -82,6 +82,17 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
     return desc;
   };
 
+  const surfaceEditDesc = (c, prefix, options) => {
+    const { vertices = null, stiffness = null, progress = null, ...more } = options;
+    none(more);
+    const desc = c.struct('hf_surface_edit_desc', {});
+    desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'vertex_count']));
+    desc.set('stiffness', c.array('stiffness', stiffness, 'f8', [prefix + 'vertex_count']));
+    desc.set('progress', handleOf(progress, Progress, 'progress') || null);
+    desc.set('vertex_count', (c.n[prefix + 'vertex_count'] ??= 0));
+    return desc;
+  };
+
   const pickDesc = (c, prefix, options) => {
     const { positions = null, frontOnly = false, ...more } = options;
     none(more);
@@ -569,6 +580,24 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       return made;
     }
 
+    edit(options = {}) {
+      const c = new Call(this);
+      const desc = surfaceEditDesc(c, '', options);
+      const made = new this.constructor(bare);
+      Object.assign(c.n, this._n);
+      made._own('hf_surface_edit', c, this._handle, desc);
+      return made;
+    }
+
+    stiffness() {
+      const c = new Call(this);
+      const count = new Uint32Array(1);
+      const found = c.grow(this, 'hf_surface_get_stiffness', (room, made) => call('hf_surface_get_stiffness',
+              this._handle, room.capacity, written(made.stiffness), written(count)), () => ({ capacity: count[0] }),
+              { capacity: null }, { stiffness: ['f8', ['capacity']] });
+      return found.stiffness;
+    }
+
     get statistics() {
       const c = new Call(this);
       const statistics = c.struct('hf_surface_statistics', {});
@@ -711,6 +740,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       Object.assign(c.n, this._n);
       made._own('hf_solver_clone', c, this._handle);
       return made;
+    }
+
+    moveTo(surface) {
+      const c = new Call(this, { surface });
+      call('hf_solver_move_to', this._handle, handleOf(surface, Surface, 'surface'));
     }
 
     get info() {
@@ -1056,6 +1090,11 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
       Object.assign(c.n, this._n);
       made._own('hf_pose_clone', c, this._handle);
       return made;
+    }
+
+    moveTo(surface) {
+      const c = new Call(this, { surface });
+      call('hf_pose_move_to', this._handle, handleOf(surface, Surface, 'surface'));
     }
 
     get info() {

@@ -1207,8 +1207,8 @@ export interface ProgressClass {
  *
  * Make one surface per mesh, or per graph of your own (Surface.fromGraph). Solvers, poses, direction fields,
  * regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any number
- * of threads may use it. An object made on a surface keeps the data it needs, so you can destroy objects in any
- * order.
+ * of threads may use it: an edit makes another one (Surface.edit). An object made on a surface keeps the data it
+ * needs, so you can destroy objects in any order.
  *
  * Makes a surface: welds and checks the mesh, builds the operator, orders and factorises it. The call copies the
  * mesh. Afterwards the surface uses only the allocator and the job runner of the desc. The mesh may be dirty: the
@@ -1303,6 +1303,27 @@ export interface Surface extends Handle {
    * HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.
    */
   relink(options?: { joints?: Rows | null; weights?: Rows | null; jointParents?: Rows | null; tags?: Rows | null; links?: Rows | null; lightVertices?: Rows | null; heavyVertices?: Rows | null; mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; progress?: Progress | null }): Surface;
+  /**
+   * Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the
+   * factor: an edit of some hundred vertices costs elimination paths, as sites do, and no factorisation. The
+   * library factorises again with the same ordering where that costs less, and for bi-harmonic fields. A surface
+   * that is edited back has the fields of the old one.
+   *
+   * Fields, poses and weights on the new surface follow its stiffness. Lengths do not change: regions, transfers,
+   * distances, directions and quads are those of the old surface. Solver.moveTo and Pose.moveTo take sites and
+   * handles along. Soft sites keep the unit of their stiffness. Surface.save is refused; save the factor of the
+   * surface before its edits. Memory limits hold for both surfaces together.
+   *
+   * vertices: [vertexCount] as given; the others keep what they have. null: all vertices in order
+   * stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one
+   * progress: an object to poll and cancel through
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
+   * HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE.
+   */
+  edit(options?: { vertices?: Rows | null; stiffness?: Rows | null; progress?: Progress | null }): Surface;
+  /** Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices. */
+  stiffness(): Float64Array;
   /** Writes the statistics of a surface and of the factor it was made with. */
   readonly statistics: SurfaceStatistics;
   /**
@@ -1488,6 +1509,14 @@ export interface Solver extends Recorded {
    * set of sites. For undo, keep copies: one before each edit.
    */
   clone(): Solver;
+  /**
+   * Moves a solver to an edited surface: its sites keep their numbers, values and screening.
+   *
+   * surface: made by Surface.edit from the solver's surface, or the other way round, in any number of steps.
+   *
+   * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.
+   */
+  moveTo(surface: Surface): void;
   /** Writes the options of a solver. */
   readonly info: SolverInfo;
   /**
@@ -1858,6 +1887,15 @@ export interface Pose extends Recorded {
   readonly vertexCount: number;
   /** Copies a pose with its handles and transforms, so that several threads can pose one rig. */
   clone(): Pose;
+  /**
+   * Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
+   * Pose.deform shows the surface with its new stiffness.
+   *
+   * surface: made by Surface.edit from the pose's surface, or the other way round, in any number of steps.
+   *
+   * Throws HF_ERROR_CONFLICT.
+   */
+  moveTo(surface: Surface): void;
   /** Writes the options of a pose. */
   readonly info: PoseInfo;
   /**

@@ -737,6 +737,16 @@ def _graph_desc(c: Call, prefix: str = '', *, edges: Optional[ArrayLike] = None,
     return desc
 
 
+def _surface_edit_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
+        stiffness: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> Any:
+    desc = c.struct(_raw.hf_surface_edit_desc, {})
+    desc.vertices = c.array('vertices', vertices, 'u4', (prefix + 'vertex_count',))
+    desc.stiffness = c.array('stiffness', stiffness, 'f8', (prefix + 'vertex_count',))
+    desc.progress = handle_of(progress, Progress, 'progress')
+    desc.vertex_count = c.n.setdefault(prefix + 'vertex_count', 0)
+    return desc
+
+
 def _pick_desc(c: Call, prefix: str = '', *, positions: Optional[ArrayLike] = None, front_only: bool = False) -> Any:
     desc = c.struct(_raw.hf_pick_desc, {'front_only': front_only})
     desc.positions = c.view('positions', positions, 'f4 f8', ('vertex_count', 3))
@@ -1111,7 +1121,8 @@ class Surface(Object):
 
     Make one surface per mesh, or per graph of your own (Surface.from_graph). Solvers, poses, direction fields,
     regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any number of
-    threads may use it. An object made on a surface keeps the data it needs, so you can destroy objects in any order.
+    threads may use it: an edit makes another one (Surface.edit). An object made on a surface keeps the data it needs,
+    so you can destroy objects in any order.
 
     Makes a surface: welds and checks the mesh, builds the operator, orders and factorises it. The call copies the
     mesh. Afterwards the surface uses only the allocator and the job runner of the desc. The mesh may be dirty: the
@@ -1351,6 +1362,44 @@ class Surface(Object):
         c.n.update(self._n)
         made._own('hf_surface_relink', c, self._handle, ref(desc), handle_of(progress, Progress, 'progress'))
         return made
+
+    def edit(self, vertices: Optional[ArrayLike] = None, stiffness: Optional[ArrayLike] = None, *,
+            progress: Optional[Progress] = None) -> "Surface":
+        """Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the
+        factor: an edit of some hundred vertices costs elimination paths, as sites do, and no factorisation. The
+        library factorises again with the same ordering where that costs less, and for bi-harmonic fields. A surface
+        that is edited back has the fields of the old one.
+
+        Fields, poses and weights on the new surface follow its stiffness. Lengths do not change: regions, transfers,
+        distances, directions and quads are those of the old surface. Solver.move_to and Pose.move_to take sites and
+        handles along. Soft sites keep the unit of their stiffness. Surface.save is refused; save the factor of the
+        surface before its edits. Memory limits hold for both surfaces together.
+
+        vertices: (vertex_count,) as given; the others keep what they have. None: all vertices in order
+        stiffness: (vertex_count,) 1e-4 to 1e4; 1: as the surface was made. Welded copies share one
+        progress: an object to poll and cancel through
+
+        Raises CancelledError, ConflictError, EmptyError, InvalidArgumentError, NonFiniteError,
+        NotPositiveDefiniteError, OutOfRangeError.
+        """
+        c = Call(self)
+        desc = _surface_edit_desc(c, vertices=vertices, stiffness=stiffness, progress=progress)
+        made = type(self).__new__(type(self))
+        c.n.update(self._n)
+        made._own('hf_surface_edit', c, self._handle, ref(desc))
+        return made
+
+    def stiffness(self) -> np.ndarray:
+        """Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices."""
+        c = Call(self)
+        count = ctypes.c_uint32()
+
+        def run(room: Any, made: Any) -> None:
+            call('hf_surface_get_stiffness', self._handle, room['capacity'], address(made['stiffness']), ref(count))
+
+        found = c.grow(self, 'hf_surface_get_stiffness', run, lambda: {'capacity': count.value}, {'capacity': None},
+                {'stiffness': (np.float64, ('capacity',))})
+        return found['stiffness']
 
     @property
     def statistics(self) -> SurfaceStatistics:
@@ -1616,6 +1665,16 @@ class Solver(Recorded):
         c.n.update(self._n)
         made._own('hf_solver_clone', c, self._handle)
         return made
+
+    def move_to(self, surface: Surface) -> None:
+        """Moves a solver to an edited surface: its sites keep their numbers, values and screening.
+
+        surface: made by Surface.edit from the solver's surface, or the other way round, in any number of steps.
+
+        Raises CancelledError, ConflictError, UnsupportedError.
+        """
+        c = Call(self, surface=surface)
+        call('hf_solver_move_to', self._handle, handle_of(surface, Surface, 'surface'))
 
     @property
     def info(self) -> SolverInfo:
@@ -2209,6 +2268,17 @@ class Pose(Recorded):
         c.n.update(self._n)
         made._own('hf_pose_clone', c, self._handle)
         return made
+
+    def move_to(self, surface: Surface) -> None:
+        """Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
+        Pose.deform shows the surface with its new stiffness.
+
+        surface: made by Surface.edit from the pose's surface, or the other way round, in any number of steps.
+
+        Raises ConflictError.
+        """
+        c = Call(self, surface=surface)
+        call('hf_pose_move_to', self._handle, handle_of(surface, Surface, 'surface'))
 
     @property
     def info(self) -> PoseInfo:

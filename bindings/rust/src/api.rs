@@ -260,6 +260,30 @@ impl<'a> GraphOptions<'a> {
     }
 }
 
+/// What `Surface::edit` changes. The stiffness of a vertex is a number by which the weights of its edges are multiplied:
+/// an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A region of large stiffness bends
+/// and stretches little and hardly changes its surroundings: a belt, a shield, a shell. A region of small stiffness takes
+/// up the bending around it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurfaceEdit<'a> {
+    /// `[vertex_count]` as given; the others keep what they have. `None`: all vertices in order
+    pub vertices: Option<&'a [u32]>,
+    /// `[vertex_count]` 1e-4 to 1e4; 1: as the surface was made. Welded copies share one
+    pub stiffness: Option<&'a [f64]>,
+    /// `None`, or an object to poll and cancel through
+    pub progress: Option<&'a Progress>,
+}
+impl<'a> SurfaceEdit<'a> {
+    pub(crate) fn fill(&self, c: &mut Call, prefix: &str) -> Result<raw::hf_surface_edit_desc> {
+        let mut desc = raw::hf_surface_edit_desc { ..Default::default() };
+        desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}vertex_count")])?;
+        desc.stiffness = c.array(self.stiffness, "stiffness", &[&format!("{prefix}vertex_count")])?;
+        desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
+        desc.vertex_count = c.count(&format!("{prefix}vertex_count"), 0)?;
+        Ok(desc)
+    }
+}
+
 /// Options of picking: posed positions, if the surface is not at rest, and which triangles count.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PickOptions<'a> {
@@ -1527,7 +1551,8 @@ object!(
     ///
     /// Make one surface per mesh, or per graph of your own (`Surface::from_graph`). Solvers, poses, direction fields,
     /// regions, transfers and quads are made on a surface and share its factor. A surface never changes, so any number of
-    /// threads may use it. An object made on a surface keeps the data it needs, so you can destroy objects in any order.
+    /// threads may use it: an edit makes another one (`Surface::edit`). An object made on a surface keeps the data it
+    /// needs, so you can destroy objects in any order.
     Surface: hf_surface, hf_surface_destroy
 );
 impl Surface {
@@ -1727,6 +1752,47 @@ impl Surface {
         check(unsafe { raw::hf_surface_relink(self.handle, &desc, progress.map_or(std::ptr::null_mut(), |o| o.handle),
             &mut handle_) })?;
         Ok(Surface { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the factor: an
+    /// edit of some hundred vertices costs elimination paths, as sites do, and no factorisation. The library factorises
+    /// again with the same ordering where that costs less, and for bi-harmonic fields. A surface that is edited back has
+    /// the fields of the old one.
+    ///
+    /// Fields, poses and weights on the new surface follow its stiffness. Lengths do not change: regions, transfers,
+    /// distances, directions and quads are those of the old surface. `Solver::move_to` and `Pose::move_to` take sites and
+    /// handles along. Soft sites keep the unit of their stiffness. `Surface::save` is refused; save the factor of the
+    /// surface before its edits. Memory limits hold for both surfaces together.
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_EMPTY`],
+    /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`],
+    /// [`raw::HF_ERROR_OUT_OF_RANGE`].
+    pub fn edit(&self, options: &SurfaceEdit) -> Result<Self> {
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        let desc = options.fill(&mut c, "")?;
+        let mut handle_ = std::ptr::null_mut();
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_surface_edit(self.handle, &desc, &mut handle_) })?;
+        Ok(Surface { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices.
+    pub fn stiffness(&self) -> Result<Vec<f64>> {
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        let mut count = 0;
+        c.learn("capacity", Call::FIRST);
+        let mut stiffness: Vec<f64> = Vec::new();
+        loop {
+            let stiffness_at = c.room(&mut stiffness, &["capacity"]);
+            // SAFETY: the arrays have the room that the call is told.
+            let code = unsafe { raw::hf_surface_get_stiffness(self.handle, c.count("capacity", 0)?, stiffness_at,
+                &mut count) };
+            if c.enough(code, &[("capacity", count)])? {
+                break;
+            }
+        }
+        stiffness.truncate(c.product(&["capacity"]));
+        Ok(stiffness)
     }
 
     /// Writes the statistics of a surface and of the factor it was made with.
@@ -1996,6 +2062,19 @@ impl Solver {
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_solver_clone(self.handle, &mut handle_) })?;
         Ok(Solver { handle: handle_, counts: c.counts(&["channel_count", "vertex_count"]) })
+    }
+
+    /// Moves a solver to an edited surface: its sites keep their numbers, values and screening.
+    ///
+    /// surface: made by `Surface::edit` from the solver's surface, or the other way round, in any number of steps.
+    ///
+    /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_UNSUPPORTED`].
+    pub fn move_to(&mut self, surface: &Surface) -> Result<()> {
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        c.parent("surface", &surface.counts);
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_solver_move_to(self.handle, surface.handle) })?;
+        Ok(())
     }
 
     /// Writes the options of a solver.
@@ -2714,6 +2793,20 @@ impl Pose {
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_pose_clone(self.handle, &mut handle_) })?;
         Ok(Pose { handle: handle_, counts: c.counts(&["vertex_count"]) })
+    }
+
+    /// Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
+    /// Pose.deform shows the surface with its new stiffness.
+    ///
+    /// surface: made by `Surface::edit` from the pose's surface, or the other way round, in any number of steps.
+    ///
+    /// Fails with [`raw::HF_ERROR_CONFLICT`].
+    pub fn move_to(&mut self, surface: &Surface) -> Result<()> {
+        let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
+        c.parent("surface", &surface.counts);
+        // SAFETY: every slice is as long as its check says.
+        check(unsafe { raw::hf_pose_move_to(self.handle, surface.handle) })?;
+        Ok(())
     }
 
     /// Writes the options of a pose.

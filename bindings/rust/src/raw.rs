@@ -484,6 +484,17 @@ pub struct hf_gaps_info {
     pub reserved: u32,
 }
 
+/// What hf_surface_edit changes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct hf_surface_edit_desc {
+    pub struct_size: u32,
+    pub vertex_count: u32,
+    pub vertices: *const u32,
+    pub stiffness: *const f64,
+    pub progress: hf_progress,
+}
+
 /// hf_surface_get_statistics writes sizes and times of a surface here.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1590,11 +1601,11 @@ macro_rules! figures {
 
 sized! {
     hf_factor_desc hf_links_desc hf_faces_desc hf_surface_desc hf_graph_desc hf_surface_info hf_surface_report
-        hf_mesh_statistics hf_links_info hf_gaps_info hf_surface_statistics hf_pick_desc hf_hit hf_solver_desc
-        hf_solver_info hf_sites_desc hf_edit_desc hf_sites_info hf_solve_info hf_preview_info hf_certificate
-        hf_solver_statistics hf_isolines hf_critical_info hf_geodesics_desc hf_path hf_extremities_desc
-        hf_direction_desc hf_direction_statistics hf_pose_desc hf_pose_info hf_handles_desc hf_handle_info
-        hf_deform_info hf_deform_desc hf_pose_statistics hf_skin_info hf_blend_info hf_blend_rows
+        hf_mesh_statistics hf_links_info hf_gaps_info hf_surface_edit_desc hf_surface_statistics hf_pick_desc hf_hit
+        hf_solver_desc hf_solver_info hf_sites_desc hf_edit_desc hf_sites_info hf_solve_info hf_preview_info
+        hf_certificate hf_solver_statistics hf_isolines hf_critical_info hf_geodesics_desc hf_path
+        hf_extremities_desc hf_direction_desc hf_direction_statistics hf_pose_desc hf_pose_info hf_handles_desc
+        hf_handle_info hf_deform_info hf_deform_desc hf_pose_statistics hf_skin_info hf_blend_info hf_blend_rows
         hf_blend_influences hf_handle_proposals_desc hf_quads_desc hf_quads_info hf_quads_mesh hf_streamlines
         hf_region_desc hf_curve_desc hf_region_edit_desc hf_region_info hf_region_statistics hf_morph_desc
         hf_detail_desc hf_retarget_desc hf_retarget_info hf_skin_desc hf_skeleton_desc hf_skeleton_info
@@ -1692,12 +1703,15 @@ extern "C" {
     pub fn hf_surface_get_pieces(surface: hf_surface, capacity: u32, out_pieces: *mut u32, out_light: *mut i32, out_count: *mut u32) -> i32;
     pub fn hf_surface_measure_gaps(surface: hf_surface, positions: *const hf_array, capacity: u32, out_gaps: *mut f64, out_info: *mut hf_gaps_info) -> i32;
     pub fn hf_surface_relink(surface: hf_surface, links: *const hf_links_desc, progress: hf_progress, out_surface: *mut hf_surface) -> i32;
+    pub fn hf_surface_edit(surface: hf_surface, desc: *const hf_surface_edit_desc, out_surface: *mut hf_surface) -> i32;
+    pub fn hf_surface_get_stiffness(surface: hf_surface, capacity: u32, out_stiffness: *mut f64, out_count: *mut u32) -> i32;
     pub fn hf_surface_get_statistics(surface: hf_surface, out_statistics: *mut hf_surface_statistics) -> i32;
     pub fn hf_surface_save(surface: hf_surface, field_kind: i32, progress: hf_progress, capacity: usize, out_bytes: *mut c_void, out_size: *mut usize) -> i32;
     pub fn hf_surface_cast_ray(surface: hf_surface, origin: *const f64, direction: *const f64, desc: *const hf_pick_desc, out_hit: *mut hf_hit) -> i32;
     pub fn hf_surface_find_vertex(surface: hf_surface, point: *const f64, desc: *const hf_pick_desc, out_vertex: *mut u32, out_distance: *mut f64) -> i32;
     pub fn hf_create(surface: hf_surface, desc: *const hf_solver_desc, out_solver: *mut hf_solver) -> i32;
     pub fn hf_solver_clone(solver: hf_solver, out_solver: *mut hf_solver) -> i32;
+    pub fn hf_solver_move_to(solver: hf_solver, surface: hf_surface) -> i32;
     pub fn hf_solver_destroy(solver: hf_solver);
     pub fn hf_solver_get_info(solver: hf_solver, out_info: *mut hf_solver_info) -> i32;
     pub fn hf_add_sites(solver: hf_solver, sites: *const hf_sites_desc, out_sites: *mut u32) -> i32;
@@ -1744,6 +1758,7 @@ extern "C" {
     pub fn hf_direction_get_statistics(direction: hf_direction, out_statistics: *mut hf_direction_statistics) -> i32;
     pub fn hf_pose_create(surface: hf_surface, desc: *const hf_pose_desc, out_pose: *mut hf_pose) -> i32;
     pub fn hf_pose_clone(pose: hf_pose, out_pose: *mut hf_pose) -> i32;
+    pub fn hf_pose_move_to(pose: hf_pose, surface: hf_surface) -> i32;
     pub fn hf_pose_destroy(pose: hf_pose);
     pub fn hf_pose_get_info(pose: hf_pose, out_info: *mut hf_pose_info) -> i32;
     pub fn hf_pose_add_handles(pose: hf_pose, handles: *const hf_handles_desc, out_handles: *mut u32) -> i32;

@@ -32,8 +32,10 @@ class EditedFactorTest : public testing::Test {
     }
     Eigen::MatrixXd delta = Eigen::MatrixXd::Zero(n, n);
     const auto add = [&](Index i, Index j, double weight) {
-      delta(i, i) += weight, delta(j, j) += weight;
-      delta(i, j) -= weight, delta(j, i) -= weight;
+      delta(i, i) += weight;
+      delta(j, j) += weight;
+      delta(i, j) -= weight;
+      delta(j, i) -= weight;
     };
     for (Index y = 5; y < 11; ++y) {
       for (Index x = 4; x < 14; ++x) {
@@ -152,9 +154,8 @@ TEST_F(EditedFactorTest, AMatrixThatIsNotPositiveDefiniteIsRefused) {
   make(1, 0);
   change.unknown = hf_inner::Vector<Index>({5, 6}, &memory);
   const double weight = -exact(5, 6) * 50;  // more than the rest of the grid carries between the two
-  change.entries = hf_inner::Vector<MatrixChange::Entry>({{0, 0, -weight}, {1, 1, -weight}, {0, 1, weight},
-                                                          {1, 0, weight}},
-                                                         &memory);
+  change.entries = hf_inner::Vector<MatrixChange::Entry>(
+      {{0, 0, -weight}, {1, 1, -weight}, {0, 1, weight}, {1, 0, weight}}, &memory);
   try {
     hf_inner::edit_factor(base, change, memory, two);
     FAIL() << "made";

@@ -1,0 +1,270 @@
+/* hf_surface_edit through the ABI: stiff regions in fields and poses, what moves to an edited surface, what does not
+ * see edits, and bad calls. */
+#include "bad_scene.h"
+
+enum { AROUND = 12, RINGS = 60, VERTICES = AROUND * RINGS, BELT = 25, BELT_END = 35 };
+
+static Scene scene;
+static Surface tube;
+
+static int create_tube(void** state) {
+  (void)state;
+  tube = surface_tube(AROUND, RINGS);
+  return 0;
+}
+static int free_tube(void** state) {
+  (void)state;
+  surface_free(&tube);
+  return 0;
+}
+
+static hf_surface edited(hf_surface surface, uint32_t first, uint32_t end, double stiffness) {
+  uint32_t vertices[VERTICES];
+  double values[VERTICES];
+  hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
+  for (uint32_t v = first; v < end; ++v, ++desc.vertex_count) {
+    vertices[desc.vertex_count] = v;
+    values[desc.vertex_count] = stiffness;
+  }
+  desc.vertices = vertices;
+  desc.stiffness = values;
+  hf_surface out = NULL;
+  assert_ok(hf_surface_edit(surface, &desc, &out));
+  return out;
+}
+static hf_surface belted(hf_surface surface, double stiffness) {
+  return edited(surface, BELT * AROUND, BELT_END * AROUND, stiffness);
+}
+static hf_solver ramp_on(hf_surface surface) {
+  hf_solver solver = solver_on(surface);
+  for (uint32_t i = 0; i < AROUND; ++i) {
+    add_site(solver, i, 0);
+    add_site(solver, VERTICES - 1 - i, 1);
+  }
+  return solver;
+}
+
+/* A field along a tube is the voltage along resistors in a row: a belt of stiffness s takes 1 / s of its drop. */
+static void a_stiff_belt_has_an_almost_constant_field(void** state) {
+  (void)state;
+  hf_surface plain = surface_on(&tube);
+  for (int k = 0; k < 3; ++k) {
+    const double s = k == 0 ? 0.1 : k == 1 ? 8 : 1e4, edge = 2 * s / (1 + s);
+    hf_surface surface = belted(plain, s);
+    hf_solver solver = ramp_on(surface);
+    double* field = field_of(solver, VERTICES);
+    const int inner = BELT_END - BELT - 1, outer = RINGS - 1 - inner - 2;
+    const double whole = outer + 2 / edge + inner / s;
+    assert_float_equal(field[BELT * AROUND], (BELT - 1 + 1 / edge) / whole, 1e-6); /* the tube is round to floats */
+    assert_float_equal(field[(BELT_END - 1) * AROUND] - field[BELT * AROUND], inner / s / whole, 1e-6); /* the tube is round to floats */
+    hf_certificate certificate = HF_INIT(hf_certificate);
+    assert_ok(hf_solver_certify(solver, &certificate));
+    free(field);
+    hf_solver_destroy(solver);
+    hf_surface_destroy(surface);
+  }
+  hf_surface_destroy(plain);
+}
+
+/* Sites that came one by one and sites that came at once differ by rounding. */
+static void assert_near(const double* a, const double* b) {
+  for (uint32_t v = 0; v < VERTICES; ++v) assert_float_equal(a[v], b[v], 1e-12);
+}
+
+static void a_solver_that_moved_has_the_field_of_a_new_one_and_comes_back(void** state) {
+  (void)state;
+  hf_surface plain = surface_on(&tube), stiff = belted(plain, 30), stiffer = edited(stiff, 0, 5 * AROUND, 4),
+             back = belted(edited(stiffer, 0, 5 * AROUND, 1), 1);
+  hf_solver solver = ramp_on(plain), fresh = ramp_on(stiffer), copy = NULL;
+  assert_ok(hf_solver_clone(solver, &copy));
+  double *before = field_of(solver, VERTICES), *expected = field_of(fresh, VERTICES);
+  assert_ok(hf_solver_move_to(solver, stiff));
+  assert_ok(hf_solver_move_to(solver, stiffer));
+  double* there = field_of(solver, VERTICES);
+  assert_near(there, expected);
+  double* clone = field_of(copy, VERTICES); /* the copy stays */
+  assert_true(same_bits(clone, before, sizeof(double) * VERTICES));
+  hf_surface_destroy(stiff);
+  hf_surface_destroy(plain);
+  assert_ok(hf_solver_move_to(solver, back));
+  double* returned = field_of(solver, VERTICES);
+  assert_near(returned, before);
+  uint32_t site = 5;
+  assert_ok(hf_remove_sites(solver, 1, &site)); /* numbers are kept */
+  free(before);
+  free(expected);
+  free(there);
+  free(clone);
+  free(returned);
+  hf_solver_destroy(solver);
+  hf_solver_destroy(fresh);
+  hf_solver_destroy(copy);
+  hf_surface_destroy(stiffer);
+  hf_surface_destroy(back);
+}
+
+/* How much the edges of the belt change their length, at most. */
+static double stretch_of(const float* posed) {
+  double worst = 0;
+  for (uint32_t v = BELT * AROUND; v < (BELT_END - 1) * AROUND; ++v) {
+    double rest = 0, now = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double a = (double)tube.positions[3 * (v + AROUND) + (uint32_t)c] - (double)tube.positions[3 * v + (uint32_t)c],
+                   b = (double)posed[3 * (v + AROUND) + (uint32_t)c] - (double)posed[3 * v + (uint32_t)c];
+      rest += a * a;
+      now += b * b;
+    }
+    worst = fmax(worst, fabs(sqrt(now / rest) - 1));
+  }
+  return worst;
+}
+static void deform(hf_pose pose, float* out) {
+  hf_deform_desc desc = HF_INIT(hf_deform_desc);
+  desc.positions = HF_ARRAY_OUT(out, VERTICES);
+  desc.restart = 1;
+  desc.iteration_count = 200;
+  assert_ok(hf_pose_deform(pose, &desc, NULL));
+}
+static hf_pose bent_on(hf_surface surface, uint32_t layer) {
+  hf_pose pose = NULL;
+  assert_ok(hf_pose_create(surface, NULL, &pose));
+  uint32_t counts[2] = {2 * AROUND, 2 * AROUND}, vertices[4 * AROUND], numbers[2];
+  for (uint32_t i = 0; i < 2 * AROUND; ++i) {
+    vertices[i] = i;
+    vertices[2 * AROUND + i] = VERTICES - 1 - i;
+  }
+  hf_handles_desc handles = HF_INIT(hf_handles_desc);
+  handles.handle_count = 2;
+  handles.region_counts = counts;
+  handles.region_vertices = vertices;
+  handles.layer = layer;
+  assert_ok(hf_pose_add_handles(pose, &handles, numbers));
+  hf_transform transform;
+  memset(&transform, 0, sizeof transform);
+  transform.rotation[0] = sin(0.6);
+  transform.rotation[3] = cos(0.6);
+  transform.translation[2] = 18;
+  transform.translation[1] = -14;
+  assert_ok(hf_pose_set_transforms(pose, 1, &numbers[1], &transform));
+  return pose;
+}
+
+static void a_stiff_belt_keeps_its_lengths_in_a_pose(void** state) {
+  (void)state;
+  static float plain_out[3 * VERTICES], moved[3 * VERTICES], made[3 * VERTICES], back[3 * VERTICES];
+  hf_surface plain = surface_on(&tube), stiff = belted(plain, 1e4);
+  for (uint32_t layer = 0; layer < 2; ++layer) {
+    hf_pose pose = bent_on(plain, layer), fresh = bent_on(stiff, layer);
+    deform(pose, plain_out);
+    assert_ok(hf_pose_move_to(pose, stiff));
+    deform(pose, moved);
+    deform(fresh, made);
+    for (size_t i = 0; i < COUNT_OF(made); ++i) assert_float_equal(moved[i], made[i], 2e-3);
+    assert_true(stretch_of(moved) < 0.1 * stretch_of(plain_out));
+    assert_ok(hf_pose_move_to(pose, plain));
+    deform(pose, back);
+    for (size_t i = 0; i < COUNT_OF(made); ++i) assert_float_equal(back[i], plain_out[i], 2e-3);
+    hf_pose_destroy(pose);
+    hf_pose_destroy(fresh);
+  }
+  hf_surface_destroy(plain);
+  hf_surface_destroy(stiff);
+}
+
+/* Distances, links and the factor's statistics are those of the mesh; a relinked surface keeps its stiffness. */
+static void lengths_do_not_see_stiffness_and_links_keep_it(void** state) {
+  (void)state;
+  hf_surface plain = surface_on(&tube), stiff = belted(plain, 50), linked = NULL;
+  double distances[2][VERTICES], stiffness[VERTICES];
+  hf_surface both[2] = {plain, stiff};
+  for (int k = 0; k < 2; ++k) {
+    hf_geodesics geodesics = NULL;
+    assert_ok(hf_geodesics_create(both[k], NULL, &geodesics));
+    const uint32_t source = 3;
+    const hf_array_out rows = HF_ARRAY_OUT(distances[k], VERTICES);
+    assert_ok(hf_geodesics_solve(geodesics, 1, &source, &rows));
+    hf_geodesics_destroy(geodesics);
+  }
+  assert_true(same_bits(distances[0], distances[1], sizeof distances[0]));
+  assert_ok(hf_surface_relink(stiff, NULL, NULL, &linked));
+  uint32_t count = 0;
+  assert_ok(hf_surface_get_stiffness(linked, VERTICES, stiffness, &count));
+  assert_int_equal(count, VERTICES);
+  for (uint32_t v = 0; v < VERTICES; ++v)
+    assert_true(stiffness[v] == (v >= BELT * AROUND && v < BELT_END * AROUND ? 50 : 1));
+  hf_surface_destroy(plain);
+  hf_surface_destroy(stiff);
+  hf_surface_destroy(linked);
+}
+
+/* ---- bad calls ---- */
+
+static hf_surface_edit_desc bad;
+static uint32_t vertices[3], count;
+static double stiffness[3], out_stiffness[CUT_VERTICES];
+static hf_surface out;
+static void good_input(void) {
+  vertices[0] = CUT_LEFT;
+  vertices[1] = CUT_SEAM_LEFT;
+  vertices[2] = CUT_ISOLATED;
+  stiffness[0] = stiffness[1] = stiffness[2] = 2;
+  bad = HF_INIT(hf_surface_edit_desc);
+  bad.vertex_count = 3;
+  bad.vertices = vertices;
+  bad.stiffness = stiffness;
+  out = NULL;
+}
+static int nothing_changed(void) { return out == NULL && solver_unchanged(&scene) && pose_unchanged(&scene); }
+#define GOOD good_input
+#define UNCHANGED nothing_changed
+#define EDIT(what, code, index, change) ROW(what, code, index, change, hf_surface_edit(scene.sheet, &bad, &out))
+
+static void bad_edits_are_refused_by_index_and_change_nothing(void** state) {
+  (void)state;
+  scene_create(&scene);
+  good_input();
+  assert_ok(hf_surface_edit(scene.sheet, &bad, &out));
+  hf_surface stiff = out, others = NULL;
+  good_input();
+  EDIT("vertex out of range", HF_ERROR_OUT_OF_RANGE, 1, vertices[1] = CUT_VERTICES);
+  EDIT("stiffness not finite", HF_ERROR_NON_FINITE, 2, stiffness[2] = NAN);
+  EDIT("stiffness 0", HF_ERROR_INVALID_ARGUMENT, 0, stiffness[0] = 0);
+  EDIT("stiffness below 0", HF_ERROR_INVALID_ARGUMENT, 0, stiffness[0] = -1);
+  EDIT("stiffness too large", HF_ERROR_INVALID_ARGUMENT, 1, stiffness[1] = 2e4);
+  EDIT("a vertex twice", HF_ERROR_CONFLICT, 1, (vertices[1] = CUT_LEFT, stiffness[1] = 3));
+  EDIT("a welded copy", HF_ERROR_CONFLICT, 2, (vertices[2] = CUT_SEAM_RIGHT, stiffness[2] = 3));
+  EDIT("no stiffness", HF_ERROR_NULL_POINTER, NO_INDEX, bad.stiffness = NULL);
+  EDIT("no vertex", HF_ERROR_EMPTY, NO_INDEX, bad.vertex_count = 0);
+  EDIT("all vertices, but three", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, bad.vertices = NULL);
+  ROW("short list", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_surface_get_stiffness(scene.sheet, 3, out_stiffness, NULL));
+  ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_get_stiffness(scene.sheet, 0, NULL, NULL));
+  ROW("solver on another mesh", HF_ERROR_CONFLICT, NO_INDEX, (void)0, hf_solver_move_to(scene.solver, scene.body));
+  ROW("pose on another mesh", HF_ERROR_CONFLICT, NO_INDEX, (void)0, hf_pose_move_to(scene.pose, stiff));
+  ROW("to nothing", HF_ERROR_INVALID_OBJECT, NO_INDEX, (void)0, hf_solver_move_to(scene.solver, scene.stale_surface));
+  assert_ok(hf_surface_relink(scene.sheet, NULL, NULL, &others));
+  hf_solver peer = NULL;
+  assert_ok(hf_peer_refactor_create(scene.sheet, NULL, &peer));
+  ROW("a baseline", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0, hf_solver_move_to(peer, stiff));
+  size_t size = 0;
+  ROW("a saved factor", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0,
+      hf_surface_save(stiff, HF_FIELD_HARMONIC, NULL, 0, NULL, &size));
+  ROW("a cancelled edit", HF_ERROR_CANCELLED, NO_INDEX, (bad.progress = scene.progress, hf_progress_cancel(scene.progress)),
+      hf_surface_edit(scene.sheet, &bad, &out));
+  assert_ok(hf_surface_get_stiffness(stiff, CUT_VERTICES, out_stiffness, &count));
+  assert_true(out_stiffness[CUT_LEFT] == 2 && out_stiffness[CUT_SEAM_RIGHT] == 2 && out_stiffness[CUT_ISOLATED] == 1);
+  hf_solver_destroy(peer);
+  hf_surface_destroy(stiff);
+  hf_surface_destroy(others);
+  scene_destroy(&scene);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_stiff_belt_has_an_almost_constant_field),
+      cmocka_unit_test(a_solver_that_moved_has_the_field_of_a_new_one_and_comes_back),
+      cmocka_unit_test(a_stiff_belt_keeps_its_lengths_in_a_pose),
+      cmocka_unit_test(lengths_do_not_see_stiffness_and_links_keep_it),
+      cmocka_unit_test(bad_edits_are_refused_by_index_and_change_nothing),
+  };
+  return cmocka_run_group_tests(tests, create_tube, free_tube);
+}
