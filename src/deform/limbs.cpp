@@ -90,7 +90,7 @@ Limbs make_limbs(const Core& core, const Reach& reach, const HandleFields& field
     limbs.steps = std::max(limbs.steps, steps[h]);
     for (const std::int32_t v : limb_of(core, reach, fields, static_cast<std::int32_t>(h), memory)) place[v] = 0;
   }
-  const SymmetricMatrix& k = core.laplacian;
+  const SymmetricMatrix& k = core.matrix();
   for (std::int32_t v = 0; v < core.size(); ++v) {
     if (place[v] < 0) continue;
     place[v] = limbs.size();

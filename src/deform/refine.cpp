@@ -93,7 +93,7 @@ void Refinement::fit(std::int32_t slot_count, std::uint32_t steps, const Followe
 
 void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) {
   const Core& core = input.core;
-  const SymmetricMatrix& k = core.laplacian;
+  const SymmetricMatrix& k = core.matrix();
   const Vector<std::int32_t>* const list = input.limbs ? &input.limbs->around : nullptr;
   for_listed(input, list, [&](std::int32_t first, std::int32_t last) {
     RotationBatch batch;
@@ -137,7 +137,7 @@ void Refinement::fit_rotations(const RefineInput& input, const Vec3* positions) 
 // Computes the right-hand side b - K x, in the unit of the scaled mesh; with limbs only the rows of their vertices.
 void Refinement::set_right_hand_side(const RefineInput& input, const Vec3* positions, double* load) {
   const Core& core = input.core;
-  const SymmetricMatrix& k = core.laplacian;
+  const SymmetricMatrix& k = core.matrix();
   const double own_unit = 2.0 / core.mesh.scale;  // contains the 1/2 of the two rotations
   const Vector<std::int32_t>* const list = moved_by(input);
   for_listed(input, list, [&](std::int32_t first, std::int32_t last) {

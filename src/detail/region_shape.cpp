@@ -58,7 +58,7 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
   for (const Index v : inside) for_neighbours(core.topology, v, [&](Index u) { take(u, sites); });
   if (core.root) {
     // K couples the vertices within two edges of L. Each vertex next to the region is read once.
-    const SymmetricMatrix& l = core.root->laplacian;
+    const SymmetricMatrix& l = core.root->matrix();
     Vector<std::uint8_t> is_next(at(core.size()), 0, &memory);
     for (const Index v : inside) {
       for_entries(l, v, [&](Index u) { is_next[at(u)] = 1; });
@@ -67,7 +67,7 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
       if (is_next[at(u)]) for_entries(l, u, [&](Index w) { take(w, sites); });
     }
   } else if (core.refinements > 0) {
-    for (const Index v : inside) for_entries(core.laplacian, v, [&](Index u) { take(u, sites); });
+    for (const Index v : inside) for_entries(core.matrix(), v, [&](Index u) { take(u, sites); });
   }
   for (const Index v : sites) local[at(v)] = -1;
   std::sort(rim.begin(), rim.end());

@@ -245,7 +245,7 @@ void ConstraintEdit::solve_part(Part& part) const {
     if (row >= 0) {
       columns.append(state_.entries[at(row)].site, state_.base.get());
     } else {
-      columns.append_free(state_.base->vertex[at(ConstraintState::base_index(row))], *operator_.matrix, *state_.base);
+      columns.append_free(state_.base->vertex[at(ConstraintState::base_index(row))], operator_.k(), *state_.base);
     }
   }
   part.group.resize(part.rows.size());
@@ -356,7 +356,7 @@ void ConstraintEdit::take_couplings(Batch& batch) const {
     const Index b = unknown < 0 ? -1 : state_.base->index_of[at(unknown)];
     return b < 0 || batch.of_free[at(b)].place < 0 ? nullptr : &batch.of_free[at(b)];
   };
-  const SymmetricMatrix& k = *operator_.matrix;
+  const SymmetricMatrix& k = operator_.k();
   for (const Index r : state_.base->vertex) {
     const Batch::Where* here = free_at(r);
     if (!here) continue;

@@ -33,7 +33,7 @@ void ConstraintSystem::find_centres(const double* values, Index channels, Index 
 void ConstraintSystem::base_forward(const double* values, Index channels, Index first, Index count,
                                     const Answer& answer, double* z) const {
   const std::size_t m = at(count);
-  const SymmetricMatrix& k = *operator_.matrix;
+  const SymmetricMatrix& k = operator_.k();
   const Span<const Index> position = factor().position();
   for (std::size_t slot = 0; slot < state_.entries.size(); ++slot) {
     const auto& entry = state_.entries[slot];
@@ -78,7 +78,7 @@ void ConstraintSystem::add_base_terms(const double* values, Index channels, Inde
         answer.slot[slot * m + q] -= entry.site.weight[c] * centred(there, q);
     }
   }
-  const SymmetricMatrix& k = *operator_.matrix;
+  const SymmetricMatrix& k = operator_.k();
   for (std::size_t b = 0; b < state_.freed.size(); ++b) {
     if (!state_.freed[b].is_row()) continue;
     const Index r = base.vertex[b];

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "base/timer.h"
 #include "engine/lost_components.h"
+#include "engine/pinned_operator.h"
 #include "engine/stiffness.h"
 #include "factor/factor_bytes.h"
 #include "factor/work_limit.h"
@@ -264,7 +265,7 @@ void make_factor(Core& core, const CoreOptions& options) {
   } else if (options.need_factor) {
     const Vector<float> coordinates = ordering_coordinates(core.mesh, pool);
     const InPlaceGrounds grounds(core);
-    core.factor = options.like && same_pattern(options.like->laplacian, core.laplacian)
+    core.factor = options.like && same_pattern(options.like->matrix(), core.laplacian)
                       ? options.like->factor->refactor(core.laplacian, {}, pool, *core.jobs)
                       : Factor::make(core.laplacian, coordinates, factor_options(core, options), pool, *core.jobs);
   }
@@ -328,22 +329,24 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
 std::uint64_t grounded_hash(const Core& core) {
   if (core.root) return grounded_hash(*core.root);
   if (core.confined_hash != 0) return core.confined_hash;
-  return hash_matrix(core.laplacian, core.ground, core.mean_diagonal, *core.memory, *core.jobs);
+  return hash_matrix(core.matrix(), core.ground, core.mean_diagonal, *core.memory, *core.jobs);
 }
 
 SymmetricMatrix grounded(const Core& core) {
   if (core.root) return grounded(*core.root);
   SymmetricMatrix a(*core.memory);
-  a.column_start.assign(core.laplacian.column_start.begin(), core.laplacian.column_start.end());
-  a.row.assign(core.laplacian.row.begin(), core.laplacian.row.end());
-  a.value.assign(core.laplacian.value.begin(), core.laplacian.value.end());
+  a.column_start.assign(core.matrix().column_start.begin(), core.matrix().column_start.end());
+  a.row.assign(core.matrix().row.begin(), core.matrix().row.end());
+  a.value.assign(core.matrix().value.begin(), core.matrix().value.end());
   for (std::size_t c = 0; c < core.ground.size(); ++c) a.value[a.diagonal(core.ground[c])] += core.mean_diagonal[c];
   return a;
 }
 
+const SymmetricMatrix& PinnedOperator::k() const { return matrix ? *matrix : core->matrix(); }
+
 Vector<double> operator_diagonal(const Core& core) {
-  if (core.root) return biharmonic_diagonal(core.root->laplacian, core.inverse_mass, *core.memory);
-  const SymmetricMatrix& k = core.laplacian;
+  if (core.root) return biharmonic_diagonal(core.root->matrix(), core.inverse_mass, *core.memory);
+  const SymmetricMatrix& k = core.matrix();
   Vector<double> diagonal(at(k.size()), core.memory.get());
   for (Index v = 0; v < k.size(); ++v) diagonal[at(v)] = k.value[k.diagonal(v)];
   return diagonal;
@@ -351,8 +354,8 @@ Vector<double> operator_diagonal(const Core& core) {
 
 void apply_operator(const Core& core, const double* u, Index channels, double* out) {
   const Vector<double> ones(core.memory.get());
-  if (!core.root) return apply_laplacian(core.laplacian, ones, u, channels, out, *core.jobs);
-  const SymmetricMatrix& l = core.root->laplacian;
+  if (!core.root) return apply_laplacian(core.matrix(), ones, u, channels, out, *core.jobs);
+  const SymmetricMatrix& l = core.root->matrix();
   Workspace w(core.workspaces, at(core.size()) * at(channels));
   apply_laplacian(l, core.inverse_mass, u, channels, w.data(), *core.jobs);
   apply_laplacian(l, ones, w.data(), channels, out, *core.jobs);

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <mutex>
 
 #include "base/jobs.h"
 #include "base/memory.h"
@@ -18,6 +19,20 @@ namespace hf_inner {
 constexpr std::int32_t most_formed_valence = 1000;
 
 struct Core;
+
+// The operator of a surface whose stiffness was edited (stiffness.h). Fields hardly ever need it, so it is made when it
+// is first asked for. Thread safety: any thread.
+class EditedMatrix {
+ public:
+  EditedMatrix(std::shared_ptr<const Core> plain, std::shared_ptr<const Vector<double>> stiffness);
+  const SymmetricMatrix& get() const;
+
+ private:
+  std::shared_ptr<const Core> plain_;
+  std::shared_ptr<const Vector<double>> stiffness_;
+  mutable std::mutex mutex_;
+  mutable SymmetricMatrix made_;
+};
 
 struct CoreOptions {
   OperatorKind operator_kind = OperatorKind::intrinsic_delaunay;
@@ -69,6 +84,7 @@ struct Core {
   const Vector<double>& weights;
   FieldKind field_kind = FieldKind::harmonic;
   // The operator K: the Laplacian, or a bi-harmonic operator; empty where a root stands for it.
+  const SymmetricMatrix& matrix() const { return edited ? edited->get() : laplacian; }
   SymmetricMatrix laplacian;
   // Not null: K = L diag(inverse_mass) L is not formed, because a vertex has too many neighbours. The root has L as its
   // operator, and the factor. The pinned vertices are its own.
@@ -99,8 +115,9 @@ struct Core {
   // How stiff the surface is at every vertex: an edge of the operator counts the harmonic mean of its two ends times.
   // Null: 1 everywhere.
   std::shared_ptr<const Vector<double>> stiffness;
-  std::shared_ptr<const Core> unedited;  // the same with a stiffness of 1; null: this one
-  std::shared_ptr<const Core> factored;  // the core beside whose factor that of this one is; null: it has its own
+  std::shared_ptr<const Core> unedited;        // the same with a stiffness of 1; null: this one
+  std::shared_ptr<const EditedMatrix> edited;  // K; null: laplacian is K
+  std::shared_ptr<const Core> factored;        // the core beside whose factor that of this one is; null: it has its own
   CoreTimes times;
   mutable PreviewCache preview;  // the factor in single precision; not for a core with `factored`
   WorkspacePool& workspaces;     // the geometry's

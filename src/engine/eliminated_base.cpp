@@ -16,9 +16,9 @@ std::shared_ptr<const EliminatedBase> EliminatedBase::make(const PinnedOperator&
     base->floating[at(components[i])] = 0;
   }
   SymmetricMatrix pinned(memory);
-  pinned.column_start.assign(a.matrix->column_start.begin(), a.matrix->column_start.end());
-  pinned.row.assign(a.matrix->row.begin(), a.matrix->row.end());
-  pinned.value.assign(a.matrix->value.begin(), a.matrix->value.end());
+  pinned.column_start.assign(a.k().column_start.begin(), a.k().column_start.end());
+  pinned.row.assign(a.k().row.begin(), a.k().row.end());
+  pinned.value.assign(a.k().value.begin(), a.k().value.end());
   for (std::size_t c = 0; c < a.component_count(); ++c) {
     for (std::size_t p = 0; base->floating[c] && p < a.border(); ++p) {
       const Index pin = a.pins[c * a.border() + p];

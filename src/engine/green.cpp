@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t piece = 16384;
 PinnedOperator operator_of(const Core& core) {
   PinnedOperator a;
-  a.matrix = &core.laplacian;
+  a.core = &core;
   a.factor = core.factor.get();
   a.pins = core.ground;
   a.pin_weight = core.mean_diagonal;
@@ -158,7 +158,7 @@ void GreenSolver::solve(const double* values, Index channels, double* field, dou
 // Computes the flux of each eliminated site e: lambda_e = (K u)_e - (W lambda)_e.
 void GreenSolver::base_flux(Index channels, const double* field, double* flux) const {
   const std::size_t m = at(channels);
-  const SymmetricMatrix& k = core_->laplacian;
+  const SymmetricMatrix& k = core_->matrix();
   Vector<Index> slot_of_base(state().freed.size(), -1, &memory());
   for (std::size_t slot = 0; slot < state().entries.size(); ++slot) {
     const auto& entry = state().entries[slot];

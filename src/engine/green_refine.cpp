@@ -73,7 +73,7 @@ void GreenSolver::solve_right(double* z, Index count, Answer& next, const Step& 
 void GreenSolver::refine(const double* values, Index channels, Index first, Index count, double* z, Answer& answer,
                          double* field, Step& step) const {
   const std::size_t n = at(core_->size()), m = at(count), stride = at(channels), offset = at(first);
-  const SymmetricMatrix& k = core_->laplacian;
+  const SymmetricMatrix& k = core_->matrix();
   const Span<const Index> position = system_.factor().position();
   const EliminatedBase* base = state().base.get();
   const auto u = [&](Index v) { return field + at(v) * stride + offset; };

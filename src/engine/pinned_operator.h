@@ -17,6 +17,8 @@
 
 namespace hf_inner {
 
+struct Core;
+
 // The columns Y_g of the pinned unknowns, by component and pin, and the matrix C = Y_g'Y_g - I / beta.
 struct PinPaths {
   explicit PinPaths(Memory& memory) : groups(&memory), group(&memory), column(&memory), corner(&memory) {}
@@ -27,14 +29,17 @@ struct PinPaths {
 
 struct PinnedOperator {
   static constexpr std::size_t most_border = DenseBlock::most_border;
-  Index size() const noexcept { return matrix->size(); }
+  Index size() const noexcept { return factor->size(); }
   std::size_t component_count() const noexcept { return pin_weight.size(); }
   // Returns the number of pinned unknowns of a component. Its dense system has as many additional (border) unknowns.
   std::size_t border() const noexcept { return pin_weight.empty() ? 1 : pins.size() / pin_weight.size(); }
   bool keeps_constants() const noexcept { return paths == nullptr; }
 
-  const SymmetricMatrix* matrix = nullptr;  // K
-  const Factor* factor = nullptr;           // of K with raised diagonals at the pins
+  // K: that of the core, or the matrix. That of an edited core is made when it is first asked for.
+  const SymmetricMatrix& k() const;
+  const SymmetricMatrix* matrix = nullptr;
+  const Core* core = nullptr;
+  const Factor* factor = nullptr;  // of K with raised diagonals at the pins
   // Unknowns with raised diagonals, border() per component. A component that is definite by itself has -1 there, no
   // path, and a corner below 0 (screened.h).
   Span<const Index> pins;

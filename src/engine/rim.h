@@ -11,7 +11,7 @@ namespace hf_inner {
 // Returns true if K couples v with a vertex that is not inside.
 template <class Inside>
 bool couples_outward(const Core& core, std::int32_t v, Inside&& inside) {
-  const SymmetricMatrix& k = core.laplacian;
+  const SymmetricMatrix& k = core.matrix();
   for (std::int32_t i = k.column_start[static_cast<std::size_t>(v)];
        i < k.column_start[static_cast<std::size_t>(v) + 1]; ++i) {
     if (k.value[static_cast<std::size_t>(i)] != 0 && !inside(k.row[static_cast<std::size_t>(i)])) return true;

@@ -28,7 +28,7 @@ ScreenedOperator::ScreenedOperator(std::shared_ptr<const Core> harmonic)
 
 // Copies K. With options.least_weight >= 0 it raises the weights and sums the diagonal again.
 void ScreenedOperator::copy_operator(const ScreenedOptions& options) {
-  const SymmetricMatrix& k = core->laplacian;
+  const SymmetricMatrix& k = core->matrix();
   matrix.column_start.assign(k.column_start.begin(), k.column_start.end());
   matrix.row.assign(k.row.begin(), k.row.end());
   matrix.value.assign(k.value.begin(), k.value.end());

@@ -12,66 +12,67 @@ namespace {
 
 double at_vertex(const Core& core, Index v) noexcept { return core.stiffness ? (*core.stiffness)[at(v)] : 1.0; }
 
-// Writes the row of vertex v of the operator with another stiffness.
+// Writes the row of vertex v with a stiffness: its entries from `value` on. of(vertex) is the stiffness of a vertex.
+// Returns whether the row differs from that of the plain operator.
 template <class StiffnessOf>
-void write_row(const SymmetricMatrix& plain, Index v, StiffnessOf&& of, double* value) {
+bool write_row(const SymmetricMatrix& plain, Index v, StiffnessOf&& of, double* value) {
   const double own = of(v);
+  const std::size_t begin = at(plain.column_start[at(v)]), end = at(plain.column_start[at(v) + 1]);
   std::size_t diagonal = 0;
   double sum = 0;
   bool changed = false;
-  for (std::size_t i = at(plain.column_start[at(v)]); i < at(plain.column_start[at(v) + 1]); ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     if (plain.row[i] == v) {
-      diagonal = i;
+      diagonal = i - begin;
       continue;
     }
-    const double share = edge_stiffness(own, of(plain.row[i]));
-    changed |= share != 1;
-    value[i] = plain.value[i] * share;
-    sum -= value[i];
+    const double other = of(plain.row[i]);
+    const bool same = own == 1 && other == 1;  // most rows keep their bits
+    value[i - begin] = same ? plain.value[i] : plain.value[i] * edge_stiffness(own, other);
+    changed |= !same;
+    sum -= value[i - begin];
   }
-  value[diagonal] = changed ? sum : plain.value[diagonal];  // other rows keep their bits
+  value[diagonal] = changed ? sum : plain.value[begin + diagonal];
+  return changed;
 }
 
-// The vertices whose rows differ, ascending: those of another stiffness and their neighbours.
-Vector<Index> changed_rows(const Core& from, const Core& to) {
-  const SymmetricMatrix& k = from.laplacian;
-  Vector<std::uint8_t> differs(at(k.size()), 0, from.memory.get());
-  for (Index v = 0; v < k.size(); ++v) {
+// The vertices whose rows differ, ascending: those of another stiffness and their neighbours. plain: the operator.
+Vector<Index> changed_rows(const SymmetricMatrix& plain, const Core& from, const Core& to) {
+  Memory& memory = *from.memory;
+  Vector<Index> rows(&memory);
+  for (Index v = 0; v < plain.size(); ++v) {
     if (at_vertex(to, v) == at_vertex(from, v)) continue;
-    for (Index i = k.column_start[at(v)]; i < k.column_start[at(v) + 1]; ++i) differs[at(k.row[at(i)])] = 1;
+    for (Index i = plain.column_start[at(v)]; i < plain.column_start[at(v) + 1]; ++i) rows.push_back(plain.row[at(i)]);
   }
-  Vector<Index> rows(from.memory.get());
-  for (Index v = 0; v < k.size(); ++v) {
-    if (differs[at(v)]) rows.push_back(v);
-  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
 }
 
 // The difference of the two operators on these rows.
-MatrixChange difference(const SymmetricMatrix& to, const SymmetricMatrix& from, Vector<Index> rows, Memory& memory) {
+MatrixChange difference(const SymmetricMatrix& plain, const Core& from, const Core& to, Vector<Index> rows) {
+  Memory& memory = *from.memory;
   MatrixChange change(memory);
   change.unknown = std::move(rows);
+  Vector<double> before(&memory), after(&memory);
   for (std::size_t p = 0; p < change.unknown.size(); ++p) {
-    const std::size_t v = at(change.unknown[p]);
-    for (std::size_t i = at(to.column_start[v]); i < at(to.column_start[v + 1]); ++i) {
-      if (to.value[i] == from.value[i]) continue;
-      const auto there = std::lower_bound(change.unknown.begin(), change.unknown.end(), to.row[i]);
+    const Index v = change.unknown[p];
+    const std::size_t begin = at(plain.column_start[at(v)]), count = at(plain.column_start[at(v) + 1]) - begin;
+    before.resize(count);
+    after.resize(count);
+    write_row(
+        plain, v, [&](Index u) { return at_vertex(from, u); }, before.data());
+    write_row(
+        plain, v, [&](Index u) { return at_vertex(to, u); }, after.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      if (after[i] == before[i]) continue;
+      const auto there = std::lower_bound(change.unknown.begin(), change.unknown.end(), plain.row[begin + i]);
       const Index column = static_cast<Index>(there - change.unknown.begin());
-      change.entries.push_back({static_cast<Index>(p), column, to.value[i] - from.value[i]});
+      change.entries.push_back({static_cast<Index>(p), column, after[i] - before[i]});
     }
   }
   return change;
 }
-
-}  // namespace
-
-void stiffen(SymmetricMatrix& laplacian, const Vector<double>& stiffness) {
-  for (Index v = 0; v < laplacian.size(); ++v)
-    write_row(
-        laplacian, v, [&](Index u) { return stiffness[at(u)]; }, laplacian.value.data());
-}
-
-namespace {
 
 // A core of another kind of field, made with the ordering of `from`.
 std::shared_ptr<const Core> make_again(const Core& from, std::shared_ptr<const Vector<double>> stiffness) {
@@ -86,28 +87,46 @@ std::shared_ptr<const Core> make_again(const Core& from, std::shared_ptr<const V
   return Core::make(from.geometry, options);
 }
 
-std::shared_ptr<Core> edited_copy(const Core& plain, std::shared_ptr<const Vector<double>> stiffness) {
-  const std::shared_ptr<Core> made = make_owner_in<Core>(plain.memory, plain.geometry);
-  made->field_kind = plain.field_kind;
-  made->ordering = plain.ordering;
-  made->flop_limit = plain.flop_limit;
-  made->formed_valence = plain.formed_valence;
-  made->changed_count = plain.changed_count;
-  made->first_changed = plain.first_changed;
-  made->is_long = plain.is_long;
-  made->ground.assign(plain.ground.begin(), plain.ground.end());
-  made->mean_diagonal.assign(plain.mean_diagonal.begin(), plain.mean_diagonal.end());
-  SymmetricMatrix& k = made->laplacian;
-  const SymmetricMatrix& before = plain.laplacian;
-  k.column_start.assign(before.column_start.begin(), before.column_start.end());
-  k.row.assign(before.row.begin(), before.row.end());
-  k.value.assign(before.value.begin(), before.value.end());
-  stiffen(k, *stiffness);
-  made->stiffness = std::move(stiffness);
+std::shared_ptr<Core> edited_copy(std::shared_ptr<const Core> plain, std::shared_ptr<const Vector<double>> stiffness) {
+  const std::shared_ptr<Core> made = make_owner_in<Core>(plain->memory, plain->geometry);
+  made->field_kind = plain->field_kind;
+  made->ordering = plain->ordering;
+  made->flop_limit = plain->flop_limit;
+  made->formed_valence = plain->formed_valence;
+  made->changed_count = plain->changed_count;
+  made->first_changed = plain->first_changed;
+  made->is_long = plain->is_long;
+  made->ground.assign(plain->ground.begin(), plain->ground.end());
+  made->mean_diagonal.assign(plain->mean_diagonal.begin(), plain->mean_diagonal.end());
+  made->stiffness = stiffness;
+  made->edited = make_shared_in<EditedMatrix>(*plain->memory, plain, std::move(stiffness));
+  made->unedited = std::move(plain);
   return made;
 }
 
 }  // namespace
+
+void stiffen(SymmetricMatrix& laplacian, const Vector<double>& stiffness) {
+  for (Index v = 0; v < laplacian.size(); ++v)
+    write_row(
+        laplacian, v, [&](Index u) { return stiffness[at(u)]; }, &laplacian.value[at(laplacian.column_start[at(v)])]);
+}
+
+EditedMatrix::EditedMatrix(std::shared_ptr<const Core> plain, std::shared_ptr<const Vector<double>> stiffness)
+    : plain_(std::move(plain)), stiffness_(std::move(stiffness)), made_(*plain_->memory) {}
+
+const SymmetricMatrix& EditedMatrix::get() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (made_.size() > 0) return made_;
+  const SymmetricMatrix& before = plain_->laplacian;
+  SymmetricMatrix made(*plain_->memory);
+  made.column_start.assign(before.column_start.begin(), before.column_start.end());
+  made.row.assign(before.row.begin(), before.row.end());
+  made.value.assign(before.value.begin(), before.value.end());
+  stiffen(made, *stiffness_);
+  made_ = std::move(made);
+  return made_;
+}
 
 std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, std::shared_ptr<const Vector<double>> stiffness,
                                       double most) {
@@ -116,12 +135,11 @@ std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, std::sha
   if (!stiffness) return plain;
   const std::shared_ptr<const Core> near = from->factored ? from->factored : from;
   Memory& memory = *from->memory;
-  const std::shared_ptr<Core> made = edited_copy(*plain, std::move(stiffness));
-  made->unedited = plain;
-  Vector<Index> rows = changed_rows(*near, *made);
+  const std::shared_ptr<Core> made = edited_copy(plain, std::move(stiffness));
+  Vector<Index> rows = changed_rows(plain->laplacian, *near, *made);
   const SiteCost cost(near->factor->statistics());
   if (cost.edit_ns(static_cast<double>(rows.size())) < most * cost.rebase_ns(0)) {
-    const MatrixChange change = difference(made->laplacian, near->laplacian, std::move(rows), memory);
+    const MatrixChange change = difference(plain->laplacian, *near, *made, std::move(rows));
     made->factor = edit_factor(near->factor, change, memory, *from->jobs);
     made->factored = near;
   } else {

@@ -126,7 +126,7 @@ class Check {
         given_(given_weights(core_)),
         k_(screening_          ? screening_->screened->matrix
            : given_.size() > 0 ? given_
-                               : core_.laplacian),
+                               : core_.matrix()),
         ranges_(field, at(core_.mesh.component_count()), m_, memory_),
         u_(core_.workspaces, n_ * m_),
         left_(core_.workspaces, n_ * m_),

@@ -22,7 +22,7 @@ constexpr float progress_connection = 0.05f, progress_ordered_directions = 0.3f;
 
 // Returns the number of mesh edges that the surface's operator does not have.
 double missing_edges(const Core& core) {
-  const SymmetricMatrix& k = core.laplacian;
+  const SymmetricMatrix& k = core.matrix();
   std::size_t missing = 0;
   for (std::size_t v = 0; v < at(core.size()); ++v) {
     Index i = k.column_start[v];

@@ -47,9 +47,9 @@ Geodesics::Geodesics(std::shared_ptr<const Core> core, double smoothing)
   // A vertex without area still needs a positive diagonal.
   const double floor = least_mass / std::max(1, c.size());
   for (std::size_t v = 0; v < at(c.size()); ++v) {
-    for (Index i = c.laplacian.column_start[v]; i < c.laplacian.column_start[v + 1]; ++i) {
-      matrix.value[at(i)] = step * c.laplacian.value[at(i)];
-      if (at(c.laplacian.row[at(i)]) == v) matrix.value[at(i)] += std::max(c.areas[v], floor);
+    for (Index i = c.matrix().column_start[v]; i < c.matrix().column_start[v + 1]; ++i) {
+      matrix.value[at(i)] = step * c.matrix().value[at(i)];
+      if (at(c.matrix().row[at(i)]) == v) matrix.value[at(i)] += std::max(c.areas[v], floor);
     }
   }
   heat_ = c.factor->refactor(matrix, {}, *c.memory, *c.jobs);

@@ -73,9 +73,9 @@ void RefactorSolver::factorise(State& state) const {
   Memory& memory = *core_->memory;
   const std::size_t n = at(core_->size());
   SymmetricMatrix a(memory);
-  a.column_start.assign(core_->laplacian.column_start.begin(), core_->laplacian.column_start.end());
-  a.row.assign(core_->laplacian.row.begin(), core_->laplacian.row.end());
-  a.value.assign(core_->laplacian.value.begin(), core_->laplacian.value.end());
+  a.column_start.assign(core_->matrix().column_start.begin(), core_->matrix().column_start.end());
+  a.row.assign(core_->matrix().row.begin(), core_->matrix().row.end());
+  a.value.assign(core_->matrix().value.begin(), core_->matrix().value.end());
   Vector<std::uint8_t> eliminated(n, 0, &memory);
   state.floating.assign(state.count.size(), 1);
   state.points.clear();
@@ -194,7 +194,7 @@ double RefactorSolver::softness(const Site& site) const noexcept {
 void RefactorSolver::write_vertex_flux(const double* u, Index channels, const double* right, const double* missed,
                                        double* flux) const {
   const std::size_t m = at(channels);
-  const SymmetricMatrix& k = core_->laplacian;
+  const SymmetricMatrix& k = core_->matrix();
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
     const Site& site = state_.sites[slot];
     if (site.component < 0 || !site.is_vertex()) continue;
@@ -225,7 +225,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   Memory& memory = *core_->memory;
   const std::size_t n = at(core_->size()), m = at(channels);
   const Span<const Index> position = core_->factor->position();
-  const SymmetricMatrix& k = core_->laplacian;
+  const SymmetricMatrix& k = core_->matrix();
   Vector<std::int8_t> fixed(n, 0, &memory);
   Vector<double> centre(state_.count.size() * m, 0.0, &memory);
   for (std::size_t slot = 0; slot < state_.sites.size(); ++slot) {
@@ -328,7 +328,7 @@ bool RefactorSolver::correct(const double* values, Index channels, const double*
   Memory& memory = *core_->memory;
   const std::size_t n = at(core_->size()), m = at(channels);
   const Span<const Index> position = core_->factor->position();
-  const SymmetricMatrix& k = core_->laplacian;
+  const SymmetricMatrix& k = core_->matrix();
   Vector<double> right(n * m, 0.0, &memory), missed(state_.sites.size() * m, 0.0, &memory), u(n * m, 0.0, &memory);
   for (std::size_t v = 0; v < n; ++v) {
     if (!state_.count[at(core_->mesh.component[v])]) continue;

@@ -240,7 +240,7 @@ class UpdownSolver final : public SiteSolver {
   void rebuild() {
     cholmod_free_factor(&factor_, &common_.c);
     const Index n = core_->size();
-    const SymmetricMatrix& k = core_->laplacian;
+    const SymmetricMatrix& k = core_->matrix();
     cholmod_sparse* a = cholmod_allocate_sparse(at(n), at(n), k.row.size(), 1, 1, -1, CHOLMOD_REAL, &common_.c);
     if (!a) throw_status(common_.c);
     int used = 0;
@@ -310,7 +310,7 @@ class UpdownSolver final : public SiteSolver {
   // rounding, multiplied by the penalty, would not point along the weights w. Along w the penalty makes rounding
   // harmless.
   void residual_of(const double* wanted, const double* u, Index channels, double* residual) const {
-    const SymmetricMatrix& k = core_->laplacian;
+    const SymmetricMatrix& k = core_->matrix();
     const std::size_t n = at(core_->size()), m = at(channels);
     for (std::size_t c = 0; c < m; ++c, u += n, residual += n) {
       for (Index v = 0; v < core_->size(); ++v) {

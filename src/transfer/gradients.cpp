@@ -65,7 +65,7 @@ void Gradients::prepare(const MatchSide& source, const MatchSide& target, const 
   }
 
   // The operator's entries, with the length of each target edge over that of the matched points.
-  const SymmetricMatrix& k = target_factor.laplacian;
+  const SymmetricMatrix& k = target_factor.matrix();
   matched_.assign(count, Vec3());
   blended_.assign(count, Mat3::Identity());
   Vector<Vec3> rest(count, &memory);
@@ -150,7 +150,7 @@ void Gradients::apply(const Frame& frame, Vec3* out) {
       if (matches_.share[i] > 0) place = place + matches_.share[i] * source.mesh.positions[at(matches_.corner[i])];
     return place;
   };
-  const SymmetricMatrix& k = factor.laplacian;
+  const SymmetricMatrix& k = factor.matrix();
   const Span<const std::int32_t> position = factor.factor->position();
   Workspace z(factor.workspaces, 3 * count);
   each([&](std::size_t v) {

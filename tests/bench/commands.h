@@ -42,6 +42,8 @@ Rows run_table1(const Run& run, Report& report);
 void plot_table1(const Runs& runs, const std::string& file);
 Rows run_large_sites(const Run& run, Report& report);
 void plot_large_sites(const Runs& runs, const std::string& file);
+Rows run_edits(const Run& run, Report& report);
+void plot_edits(const Runs& runs, const std::string& file);
 Rows run_memory(const Run& run, Report& report);
 void plot_memory(const Runs& runs, const std::string& file);
 Rows run_accuracy(const Run& run, Report& report);

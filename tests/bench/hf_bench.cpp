@@ -27,6 +27,8 @@ constexpr Command commands[] = {
      bench::run_table1, bench::plot_table1},
     {"large-sites", "100 to 10,000 sites at once, against our own refactorisation", bench::run_large_sites,
      bench::plot_large_sites},
+    {"edits", "30 to 1,000 vertices made stiff and the field, against a fresh surface", bench::run_edits,
+     bench::plot_edits},
     {"memory", "peak of create + solve over the bytes of the factor, 10K to 1M vertices", bench::run_memory,
      bench::plot_memory},
     {"accuracy", "site error, residual, error after 10,000 random edits, bi-harmonic refinement", bench::run_accuracy,
@@ -54,7 +56,7 @@ constexpr Command commands[] = {
      bench::plot_weights},
 };
 
-constexpr size_t engine_commands = 8;  // first-field to scaling: the factor and the engines, without the rest
+constexpr size_t engine_commands = 9;  // first-field to scaling: the factor and the engines, without the rest
 
 void print_usage() {
   std::fputs(

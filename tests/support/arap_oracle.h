@@ -21,7 +21,7 @@ class ArapOracle {
         fixed_(std::move(fixed)),
         rotation_(static_cast<std::size_t>(core.size())),
         z_(3 * static_cast<std::size_t>(core.size())) {
-    factor_ = core.factor->refactor(core.laplacian, {fixed_.data(), fixed_.size()}, *core.memory, *core.jobs);
+    factor_ = core.factor->refactor(core.matrix(), {fixed_.data(), fixed_.size()}, *core.memory, *core.jobs);
   }
 
   // Smooth rotations (Levi and Gotsman 2015): the energy has share * area * sum_vu w_vu |R_v - R_u|^2 besides, area in

@@ -12,7 +12,7 @@ namespace hf_test {
 
 // K as a dense matrix; a product of dense matrices where the core does not form it.
 inline Eigen::MatrixXd dense_operator(const hf_inner::Core& core) {
-  const hf_inner::SymmetricMatrix& m = core.root ? core.root->laplacian : core.laplacian;
+  const hf_inner::SymmetricMatrix& m = core.root ? core.root->matrix() : core.matrix();
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(core.size(), core.size());
   for (int v = 0; v < core.size(); ++v) {
     for (int i = m.column_start[static_cast<std::size_t>(v)]; i < m.column_start[static_cast<std::size_t>(v) + 1]; ++i)

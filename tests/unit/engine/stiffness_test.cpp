@@ -78,11 +78,11 @@ TEST(Stiffness, AnEditedCoreHasTheOperatorOfAFreshOne) {
     const auto fresh = hf_test::make_core(islands(), 1, options);
     const auto edited = hf_inner::edit_core(plain, options.stiffness, most);
     EXPECT_EQ(edited->factored != nullptr, most == always_rows);
-    ASSERT_EQ(edited->laplacian.row, fresh->laplacian.row);
-    EXPECT_EQ(edited->laplacian.value, fresh->laplacian.value);
+    ASSERT_EQ(edited->matrix().row, fresh->matrix().row);
+    EXPECT_EQ(edited->matrix().value, fresh->matrix().value);
     EXPECT_EQ(edited->mean_diagonal, fresh->mean_diagonal);
     EXPECT_EQ(edited->ground, fresh->ground);
-    EXPECT_NE(edited->laplacian.value, plain->laplacian.value);
+    EXPECT_NE(edited->matrix().value, plain->matrix().value);
   }
 }
 
