@@ -165,6 +165,7 @@ std::vector<Key> play(const ScriptFile& script, const Command& command, Posable&
     if (layered) {  // settled, so that what moves now is the insertion's doing
       for (int i = 0; i < 30; ++i) posable.deform(refine, before, normals);
     }
+    posable.stiffen(step.stiff);
     posable.remove(step.remove);
     posable.add(step.add);
     if (layered) {

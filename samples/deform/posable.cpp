@@ -101,20 +101,47 @@ Posable::~Posable() {
   if (own_) hf_surface_destroy(surface_);
 }
 
-std::vector<uint32_t> Posable::vertices_of(const HandleEntry& entry) const {
-  if (!entry.has_box) return entry.vertices;
+std::vector<uint32_t> Posable::vertices_of(const HandleEntry& entry, const std::string& name) const {
+  if (!entry.has_box && !entry.has_point) return entry.vertices;
   std::vector<uint32_t> out;
+  const std::set<uint32_t> used(mesh_.triangles.begin(), mesh_.triangles.end());
+  if (entry.has_point) {
+    const glm::dvec3 centre = at(entry.point);
+    for (const uint32_t v : used) {
+      if (glm::distance(mesh_.positions[v], centre) <= entry.radius * diagonal_) out.push_back(v);
+    }
+    if (out.empty()) throw std::runtime_error(name + ": no vertex lies within its radius");
+    return out;
+  }
   const glm::dvec3 lower = at(entry.lower), upper = at(entry.upper);
   const double slack = 1e-9 * diagonal_;
-  std::set<uint32_t> used(mesh_.triangles.begin(), mesh_.triangles.end());
   for (const uint32_t v : used) {
     const glm::dvec3& p = mesh_.positions[v];
     bool inside = true;
     for (int c = 0; c < 3; ++c) inside = inside && p[c] >= lower[c] - slack && p[c] <= upper[c] + slack;
     if (inside != entry.outside) out.push_back(v);
   }
-  if (out.empty()) throw std::runtime_error("handle \"" + entry.name + "\": no vertex lies in its box");
+  if (out.empty()) throw std::runtime_error(name + ": no vertex lies in its box");
   return out;
+}
+
+void Posable::stiffen(const std::vector<StiffEntry>& regions) {
+  for (const StiffEntry& region : regions) {
+    const std::vector<uint32_t> vertices = vertices_of(region.region, "a stiff region");
+    const std::vector<double> stiffness(vertices.size(), region.stiffness);
+    hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
+    desc.vertex_count = static_cast<uint32_t>(vertices.size());
+    desc.vertices = vertices.data();
+    desc.stiffness = stiffness.data();
+    hf_surface edited = nullptr;
+    expect_ok(hf_surface_edit(surface_, &desc, &edited), "a stiff region");
+    const hf_result result = hf_pose_move_to(pose_, edited);
+    if (result != HF_OK) hf_surface_destroy(edited);
+    expect_ok(result, "a stiff region");
+    if (own_) hf_surface_destroy(surface_);
+    own_ = true;
+    surface_ = edited;
+  }
 }
 
 void Posable::add(const std::vector<HandleEntry>& handles) {
@@ -135,7 +162,7 @@ void Posable::add(const std::vector<HandleEntry>& handles) {
       desc.points = xyz;
       desc.radii = &radius;
     } else {
-      live.vertices = vertices_of(entry);
+      live.vertices = vertices_of(entry, "handle \"" + entry.name + "\"");
       count = static_cast<uint32_t>(live.vertices.size());
       desc.region_counts = &count;
       desc.region_vertices = live.vertices.data();

@@ -56,6 +56,8 @@ class Posable {
   Posable(const Posable&) = delete;
   Posable& operator=(const Posable&) = delete;
 
+  // Gives regions another stiffness; handles stay as they are. Throws std::runtime_error.
+  void stiffen(const std::vector<StiffEntry>& regions);
   // Throw std::runtime_error naming the handle.
   void add(const std::vector<HandleEntry>& handles);
   void remove(const std::vector<std::string>& names);
@@ -104,7 +106,8 @@ class Posable {
   void keep_rigid(const FlatMesh& mesh, const Model* model);
   void make_surface(const FlatMesh& mesh, const Options& options);
   glm::dvec3 at(const glm::dvec3& fraction) const { return lower_ + fraction * (upper_ - lower_); }
-  std::vector<uint32_t> vertices_of(const HandleEntry& entry) const;
+  // name: of the region, for errors.
+  std::vector<uint32_t> vertices_of(const HandleEntry& entry, const std::string& name) const;
   HandlePlace place(const Live& live, const MotionEntry& motion, double amount) const;
 
   const FlatMesh& mesh_;

@@ -15,12 +15,9 @@ glm::dvec3 point_of(const JsonReader& json) {
   return {n[0], n[1], n[2]};
 }
 
-HandleEntry read_handle(const JsonReader& json) {
-  json.expect_only({"name", "layer", "vertices", "point", "radius", "box", "outside"});
+// The keys that say which vertices. noun: what has them.
+HandleEntry read_region(const JsonReader& json, const std::string& noun) {
   HandleEntry out;
-  out.name = json.at("name").string();
-  if (out.name.empty()) json.at("name").fail("a handle needs a name");
-  out.layer = static_cast<uint32_t>(json.integer_or("layer", 0, 7, 0));
   if (json.has("vertices")) {
     const JsonReader list = json.at("vertices");
     for (size_t i = 0; i < list.size(); ++i)
@@ -41,8 +38,22 @@ HandleEntry read_handle(const JsonReader& json) {
     out.outside = json.boolean_or("outside", false);
   }
   if (int(!out.vertices.empty()) + int(out.has_point) + int(out.has_box) != 1)
-    json.fail("a handle needs one of vertices, point with radius, or box");
+    json.fail(noun + " needs one of vertices, point with radius, or box");
   return out;
+}
+
+HandleEntry read_handle(const JsonReader& json) {
+  json.expect_only({"name", "layer", "vertices", "point", "radius", "box", "outside"});
+  HandleEntry out = read_region(json, "a handle");
+  out.name = json.at("name").string();
+  if (out.name.empty()) json.at("name").fail("a handle needs a name");
+  out.layer = static_cast<uint32_t>(json.integer_or("layer", 0, 7, 0));
+  return out;
+}
+
+StiffEntry read_stiff(const JsonReader& json) {
+  json.expect_only({"stiffness", "vertices", "point", "radius", "box", "outside"});
+  return {read_region(json, "a stiff region"), json.at("stiffness").number(1e-4, 1e4)};
 }
 
 MotionEntry read_motion(const JsonReader& json) {
@@ -73,10 +84,14 @@ Step read_step(const JsonReader& json, bool drags_only) {
   if (drags_only) {
     json.expect_only({"drag", "seconds", "label"});
   } else {
-    json.expect_only({"add", "remove", "drag", "seconds", "label"});
+    json.expect_only({"stiff", "add", "remove", "drag", "seconds", "label"});
   }
   Step out;
   out.label = json.string_or("label", "");
+  if (json.has("stiff")) {
+    const JsonReader list = json.at("stiff");
+    for (size_t i = 0; i < list.size(); ++i) out.stiff.push_back(read_stiff(list.at(i)));
+  }
   if (json.has("add")) {
     const JsonReader list = json.at("add");
     for (size_t i = 0; i < list.size(); ++i) out.add.push_back(read_handle(list.at(i)));

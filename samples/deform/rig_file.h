@@ -39,7 +39,14 @@ struct MotionEntry {
   glm::dvec3 bend_from{0}, bend_to{0};
 };
 
+// A region that gets another stiffness: 1 as it is, 1e4 rigid.
+struct StiffEntry {
+  HandleEntry region;  // without a name
+  double stiffness = 1;
+};
+
 struct Step {
+  std::vector<StiffEntry> stiff;
   std::vector<HandleEntry> add;
   std::vector<std::string> remove;
   std::map<std::string, MotionEntry> drag;
