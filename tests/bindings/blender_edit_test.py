@@ -315,12 +315,19 @@ for change in (pull, extrude):
     bpy.context.view_layer.update()
     bpy.ops.hf.update()
 bpy.ops.ed.undo_push(message="posed")
-bpy.ops.object.duplicate()
+seen = now()
+alone = body.copy()  # an operator's step of undo is as this: made before Blender's event
+alone.data = body.data.copy()
+alone.location.x = 5
+bpy.context.scene.collection.objects.link(alone)
 bpy.ops.ed.undo_push(message="copied")
 bpy.ops.ed.undo()
-bpy.ops.ed.redo()  # at once, before Blender's own event
+bpy.context.scene.collection.objects.link(bpy.data.objects.new("as many as with the copy", None))
+bpy.context.view_layer.update()
+bpy.ops.ed.redo()
 alone, body = bpy.data.objects["tube.001"], bpy.data.objects["tube"]
 assert "hf_key" not in alone and "hf_key" in body
+np.testing.assert_array_equal(mesh_data.positions_of(alone.data), seen)
 
 bpy.ops.preferences.addon_disable(module="hf_blender")
 print("blender edit: all right")
