@@ -310,7 +310,7 @@ static void clusters_of_a_byte_are_refused_above_256(void** state) {
     const hf_result result = hf_pose_get_blend_influences(pose, &rows_of);
     assert_int_equal(result, info.cluster_count > 256 ? HF_ERROR_TOO_LARGE : HF_OK);
     if (result == HF_OK) continue;
-    hf_error_detail detail = HF_INIT(hf_error_detail);
+    hf_error_detail detail;
     assert_ok(hf_error_get_detail(&detail));
     assert_non_null(strstr(detail.message, "at most 256"));
     rows_of.byte_clusters = NULL; /* what the text says to do */
