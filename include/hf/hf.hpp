@@ -792,7 +792,7 @@ struct BlendInfluences {
   double error = 0;
   // the same for byte_weights
   double byte_error = 0;
-  // entries of a row, 1 to 64; 0 = 8
+  // clusters of each vertex, the length of a row, 1 to 64; 0 = 8
   uint32_t influence_count = 0;
 };
 
@@ -2509,7 +2509,7 @@ class Pose {
   // Writes rows of one length. They change with `revision`, as those of Pose::blend_rows. Call it without arrays for
   // the count and the errors.
   //
-  // influence_count: entries of a row, 1 to 64; 0 = 8
+  // influence_count: clusters of each vertex, the length of a row, 1 to 64; 0 = 8
   // byte_clusters: `[vertex_capacity x influence_count]` none = not wanted. Refused for more than 256 clusters
   // byte_weights: `[vertex_capacity x influence_count]` none = not wanted. 255ths, of sum 255; weights that round to 0
   // are left out

@@ -353,8 +353,9 @@ typedef struct hf_blend_info {
   double offset_share;    /* 0 to 1: share of its offset that a vertex gets. 0 unless handles were added in place or
                              rotations freed; it falls as handles move */
   double centre[3];       /* in the unit and frame of the mesh; positions are relative to this point */
-  double low[3];          /* of a box that holds all vertices of the frame, for culling; relative to centre */
-  double high[3];         /* the other corner. It may be larger than needed: see docs/renderer.md */
+  double low[3];          /* for culling: the smallest x, y and z of a box that holds all vertices of the last frame. In the
+                             unit and frame of the mesh, relative to centre */
+  double high[3];         /* the largest x, y and z. The box may be larger than needed: see docs/renderer.md */
 } hf_blend_info;
 
 /* Writes the info of a blend. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_UNSUPPORTED (higher layers, rigid pieces or
@@ -393,7 +394,7 @@ HF_API hf_result hf_pose_get_blend_rows(hf_pose pose, hf_blend_rows* inout_rows)
 typedef struct hf_blend_influences {
   uint32_t struct_size;
   uint32_t vertex_capacity; /* in: vertices the arrays can take */
-  uint32_t influence_count; /* in: entries of a row, 1 to 64; 0 = 8 */
+  uint32_t influence_count; /* in: clusters of each vertex, the length of a row, 1 to 64; 0 = 8 */
   uint32_t vertex_count;    /* out: as given to the surface */
   double change;            /* out: the largest change of a vertex's weights, 0 to 1: half the sum of the differences */
   double byte_change;       /* out: the same for byte_weights */

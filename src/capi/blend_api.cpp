@@ -28,8 +28,8 @@ const Pose& blended_pose(const PoseStack& stack) {
 // Returns the count of clusters. If some vertices have no handle, a last cluster that never moves is counted too.
 std::uint32_t blend_clusters(const Pose& pose) noexcept {
   const ClusterWeights& weights = *pose.weights();
-  const bool still = weights.unreached_vertex_count > 0 || !pose.core().mesh.isolated.empty();
-  return static_cast<std::uint32_t>(weights.cluster_count) + still;
+  const bool unmoved = weights.unreached_vertex_count > 0 || !pose.core().mesh.isolated.empty();
+  return static_cast<std::uint32_t>(weights.cluster_count) + unmoved;
 }
 
 void put_floats(Vec3 p, float* out) noexcept {
@@ -75,7 +75,7 @@ void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
   Vector<Normal> normals(&memory);
   if (out.normals) normals = rest_normals(pose, memory);
   const Crossfade* glide = pose.crossfade();
-  const auto still = static_cast<std::uint16_t>(blend_clusters(pose) - 1);
+  const auto unmoved = static_cast<std::uint16_t>(blend_clusters(pose) - 1);  // the cluster that never moves
   std::size_t isolated = 0;
   std::uint32_t entry = 0;
   const auto add = [&](std::uint16_t cluster, float weight, Vec3 gradient) {
@@ -99,7 +99,7 @@ void write_blend_rows(const Pose& pose, hf_blend_rows* inout) {
     isolated += loose;
     const std::int32_t first = loose ? 0 : rows.start[inner], last = loose ? 0 : rows.start[inner + 1];
     for (std::int32_t k = first; k < last; ++k) add(rows.cluster[k], rows.weight[k], rows.gradient[k]);
-    if (first == last) add(still, 1, {});
+    if (first == last) add(unmoved, 1, {});
   });
   for (std::size_t i = 0; i < mesh.turned.size() && out.normals; ++i) {
     float* normal = out.normals + 3 * static_cast<std::size_t>(mesh.turned[i]);
@@ -114,15 +114,16 @@ struct Rounding {
   FixedRow row;
 };
 
-// Makes the row of an inner vertex and takes its errors. A vertex without clusters has one of weight 1.
+// Makes the row of an inner vertex and takes its errors. A vertex that no cluster moves has the unmoved one with
+// weight 1.
 void round_row(const Pose& pose, std::int32_t inner, std::uint32_t count, Rounding& out) {
   static constexpr float whole = 1;
   const ClusterWeights& weights = *pose.weights();
-  const auto still = static_cast<std::uint16_t>(blend_clusters(pose) - 1);
+  const auto unmoved = static_cast<std::uint16_t>(blend_clusters(pose) - 1);  // the cluster that never moves
   const std::int32_t first = inner == Mesh::none ? 0 : weights.start[inner],
                      last = inner == Mesh::none ? 0 : weights.start[inner + 1];
   if (first == last) {
-    fix_row({&still, 1}, {&whole, 1}, count, out.total, out.row);
+    fix_row({&unmoved, 1}, {&whole, 1}, count, out.total, out.row);
     return;
   }
   const std::size_t length = static_cast<std::size_t>(last - first);
@@ -152,9 +153,10 @@ void write_blend_influences(const Pose& pose, hf_blend_influences* inout) {
   constexpr std::uint32_t standard = 8, byte_clusters = 256;
   hf_blend_influences out = read_struct(inout, "inout_influences");
   const Mesh& mesh = pose.core().mesh;
-  const std::uint32_t count = count_of(out.influence_count, standard, 1, longest_row, "influence_count");
+  const std::uint32_t count = count_of(out.influence_count, standard, 1, most_row_entries, "influence_count");
   if (out.byte_clusters && blend_clusters(pose) > byte_clusters)
-    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "the blend has %u clusters and a byte counts %u; take clusters of 16 bits",
+    fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX,
+         "the blend has %u clusters; byte_clusters takes at most %u. Use clusters, which has 16 bits, or fewer handles",
          blend_clusters(pose), byte_clusters);
   out.influence_count = count;
   out.vertex_count = mesh.report.vertex_count;
@@ -192,11 +194,11 @@ hf_blend_info blend_info(const Pose& pose) noexcept {
 void write_blend_transforms(const Pose& pose, float* out) noexcept {
   const Span<const Affine> moved = pose.cluster_transforms();
   for (std::uint32_t c = 0; c < blend_clusters(pose); ++c) {
-    const bool still = !pose.posed() || c >= static_cast<std::uint32_t>(pose.weights()->cluster_count);
+    const bool at_rest = !pose.posed() || c >= static_cast<std::uint32_t>(pose.weights()->cluster_count);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 4; ++j) {
         const double unit = j == 3 ? pose.core().mesh.scale : 1;  // translations are in the unit of the mesh
-        *out++ = static_cast<float>(still ? (i == j) : unit * moved[c].a[i][j]);
+        *out++ = static_cast<float>(at_rest ? (i == j) : unit * moved[c].a[i][j]);
       }
     }
   }

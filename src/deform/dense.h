@@ -28,9 +28,10 @@ class DenseFactor {
   std::int32_t dropped() const noexcept { return dropped_; }
 
  private:
+  void solve_sides(int sides, double* x) const noexcept;
+
   std::int32_t size_ = 0;
   std::int32_t dropped_ = 0;
-  void solve_sides(int sides, double* x) const noexcept;
   Buffer<double> rows_, columns_;  // DensePanels
   Buffer<double> inverse_pivot_;   // 0 for dropped unknowns
 };

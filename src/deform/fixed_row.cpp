@@ -8,7 +8,7 @@ namespace hf_inner {
 double fix_row(Span<const std::uint16_t> cluster, Span<const float> weight, std::uint32_t count, std::uint32_t total,
                FixedRow& out) noexcept {
   // the heaviest, by insertion; of equal ones the one with the lower number
-  double kept[longest_row], sum = 0;
+  double kept[most_row_entries], sum = 0;
   std::uint32_t used = 0;
   for (std::size_t k = 0; k < weight.size(); ++k) {
     const double w = static_cast<double>(weight[k]);
@@ -24,7 +24,7 @@ double fix_row(Span<const std::uint16_t> cluster, Span<const float> weight, std:
   for (std::uint32_t i = 0; i < used; ++i) sum += kept[i];
 
   // rounded down, and the units left over to the largest remainders
-  double rest[longest_row];
+  double rest[most_row_entries];
   std::uint32_t left = total;
   for (std::uint32_t i = 0; i < used; ++i) {
     const double exact = total * kept[i] / sum, whole = std::floor(exact);

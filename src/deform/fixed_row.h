@@ -12,14 +12,14 @@
 namespace hf_inner {
 
 // At most this many entries in a row; more than any engine reads. It bounds a table on the stack.
-constexpr std::uint32_t longest_row = 64;
+constexpr std::uint32_t most_row_entries = 64;
 
 struct FixedRow {
-  std::uint16_t cluster[longest_row];  // by falling weight; where units are 0, that of the first entry
-  std::uint32_t units[longest_row];
+  std::uint16_t cluster[most_row_entries];  // by falling weight; where units are 0, that of the first entry
+  std::uint32_t units[most_row_entries];
 };
 
-// Writes the first `count` entries (1 to longest_row) of `out`. The row is not empty, its clusters ascend, and its
+// Writes the first `count` entries (1 to most_row_entries) of `out`. The row is not empty, its clusters ascend, and its
 // weights are positive and sum to 1. total: at most 2^24. Returns the change of the row. Cost: row length times count.
 double fix_row(Span<const std::uint16_t> cluster, Span<const float> weight, std::uint32_t count, std::uint32_t total,
                FixedRow& out) noexcept;

@@ -286,6 +286,42 @@ static void rows_of_one_length_are_off_by_what_they_say(void** state) {
   hf_surface_destroy(surface);
 }
 
+static void clusters_of_a_byte_are_refused_above_256(void** state) {
+  (void)state;
+  hf_surface surface = whole_surface(0);
+  hf_pose pose;
+  assert_ok(hf_pose_create(surface, NULL, &pose));
+  static uint8_t bytes[8 * ALL];
+  static uint16_t words[8 * ALL];
+  hf_blend_info info = HF_INIT(hf_blend_info);
+  for (uint32_t ring = 0; ring < RINGS && info.cluster_count <= 256; ++ring) { /* handles until there are enough */
+    hf_handles_desc desc = HF_INIT(hf_handles_desc);
+    const uint32_t sizes[AROUND / 2] = {1, 1, 1, 1, 1, 1, 1, 1};
+    uint32_t vertices[AROUND / 2], made[AROUND / 2];
+    for (uint32_t i = 0; i < AROUND / 2; ++i) vertices[i] = ring * AROUND + 2 * i;
+    desc.handle_count = AROUND / 2;
+    desc.region_counts = sizes;
+    desc.region_vertices = vertices;
+    assert_ok(hf_pose_add_handles(pose, &desc, made));
+    assert_ok(hf_pose_get_blend_info(pose, &info));
+    hf_blend_influences rows_of = HF_INIT(hf_blend_influences);
+    rows_of.vertex_capacity = ALL;
+    rows_of.byte_clusters = bytes;
+    const hf_result result = hf_pose_get_blend_influences(pose, &rows_of);
+    assert_int_equal(result, info.cluster_count > 256 ? HF_ERROR_TOO_LARGE : HF_OK);
+    if (result == HF_OK) continue;
+    hf_error_detail detail;
+    assert_ok(hf_error_get_detail(&detail));
+    assert_non_null(strstr(detail.message, "at most 256"));
+    rows_of.byte_clusters = NULL; /* what the text says to do */
+    rows_of.clusters = words;
+    assert_ok(hf_pose_get_blend_influences(pose, &rows_of));
+  }
+  assert_true(info.cluster_count > 256);
+  hf_pose_destroy(pose);
+  hf_surface_destroy(surface);
+}
+
 /* Where the shader takes a tangent: J u of the header. */
 static void push(const Blend* b, const float* transforms, size_t v, const float u[3], float out[3]) {
   const float* p = b->rows.positions + 3 * v;
@@ -505,6 +541,7 @@ int main(void) {
       cmocka_unit_test(a_shader_has_the_vertices_of_hf_deform),
       cmocka_unit_test(normals_of_a_shader_are_those_of_hf_deform),
       cmocka_unit_test(rows_of_one_length_are_off_by_what_they_say),
+      cmocka_unit_test(clusters_of_a_byte_are_refused_above_256),
       cmocka_unit_test(a_solve_has_the_bits_of_a_deform),
       cmocka_unit_test(the_blend_is_that_of_the_last_frame),
       cmocka_unit_test(what_is_no_blend_is_refused),

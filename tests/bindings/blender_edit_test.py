@@ -1,4 +1,5 @@
-"""A bound mesh that is edited, and a file that is opened again, in Blender without a display: handles stay and go on."""
+"""A bound mesh that is edited, undone or copied, and a file that is opened again, in Blender without a display: handles stay
+and go on."""
 
 import os
 import sys
@@ -10,7 +11,7 @@ import numpy as np
 sys.path.insert(0, os.environ["HF_TESTS"])
 bpy.ops.preferences.addon_install(filepath=os.environ["HF_ADDON_ZIP"])
 bpy.ops.preferences.addon_enable(module="hf_blender")
-from hf_blender import mesh_data, session  # noqa: E402
+from hf_blender import mesh_data, panels, session  # noqa: E402
 
 RINGS, AROUND = 41, 16
 
@@ -142,5 +143,191 @@ assert np.abs(now() - before).max() > 1.2
 active(body)
 assert bpy.ops.hf.unbind() == {"FINISHED"}
 assert not handles() and mesh_data.NUMBER not in body.data.attributes and mesh_data.REST not in body.data.attributes
+bpy.data.objects.remove(body)
+
+
+def begin(dragged=1.0):
+    """A new tube with handles, posed."""
+    global body, rest
+    for old in list(bpy.data.objects):
+        bpy.data.objects.remove(old)
+    bpy.context.scene.frame_set(1)
+    body = tube()
+    rest = now()
+    active(body)
+    assert bpy.ops.hf.add_groups() == {"FINISHED"}
+    handles()["high"].location.x += dragged
+    bpy.context.view_layer.update()
+    for _ in range(40):
+        bpy.ops.hf.update()  # until the pose is at rest
+    return now()
+
+
+# ---- what is extruded in the pose stands out as far at rest
+before = begin()
+end = [i for i in range(len(rest)) if rest[i, 2] > 3.95]
+def extrude(shape):
+    cap = [f for f in shape.faces if all(v.index in end for v in f.verts)]
+    made = bmesh.ops.extrude_face_region(shape, geom=cap)["geom"]
+    bmesh.ops.translate(shape, verts=[v for v in made if isinstance(v, bmesh.types.BMVert)], vec=(0, 0, 0.5))
+    bmesh.ops.delete(shape, geom=cap, context="FACES")
+edit(extrude)
+out = mesh_data.rest_of(body.data)
+assert len(out) == len(rest) + AROUND and held().pose.handle_count == 3
+np.testing.assert_array_equal(out[:len(rest)], rest)
+np.testing.assert_allclose(out[len(rest):, 2], 4.5, atol=1e-5)
+np.testing.assert_allclose(now()[:len(rest)], before, atol=0.1)  # the handle has grown
+
+# ---- a file that was saved in the pose and is edited before its first move: the rest shape moves as what was seen
+begin()
+bpy.ops.wm.save_as_mainfile(filepath=path)
+bpy.ops.wm.open_mainfile(filepath=path)
+body = bpy.data.objects["tube"]
+active(body)
+assert held() is None
+edit(pull)
+handles()["high"].location.y += 0.01
+bpy.context.view_layer.update()
+np.testing.assert_allclose(mesh_data.rest_of(body.data)[0], rest[0] - (0, 0, 0.25), atol=1e-5)
+np.testing.assert_array_equal(mesh_data.rest_of(body.data)[1:], rest[1:])
+
+# ---- an edit while Live is off is seen by the next operator
+begin()
+bpy.context.scene.hf_live = False
+edit(pull)
+assert bpy.ops.hf.update() == {"FINISHED"}
+np.testing.assert_allclose(mesh_data.rest_of(body.data)[0], rest[0] - (0, 0, 0.25), atol=1e-5)
+bpy.context.scene.hf_live = True
+
+# ---- a handle from the vertices that are selected in Edit Mode, which goes on; also on a mesh that is not bound yet
+def select(where):
+    for v in body.data.vertices:
+        v.select = bool(where[v.index])
+    for part in (*body.data.edges, *body.data.polygons):
+        part.select = False
+begin()
+edit(pull)
+select(np.abs(rest[:, 2] - 1) < 0.01)
+bpy.ops.object.mode_set(mode="EDIT")
+assert bpy.ops.hf.add_handle() == {"FINISHED"}
+assert body.mode == "EDIT" and held().pose.handle_count == 4
+assert len(handles()["handle"]["hf_vertices"]) == AROUND
+bpy.ops.object.mode_set(mode="OBJECT")
+assert bpy.ops.hf.unbind() == {"FINISHED"}
+bpy.ops.object.mode_set(mode="EDIT")
+for made in (bpy.ops.hf.bind, bpy.ops.hf.add_groups, bpy.ops.hf.add_handle, bpy.ops.hf.unbind):
+    assert made() == {"FINISHED"} and body.mode == "EDIT", made
+bpy.ops.object.mode_set(mode="OBJECT")
+assert not handles()
+
+# ---- a copy with its empties has handles of its own; a copy alone is a mesh of the shape that is seen; an empty alone is none
+posed = begin()
+first, key = body, body["hf_key"]
+def copy(*objects):
+    bpy.ops.object.select_all(action="DESELECT")
+    for obj in objects:
+        obj.select_set(True)
+    bpy.context.view_layer.objects.active = objects[0]
+    there = set(bpy.data.objects)
+    bpy.ops.object.duplicate()
+    bpy.context.view_layer.update()
+    return sorted(set(bpy.data.objects) - there, key=lambda o: o.name)
+alone, = copy(first)
+assert "hf_key" not in alone and not alone.data.attributes.get(mesh_data.REST) and first["hf_key"] == key
+twin, *twins = sorted(copy(first, *handles().values()), key=lambda o: o.type != "MESH")
+assert twin["hf_key"] not in (key, None) and {o["hf_key"] for o in twins} == {twin["hf_key"]}
+assert len({o["hf_id"] for o in twins} | {o["hf_id"] for o in handles().values()}) == 6
+stray, = copy(next(o for o in handles().values() if o["hf_key"] == key))
+assert "hf_id" not in stray and stray.name in bpy.data.objects
+dragged = next(o for o in twins if "high" in o.name)
+dragged.location.x += 0.7
+bpy.context.view_layer.update()
+assert np.abs(mesh_data.positions_of(twin.data) - posed).max() > 0.6
+for other in (first, alone):
+    np.testing.assert_array_equal(mesh_data.positions_of(other.data), posed)
+next(o for o in handles().values() if o["hf_key"] == key and "high" in o.name).location.y += 0.7
+turned = mesh_data.positions_of(twin.data)
+bpy.context.view_layer.update()
+assert np.abs(mesh_data.positions_of(first.data) - posed).max() > 0.6
+np.testing.assert_array_equal(mesh_data.positions_of(twin.data), turned)
+np.testing.assert_array_equal(mesh_data.positions_of(alone.data), posed)
+# a linked copy shows the same mesh; it gets no handles while the mesh is shared
+linked = first.copy()
+bpy.context.scene.collection.objects.link(linked)
+bpy.context.view_layer.update()
+assert "hf_key" not in linked and mesh_data.REST in first.data.attributes
+active(linked)
+try:
+    bound = bpy.ops.hf.bind()
+except RuntimeError as error:
+    assert "shares its mesh with tube" in str(error), error
+    bound = None
+assert bound is None
+
+# ---- a remesh leaves no vertex that was there: the panel says so and what to do; undone or unbound, all goes on
+before = begin()
+was = body.data.copy()
+vertices, faces = now(), [tuple(p.vertices) for p in body.data.polygons]
+body.data.clear_geometry()
+body.data.from_pydata((vertices[:-1] * 1.01).tolist(), [], [f for f in faces if max(f) < len(vertices) - 1])
+for name in (mesh_data.REST, mesh_data.POSED, mesh_data.NUMBER):
+    if name in body.data.attributes:
+        body.data.attributes.remove(body.data.attributes[name])
+body.data.update()
+bpy.context.view_layer.update()
+assert body["hf_key"] in session.unbound and len(handles()) == 3
+assert "all vertices of tube are new" in panels.remarks_on(body, None)[0]
+assert panels.next_step(body, None).startswith("Undo the edit")
+seen = now()
+handles()["high"].location.x += 0.5
+bpy.context.view_layer.update()
+np.testing.assert_array_equal(now(), seen)  # nothing is posed by numbers that mean nothing
+body.data = was
+bpy.context.view_layer.update()
+handles()["high"].location.x -= 0.5
+bpy.context.view_layer.update()
+assert not session.unbound and held().pose.handle_count == 3
+np.testing.assert_allclose(now(), before, atol=0.02)
+
+# ---- undo of an edit brings the rest shape back that was there, also where the vertices are as many as before
+posed = begin()
+for change in (pull, extrude):
+    bpy.ops.ed.undo_push(message="posed")
+    edit(change)
+    bpy.ops.ed.undo_push(message="edited")
+    handles()["high"].location.x += 0.3
+    bpy.context.view_layer.update()
+    bpy.ops.ed.undo_push(message="moved")
+    assert not np.array_equal(mesh_data.rest_of(body.data), rest)
+    for _ in range(2):
+        bpy.ops.ed.undo()
+    body = bpy.data.objects["tube"]
+    active(body)
+    np.testing.assert_array_equal(mesh_data.rest_of(body.data), rest)
+    np.testing.assert_allclose(now(), posed, atol=0.02)
+    handles()["high"].location.x -= 1
+    bpy.context.view_layer.update()
+    for _ in range(40):
+        bpy.ops.hf.update()
+    np.testing.assert_allclose(now(), rest, atol=0.002)  # all handles at their places: the rest shape
+    assert held().pose.handle_count == 3
+    handles()["high"].location.x += 1
+    bpy.context.view_layer.update()
+    bpy.ops.hf.update()
+bpy.ops.ed.undo_push(message="posed")
+seen = now()
+alone = body.copy()  # an operator's step of undo is as this: made before Blender's event
+alone.data = body.data.copy()
+alone.location.x = 5
+bpy.context.scene.collection.objects.link(alone)
+bpy.ops.ed.undo_push(message="copied")
+bpy.ops.ed.undo()
+bpy.context.scene.collection.objects.link(bpy.data.objects.new("as many as with the copy", None))
+bpy.context.view_layer.update()
+bpy.ops.ed.redo()
+alone, body = bpy.data.objects["tube.001"], bpy.data.objects["tube"]
+assert "hf_key" not in alone and "hf_key" in body
+np.testing.assert_array_equal(mesh_data.positions_of(alone.data), seen)
+
 bpy.ops.preferences.addon_disable(module="hf_blender")
 print("blender edit: all right")

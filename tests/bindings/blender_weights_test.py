@@ -141,6 +141,22 @@ assert bpy.ops.hf.weights_from_bones() == {"FINISHED"}
 for mesh in (arm_mesh, sleeve):
     np.testing.assert_allclose(sum(table(mesh).values()), 1, atol=1e-4)
 
+# a mesh that cannot have weights is named, and the others get theirs
+hollow = bpy.data.objects.new("hollow", bpy.data.meshes.new("hollow"))
+bpy.context.scene.collection.objects.link(hollow)
+hollow.parent = skeleton
+for mesh in (arm_mesh, sleeve):
+    mesh.vertex_groups.clear()
+active(skeleton)
+assert bpy.ops.hf.weights_from_bones() == {"FINISHED"}
+for mesh in (arm_mesh, sleeve):
+    np.testing.assert_allclose(sum(table(mesh).values()), 1, atol=1e-4)
+assert not hollow.vertex_groups
+active(hollow)
+skeleton.select_set(True)
+fails("", bpy.ops.hf.weights_from_bones)
+bpy.data.objects.remove(hollow)
+
 # every operator is one step of undo: groups and modifier go with it
 naked, _ = cylinder("naked", 4.0, 0.4, 9, 8, (30, 0, 0))
 active(naked)

@@ -17,7 +17,7 @@ import hf  # noqa: E402
 import bpy  # noqa: E402
 from bpy.app.handlers import persistent  # noqa: E402
 
-from . import carriers, operators, panels, quad_operators, quads, retarget, rig, session, skinning  # noqa: E402
+from . import carriers, copies, operators, panels, quad_operators, quads, retarget, rig, session, skinning  # noqa: E402
 from .operators import refresh  # noqa: E402
 
 
@@ -25,6 +25,7 @@ def follow(scene, keys=None):
     """Solves the poses of these meshes, or of all with handles. A mesh of a file that was opened binds now."""
     if keys is None:
         keys = carriers.carriers_in(scene.objects).keys() | session.sessions.keys()
+    keys = keys - session.unbound.keys()
     # a list: a handle may go meanwhile, and its empty with it
     for obj in [o for o in scene.objects if o.type == "MESH" and o.get("hf_key") in keys and o.mode != "EDIT"]:
         try:
@@ -33,12 +34,34 @@ def follow(scene, keys=None):
             print(f"hf: {obj.name}: {error.message}")
 
 
+def look_at_edits(depsgraph):
+    """The keys of meshes that an edit has changed, once Edit Mode is left."""
+    keys = set()
+    for update in depsgraph.updates:
+        obj = update.id.original
+        if not isinstance(obj, bpy.types.Object) or obj.type != "MESH" or not update.is_updated_geometry:
+            continue
+        key, found = obj.get("hf_key"), session.sessions.get(obj.get("hf_key"))
+        if obj.mode == "EDIT":
+            if found:
+                found.editing = True
+        elif found and (found.editing or len(found.rest) != len(obj.data.vertices)):
+            found.editing = not found.fits(obj.data)
+            if found.editing:
+                keys.add(key)
+        elif session.unbound.pop(key, None):  # perhaps it can be followed now
+            keys.add(key)
+    return keys
+
+
 @persistent
 def on_depsgraph(scene, depsgraph):
     if operators.busy() or depsgraph.mode == "RENDER":
         return
     with operators.quiet():
+        copies.part()
         quads.on_depsgraph(scene, depsgraph)
+    edited = look_at_edits(depsgraph)
     if not scene.hf_live:
         return
     for key in {u.id[skinning.KEY] for u in depsgraph.updates if isinstance(u.id, bpy.types.Object)
@@ -48,21 +71,13 @@ def on_depsgraph(scene, depsgraph):
                 skinning.follow_pins(key)
         except hf.HfError as error:
             print(f"hf: {error.message}")
-    keys = set()
+    keys = edited
     for update in depsgraph.updates:
         item = update.id
         if not isinstance(item, bpy.types.Object):
             continue
         if item.type == "EMPTY" and update.is_updated_transform and "hf_key" in item:
             keys.add(item["hf_key"])
-        elif item.type == "MESH" and update.is_updated_geometry and item.get("hf_key") in session.sessions:
-            found = session.sessions[item["hf_key"]]
-            if item.original.mode == "EDIT":
-                found.editing = True
-            elif found.editing and not found.is_edited(item.original.data):
-                found.editing = False
-            elif found.editing:
-                keys.add(item["hf_key"])
         elif item.type == "ARMATURE" and item.get("hf_bones"):  # moved, or posed
             keys |= {bone["hf_key"] for bone in carriers.bones_of(item.original)}
     held = carriers.carriers_in(scene.objects)
@@ -93,6 +108,9 @@ def on_handle(carrier, context):
 @persistent
 def on_undo(*_):
     skinning.groups_changed()
+    session.look_again()
+    with operators.quiet():
+        copies.part(always=True)
     if bpy.context.scene.hf_live:
         follow(bpy.context.scene)
     with operators.quiet():
@@ -104,7 +122,8 @@ def on_load(*_):
     skinning.forget()
     rig.forget_motions()
     retarget.forget()
-    session.sessions.clear()  # the next use binds again, from the rest positions kept in the mesh
+    session.forget_all()
+    copies.known = 0
     quads.forget()
     quads.known = None
 
@@ -150,7 +169,7 @@ def unregister():
     skinning.forget()
     rig.forget_motions()
     retarget.forget()
-    session.sessions.clear()
+    session.forget_all()
     for carrier in CARRIERS:
         del carrier.hf_following, carrier.hf_limb
     del bpy.types.Object.hf_source

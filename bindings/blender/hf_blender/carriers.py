@@ -20,6 +20,7 @@ from . import mesh_data
 SEEN_CHANGE = 1e-5
 
 PROPERTIES = ("hf_key", "hf_id", "hf_layer", "hf_vertices", "hf_rest")
+NAME = "hf_name"  # of the object when hf last saw it: a copy has another name
 SEEN = "hf_seen"  # the motion of an empty when the pose was last solved
 FREE = "hf_free"  # True: the pose finds the rotation of the handle
 TURN = "hf_turn"  # the rotation of the handle where the empty has none: w, x, y, z; without it there is none
@@ -66,9 +67,23 @@ def carriers_of(key):
     return carriers_in(bpy.data.objects).get(key, {})
 
 
+def name(obj):
+    """Keeps the name of an object, which tells it from its copies."""
+    if obj.get(NAME) != obj.name:
+        obj[NAME] = obj.name
+
+
+def strip(carrier):
+    """A carrier, or a mesh, is nothing to hf any more."""
+    for key in (*PROPERTIES, NAME, SEEN, FREE, TURN, OFFERED):
+        if key in carrier:
+            del carrier[key]
+
+
 def mark(carrier, obj, vertices, rest, layer):
     carrier["hf_key"], carrier["hf_id"], carrier["hf_layer"] = obj["hf_key"], uuid.uuid4().hex, int(layer)
     carrier["hf_vertices"], carrier["hf_rest"] = [int(v) for v in vertices], [x for row in rest for x in row]
+    name(carrier.id_data)
     if not is_bone(carrier):
         carrier[SEEN] = np.eye(4).ravel().tolist()
 
@@ -78,11 +93,9 @@ def unmark(carrier):
     if not is_bone(carrier):
         bpy.data.objects.remove(carrier)
         return
-    for name in PROPERTIES:
-        if name in carrier:
-            del carrier[name]
-    for name in ("hf_following", "hf_limb"):
-        carrier.property_unset(name)
+    strip(carrier)
+    for option in ("hf_following", "hf_limb"):
+        carrier.property_unset(option)
 
 
 def motion_of(to_local, carrier):

@@ -8,6 +8,7 @@ import numpy as np
 import hf
 
 REST = "hf_rest"
+POSED = "hf_posed"  # where the last pose put each vertex; edits carry it along, so what differs from it is an edit
 NUMBER = "hf_number"  # of each vertex when the mesh was bound, from 1; edits carry it along, 0 is a new vertex
 
 
@@ -17,13 +18,33 @@ def positions_of(mesh):
     return out.reshape(-1, 3)
 
 
+def vectors_of(mesh, name):
+    """An attribute of the vertices, or None where the mesh has none of that name."""
+    if name not in mesh.attributes or len(mesh.attributes[name].data) != len(mesh.vertices):
+        return None
+    out = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.attributes[name].data.foreach_get("vector", out)
+    return out.reshape(-1, 3)
+
+
+def keep_vectors(mesh, name, vectors):
+    layer = mesh.attributes.get(name) or mesh.attributes.new(name, "FLOAT_VECTOR", "POINT")
+    layer.data.foreach_set("vector", vectors.ravel())
+
+
 def rest_of(mesh):
-    """The rest positions: the attribute of an earlier bind, or the mesh as it is."""
-    if REST in mesh.attributes and len(mesh.attributes[REST].data) == len(mesh.vertices):
-        out = np.empty(3 * len(mesh.vertices), np.float32)
-        mesh.attributes[REST].data.foreach_get("vector", out)
-        return out.reshape(-1, 3)
-    return positions_of(mesh)
+    """The rest positions: the attribute of an earlier pose, or the mesh as it is."""
+    rest = vectors_of(mesh, REST)
+    return positions_of(mesh) if rest is None else rest
+
+
+def edited_rest(mesh):
+    """The rest positions after edits: a vertex moves at rest as it was moved in the pose. A new vertex has both positions from
+    its neighbours, or neither."""
+    rest, posed = vectors_of(mesh, REST), vectors_of(mesh, POSED)
+    if rest is None or posed is None:
+        return rest_of(mesh)
+    return rest + (positions_of(mesh) - posed)
 
 
 def size_of(mesh):
@@ -32,9 +53,19 @@ def size_of(mesh):
     return float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 0.0
 
 
-def keep_rest(mesh, rest):
-    if REST not in mesh.attributes:
-        mesh.attributes.new(REST, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", rest.ravel())
+def keep_pose(mesh, rest, posed):
+    """Writes a pose into a mesh. Undo, a saved file and a copy take the attributes along with the mesh."""
+    if REST not in mesh.attributes:  # until now the mesh itself holds it
+        keep_vectors(mesh, REST, rest)
+    keep_vectors(mesh, POSED, posed)
+    mesh.vertices.foreach_set("co", posed.ravel())
+    mesh.update()
+
+
+def forget_pose(mesh):
+    for name in (REST, POSED, NUMBER):
+        if name in mesh.attributes:
+            mesh.attributes.remove(mesh.attributes[name])
 
 
 def number_vertices(mesh):
@@ -52,25 +83,12 @@ def numbers_of(mesh):
     return out - 1
 
 
-def take_edit(mesh, posed=None):
-    """Brings the rest shape of a bound mesh in line with an edit: vertices that were moved move at rest, and new ones are where
-    the edit put them. posed: positions before the edit. Returns what numbers_of() was."""
-    numbers, now = numbers_of(mesh), positions_of(mesh)
-    if numbers is None:
-        return None
+def take_edit(mesh, rest):
+    """Makes an edit part of a bound mesh: its rest shape, and the numbers of its vertices."""
     if REST in mesh.attributes:
-        rest = rest_of(mesh)
-        known = np.zeros(len(numbers), bool)  # a subdivided vertex gives its number to new ones, which stand behind it
-        known[np.unique(numbers, return_index=True)[1]] = True
-        known &= numbers >= 0
-        bare = ~known & ~rest.any(1)
-        rest[bare] = now[bare]
-        if posed is not None:
-            known &= numbers < len(posed)
-            rest[known] += now[known] - posed[numbers[known]]
-        mesh.attributes[REST].data.foreach_set("vector", rest.ravel())
+        keep_vectors(mesh, REST, rest)
+        keep_vectors(mesh, POSED, positions_of(mesh))
     number_vertices(mesh)
-    return numbers
 
 
 def column(collection, name, count=1):
@@ -128,8 +146,6 @@ def connected(mesh, start, inside):
 
 
 def selected_vertices(obj):
-    if obj.mode == "EDIT":
-        obj.update_from_editmode()
     picked = np.empty(len(obj.data.vertices), bool)
     obj.data.vertices.foreach_get("select", picked)
     return np.flatnonzero(picked & on_surface(obj.data)).tolist()

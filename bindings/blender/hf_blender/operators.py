@@ -33,11 +33,27 @@ def refresh(obj):
         session.session_of(obj).update(obj)
 
 
+@contextlib.contextmanager
+def outside_edit_mode(context):
+    """The data of a mesh or an armature is there outside its Edit Mode alone. Afterwards the mode is as before."""
+    edited = context.active_object if context.mode in ("EDIT_MESH", "EDIT_ARMATURE") else None
+    if edited:
+        bpy.ops.object.mode_set(mode="OBJECT")
+        if edited.get("hf_key") in session.sessions:
+            session.sessions[edited["hf_key"]].editing = True
+    try:
+        yield
+    finally:
+        if edited and context.view_layer.objects.active == edited:
+            bpy.ops.object.mode_set(mode="EDIT")
+
+
 def guarded(execute):
     """An operator's failure is a sentence in the status bar, with nothing changed."""
     def run(self, context):
         try:
-            return execute(self, context) or {"FINISHED"}
+            with outside_edit_mode(context):
+                return execute(self, context) or {"FINISHED"}
         except hf.HfError as error:
             self.report({"ERROR"}, error.message)
             return {"CANCELLED"}
@@ -100,14 +116,9 @@ class HF_OT_add_handle(bpy.types.Operator):
         obj = mesh_of(context)
         session.session_of(obj, context.window_manager)
         vertices = mesh_data.group_vertices(obj, self.group) if self.group else mesh_data.selected_vertices(obj)
-        mode = obj.mode
-        if mode == "EDIT":
-            bpy.ops.object.mode_set(mode="OBJECT")
         with quiet():
             session.add_handles(obj, [vertices], [self.group or "handle"], self.layer)
         refresh(obj)
-        if mode == "EDIT":
-            bpy.ops.object.mode_set(mode=mode)
 
 
 class HF_OT_add_groups(bpy.types.Operator):
@@ -348,16 +359,23 @@ class HF_OT_weights_from_bones(bpy.types.Operator):
     @guarded
     def execute(self, context):
         meshes, armature = meshes_and_armature(context)
-        vertices, guessed, found = 0, 0, set()
+        vertices, guessed, found, failed = 0, 0, set(), []
         for obj in meshes:
-            if obj.mode == "EDIT":
-                obj.update_from_editmode()
-            with quiet():
-                info, helpers = skinning.weights_from_bones(obj, armature, int(self.count), context.window_manager)
+            try:
+                with quiet():
+                    info, helpers = skinning.weights_from_bones(obj, armature, int(self.count), context.window_manager)
+            except hf.HfError as error:
+                if len(meshes) == 1:
+                    raise
+                failed.append(obj)
+                self.report({"WARNING"}, f"{obj.name} keeps its weights: {error.message}")
+                continue
             vertices += info.vertex_count
             guessed += info.nearest_count + info.rigid_count + info.isolated_count
             found.update(helpers)
-        of = f" of {len(meshes)} meshes" if len(meshes) > 1 else ""
+        if len(failed) == len(meshes):
+            raise hf.InvalidArgumentError(f"none of {len(meshes)} meshes got weights; the warnings say why")
+        of = f" of {len(meshes) - len(failed)} meshes" if len(meshes) > 1 else ""
         self.report({"INFO"}, f"{vertices} vertices{of}, {guessed} guessed; {len(found)} bones look like helpers")
 
 
@@ -369,17 +387,12 @@ class HF_OT_pin_weights(bpy.types.Operator):
     @guarded
     def execute(self, context):
         obj, armature = mesh_and_armature(context)
-        mode = obj.mode
-        if mode == "EDIT":
-            bpy.ops.object.mode_set(mode="OBJECT")
         bone = self.bone or (armature.data.bones.active.name if armature.data.bones.active else "")
         if bone not in armature.data.bones or not armature.data.bones[bone].use_deform:
             raise hf.InvalidArgumentError(f"{armature.name} has no deforming bone '{bone}'")
         with quiet():
             skinning.add_pin(obj, armature, bone)
             skinning.weights_from_bones(obj, armature, 4, context.window_manager)
-        if mode == "EDIT":
-            bpy.ops.object.mode_set(mode=mode)
 
 
 class HF_OT_carry_weights(bpy.types.Operator):

@@ -18,6 +18,8 @@ def next_step(obj, found):
         return "Select a mesh."
     if not len(obj.data.polygons):
         return f"{obj.name} has no faces: select another mesh."
+    if obj.get("hf_key") in session.unbound:
+        return "Undo the edit, or mend the mesh in Edit Mode. Or press Unbind, and propose handles again."
     if found is None:
         return "Press Propose handles, or Bind."
     placed = carriers.carriers_of(obj["hf_key"])
@@ -28,6 +30,12 @@ def next_step(obj, found):
     if not bpy.context.scene.hf_live:
         return "Press Update, or turn Live on."
     return "Move or turn a handle: the mesh follows."
+
+
+def remarks_on(obj, found):
+    """What is wrong, in sentences."""
+    why = session.unbound.get(obj.get("hf_key"))
+    return [why] if why else found.remarks if found else []
 
 
 def quads_step(made, active):
@@ -72,8 +80,8 @@ class HF_PT_panel(Panel, bpy.types.Panel):
         if found:
             bind, update = session.figures["bind_ms"], session.figures["update_ms"]
             say(layout, context, f"{found.pose.handle_count} handles, factor {bind:.0f} ms, pose {update:.1f} ms")
-            for remark in found.remarks:
-                say(layout, context, remark, "ERROR")
+        for remark in remarks_on(obj, found):
+            say(layout, context, remark, "ERROR")
 
 
 class Tool(Panel):

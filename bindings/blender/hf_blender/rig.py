@@ -5,7 +5,7 @@ import numpy as np
 
 import hf
 
-from .mesh_data import faces_of, group_vertices, positions_of, rest_of, size_of
+from .mesh_data import faces_of, group_vertices, keep_pose, positions_of, rest_of, size_of
 from .session import make_surface, session_of
 
 
@@ -33,8 +33,8 @@ def write_skin(obj, skin, name):
                 groups[joint].add([vertex], float(weight), "REPLACE")
     modifier = obj.modifiers.new(name, "ARMATURE")
     modifier.object = armature
-    obj.data.vertices.foreach_set("co", rest_of(obj.data).ravel())
-    obj.data.update()
+    rest = rest_of(obj.data)
+    keep_pose(obj.data, rest, rest)
     return armature
 
 

@@ -33,6 +33,7 @@ GAP_SAID = 0.005
 WORKER = ThreadPoolExecutor(1, "hf")
 
 sessions = {}
+unbound = {}  # key -> why an edit could not be followed; the handles wait until the mesh is mended
 figures = {"bind_ms": 0.0, "update_ms": 0.0, "sync_ms": 0.0}
 
 
@@ -66,19 +67,23 @@ def watched(make, window_manager=None, meanwhile=None):
 
 def make_surface(positions, faces, window_manager=None, meanwhile=None, **options):
     """A surface; options as hf.Surface."""
+    if not len(faces[0]):
+        raise hf.EmptyError("the mesh has no faces")
     order = ORDERING if len(positions) <= ORDERING_LIMIT else hf.constants.HF_ORDERING_NESTED_DISSECTION
     return watched(lambda progress: hf.Surface(positions, faces=faces, progress=progress, thread_count=2, ordering=order,
         **options), window_manager, meanwhile)
 
 
-def take_edit(obj, posed=None):
-    """Takes an edit of a bound mesh into its rest shape and into the regions of its handles. posed: positions before the
-    edit. Returns a sentence for the panel, "" if nothing was edited."""
-    before = mesh_data.take_edit(obj.data, posed)
-    if before is None or (posed is None and np.array_equal(before, np.arange(len(before)))):
+def take_edit(obj, rest):
+    """Takes an edit of a bound mesh into its rest shape and into the regions of its handles. Returns a sentence for the panel,
+    "" if nothing was edited."""
+    mesh = obj.data
+    before = mesh_data.numbers_of(mesh)
+    if before is None or (np.array_equal(before, np.arange(len(before))) and np.array_equal(rest, rest_of(mesh))):
         return ""
+    mesh_data.take_edit(mesh, rest)
     lost = []
-    for carrier in [*carriers.carriers_of(obj["hf_key"]).values(), *carriers.offered(obj["hf_key"])]:
+    for carrier in handles_of(obj):
         region = np.flatnonzero(np.isin(before, np.array(carrier["hf_vertices"], np.int64)))
         if len(region):
             carrier["hf_vertices"] = region.tolist()
@@ -88,13 +93,19 @@ def take_edit(obj, posed=None):
     return "The mesh was edited and is bound again" + (f"; {', '.join(lost)} went with its vertices" if lost else "")
 
 
+def handles_of(obj):
+    """The carriers of a mesh, those that wait to be moved among them."""
+    return [*carriers.carriers_of(obj["hf_key"]).values(), *carriers.offered(obj["hf_key"])] if "hf_key" in obj else []
+
+
 class Session:
     def __init__(self, obj, window_manager=None, meanwhile=None):
         mesh = obj.data
         begin = time.perf_counter()
-        self.note = take_edit(obj) if "hf_key" in obj else ""  # of an edit since the last bind
-        self.rest, self.faces = rest_of(mesh), faces_of(mesh)
-        self.editing = False  # the mesh is or was in Edit Mode, and has not been looked at since
+        if handles_of(obj) and mesh_data.numbers_of(mesh) is None:
+            raise hf.ConflictError(f"all vertices of {obj.name} are new, as after a remesh")
+        self.rest, self.faces = mesh_data.edited_rest(mesh), faces_of(mesh)
+        self.editing = False  # the mesh is or was in Edit Mode or undone, and has not been looked at since
         self.surface = make_surface(self.rest, faces_of(mesh), window_manager, meanwhile, link_pieces=True)
         self.light = self.surface.pieces()[1]
         self.info = hf.DeformInfo()
@@ -106,6 +117,8 @@ class Session:
         self.placed = {}  # hf_id -> matrix of the last update
         self.posed = self.rest.copy()
         obj["hf_key"] = obj.get("hf_key") or uuid.uuid4().hex
+        carriers.name(obj)
+        self.note = take_edit(obj, self.rest)  # of an edit since the last bind; nothing is written before
         mesh_data.number_vertices(mesh)
         figures["bind_ms"] = 1e3 * (time.perf_counter() - begin)
 
@@ -170,10 +183,9 @@ class Session:
                 out.append(f"{carrier.name} lies on a light piece: it hardly pulls the rest")
         return [self.note] * bool(self.note) + out
 
-    def is_edited(self, mesh):
-        """Whether Edit Mode has changed a mesh that was posed."""
-        same = len(mesh.vertices) == len(self.posed) and all(map(np.array_equal, self.faces, faces_of(mesh)))
-        return not (same and np.array_equal(mesh_data.positions_of(mesh), self.posed))
+    def fits(self, mesh):
+        """Whether a mesh is still the one that was bound: no edit has changed it, and no undo."""
+        return all(map(np.array_equal, self.faces, faces_of(mesh))) and np.array_equal(self.rest, mesh_data.edited_rest(mesh))
 
     def update(self, obj, write=True):
         """The pose from where the carriers stand, into the mesh."""
@@ -197,9 +209,7 @@ class Session:
             moved, self.remarks = True, []
         # a mesh that is as it should be stays untouched: Blender would recompute its normals and its box
         if write and (moved or not np.array_equal(mesh_data.positions_of(obj.data), self.posed)):
-            mesh_data.keep_rest(obj.data, self.rest)  # until now the mesh itself holds it
-            obj.data.vertices.foreach_set("co", self.posed.ravel())
-            obj.data.update()
+            mesh_data.keep_pose(obj.data, self.rest, self.posed)
         figures["update_ms"] = 1e3 * (time.perf_counter() - begin)
 
 
@@ -215,24 +225,46 @@ def session_of(obj, window_manager=None, bind=True, meanwhile=None):
     that is necessary."""
     if obj is None or obj.type != "MESH":
         raise hf.InvalidArgumentError("select a mesh object")
-    found = sessions.get(obj.get("hf_key"))
+    key = obj.get("hf_key")
+    found = sessions.get(key)
+    if not bind:
+        return found
     if found and obj.mode != "EDIT" and (found.editing or len(found.rest) != len(obj.data.vertices)):
         found.editing = False
-        if found.is_edited(obj.data):
-            sessions.pop(obj["hf_key"]).close()
-            note = take_edit(obj, found.posed)
-            found = sessions[obj["hf_key"]] = Session(obj, window_manager)
-            found.note = note
-    if found and (obj.mode == "EDIT" or len(found.rest) == len(obj.data.vertices)):
+        if not found.fits(obj.data):
+            sessions.pop(key).close()
+            found = None
+    if found:
         if meanwhile:
             meanwhile()
         return found
-    if not bind:
-        return None
+    other = next((o for o in bpy.data.objects if o != obj and o.data == obj.data and o.get("hf_key") != key and "hf_key" in o), None)
+    if other:
+        raise hf.ConflictError(f"{obj.name} shares its mesh with {other.name}, which has handles; make it a single user first")
     forget_removed()
-    made = Session(obj, window_manager, meanwhile)
+    unbound.pop(key, None)
+    try:
+        made = Session(obj, window_manager, meanwhile)
+    except hf.HfError as error:
+        if key and handles_of(obj):
+            unbound[key] = f"The handles of {obj.name} cannot follow the edit: {error.message}"
+        raise
     sessions[obj["hf_key"]] = made
     return made
+
+
+def look_again():
+    """After an undo every mesh may be another: the next use compares it with what was bound."""
+    unbound.clear()
+    for found in sessions.values():
+        found.editing = True
+
+
+def forget_all():
+    """Drops what was kept for all meshes. The next use binds again, from the rest positions kept in the mesh."""
+    unbound.clear()
+    for key in list(sessions):
+        sessions.pop(key).close()
 
 
 def forget(obj):
@@ -241,16 +273,14 @@ def forget(obj):
         raise hf.InvalidArgumentError("select a mesh object")
     key = obj.get("hf_key")
     session = sessions.pop(key, None)
-    rest = rest_of(obj.data)
-    for carrier in [*carriers.carriers_of(key).values(), *carriers.offered(key)]:
+    unbound.pop(key, None)
+    rest = mesh_data.edited_rest(obj.data)
+    for carrier in handles_of(obj):
         carriers.unmark(carrier)
+    mesh_data.forget_pose(obj.data)
     obj.data.vertices.foreach_set("co", rest.ravel())
-    for name in (mesh_data.REST, mesh_data.NUMBER):
-        if name in obj.data.attributes:
-            obj.data.attributes.remove(obj.data.attributes[name])
     obj.data.update()
-    if "hf_key" in obj:
-        del obj["hf_key"]
+    carriers.strip(obj)
     if session:
         session.close()
 

@@ -1172,9 +1172,10 @@ namespace Hf
         public double OffsetShare;
         /// <summary>in the unit and frame of the mesh; positions are relative to this point</summary>
         public double[] Centre = new double[3];
-        /// <summary>of a box that holds all vertices of the frame, for culling; relative to centre</summary>
+        /// <summary>for culling: the smallest x, y and z of a box that holds all vertices of the last frame. In the unit and
+        /// frame of the mesh, relative to centre</summary>
         public double[] Low = new double[3];
-        /// <summary>the other corner. It may be larger than needed: see docs/renderer.md</summary>
+        /// <summary>the largest x, y and z. The box may be larger than needed: see docs/renderer.md</summary>
         public double[] High = new double[3];
 
         internal BlendInfo(hf_blend_info* raw)
@@ -1909,7 +1910,7 @@ namespace Hf
         public double Error;
         /// <summary>the same for byte_weights</summary>
         public double ByteError;
-        /// <summary>entries of a row, 1 to 64; 0 = 8</summary>
+        /// <summary>clusters of each vertex, the length of a row, 1 to 64; 0 = 8</summary>
         public uint InfluenceCount;
     }
 
@@ -4821,7 +4822,7 @@ namespace Hf
         /// <summary>Writes rows of one length. They change with `revision`, as those of Pose.BlendRows. Call it without
         /// arrays for the count and the errors.
         ///
-        /// influenceCount: entries of a row, 1 to 64; 0 = 8
+        /// influenceCount: clusters of each vertex, the length of a row, 1 to 64; 0 = 8
         /// byteClusters: [vertexCapacity x influenceCount] null = not wanted. Refused for more than 256 clusters
         /// byteWeights: [vertexCapacity x influenceCount] null = not wanted. 255ths, of sum 255; weights that round
         ///     to 0 are left out

@@ -607,9 +607,12 @@ export interface BlendInfo {
   offsetShare: number;
   /** in the unit and frame of the mesh; positions are relative to this point */
   centre: number[];
-  /** of a box that holds all vertices of the frame, for culling; relative to centre */
+  /**
+   * for culling: the smallest x, y and z of a box that holds all vertices of the last frame. In the unit and frame
+   * of the mesh, relative to centre
+   */
   low: number[];
-  /** the other corner. It may be larger than needed: see docs/renderer.md */
+  /** the largest x, y and z. The box may be larger than needed: see docs/renderer.md */
   high: number[];
 }
 
@@ -2119,7 +2122,7 @@ export interface Pose extends Recorded {
    * Writes rows of one length. They change with `revision`, as those of Pose.blendRows. Call it without arrays for
    * the count and the errors.
    *
-   * influenceCount: entries of a row, 1 to 64; 0 = 8
+   * influenceCount: clusters of each vertex, the length of a row, 1 to 64; 0 = 8
    * byteClusters: [vertexCapacity x influenceCount] null = not wanted. Refused for more than 256 clusters
    * byteWeights: [vertexCapacity x influenceCount] null = not wanted. 255ths, of sum 255; weights that round to 0
    *     are left out

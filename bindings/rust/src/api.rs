@@ -1467,7 +1467,7 @@ pub struct BlendInfluences {
     pub error: f64,
     /// the same for byte_weights
     pub byte_error: f64,
-    /// entries of a row, 1 to 64; 0 = 8
+    /// clusters of each vertex, the length of a row, 1 to 64; 0 = 8
     pub influence_count: u32,
 }
 
@@ -3225,7 +3225,7 @@ impl Pose {
     /// Writes rows of one length. They change with `revision`, as those of `Pose::blend_rows`. Call it without arrays for
     /// the count and the errors.
     ///
-    /// influence_count: entries of a row, 1 to 64; 0 = 8
+    /// influence_count: clusters of each vertex, the length of a row, 1 to 64; 0 = 8
     /// byte_clusters: `[vertex_capacity x influence_count]` `None` = not wanted. Refused for more than 256 clusters
     /// byte_weights: `[vertex_capacity x influence_count]` `None` = not wanted. 255ths, of sum 255; weights that round to
     /// 0 are left out

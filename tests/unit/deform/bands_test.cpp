@@ -5,9 +5,11 @@
 
 #include <cstring>
 #include <random>
+#include <tuple>
 
 #include "base/error.h"
 #include "cases.h"
+#include "deform/blend_box.h"
 #include "deform/dense.h"
 #include "deform/dense_panels.h"
 #include "deform/groups.h"
@@ -429,6 +431,35 @@ TEST(DenseFactor, SolvesHaveTheSameBitsOnAllLanes) {
         loop({size, rows.data(), columns.data(), inverse.data()}, sides, x.data());
         EXPECT_EQ(std::memcmp(x.data(), expected.data(), 4 * size * sizeof(double)), 0) << size;
       }
+    }
+  }
+}
+
+TEST(BlendBox, HoldsTheFloatsOfClustersThatMoveFarApart) {
+  const auto core = hf_test::make_core({{0, 0, 0, 1, 0, 0, 0.3, 0.7, 0}, {0, 1, 2}});
+  Memory memory;
+  ClusterWeights weights(memory);
+  weights.cluster_count = 2;
+  for (const int start : {0, 2, 4, 6}) weights.start.push_back(start);
+  for (int k = 0; k < 6; ++k) {
+    weights.cluster.push_back(static_cast<std::uint16_t>(k % 2));
+    weights.weight.push_back(0.5f);
+  }
+  // each cluster goes far, their mean goes nowhere
+  const double far = 1234.567;
+  const Affine transforms[2] = {{{{1, 0, 0, far}, {0, 1, 0, far}, {0, 0, 1, far}}},
+                                {{{1, 0, 0, -far}, {0, 1, 0, -far}, {0, 0, 1, -far}}}};
+  const Vector<BlendBox> boxes = cluster_boxes(core->mesh, weights, memory);
+  const BlendBox box = blended_box(core->mesh, weights, boxes, transforms);
+  for (const Vec3& p : core->mesh.positions) {
+    for (const auto& [at, low, high] :
+         {std::tuple(p.x, box.low.x, box.high.x), std::tuple(p.y, box.low.y, box.high.y)}) {
+      const float there = static_cast<float>(at) + static_cast<float>(far),
+                  back = static_cast<float>(at) - static_cast<float>(far);
+      const double shaded = static_cast<double>(0.5f * there + 0.5f * back);
+      EXPECT_LE(low, shaded);
+      EXPECT_LE(shaded, high);
+      EXPECT_LT(high - low, 1.01);
     }
   }
 }

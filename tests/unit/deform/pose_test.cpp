@@ -366,6 +366,7 @@ TEST(Pose, BadInputIsNamedAndChangesNothing) {
   EXPECT_EQ(index, 1u);
   try {
     add(*pose, {{7, 50}});
+    ADD_FAILURE() << "a vertex of another handle was taken";
   } catch (const hf_inner::Error& error) {
     EXPECT_NE(std::string(error.what()).find("belongs to handle " + std::to_string(numbers[1]) + " already"),
               std::string::npos)
