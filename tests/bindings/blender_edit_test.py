@@ -329,5 +329,54 @@ alone, body = bpy.data.objects["tube.001"], bpy.data.objects["tube"]
 assert "hf_key" not in alone and "hf_key" in body
 np.testing.assert_array_equal(mesh_data.positions_of(alone.data), seen)
 
+# ---- a painted group is rigid; undo, a new bind and Clear take it back or keep it
+def stretch():
+    """How much the edges along the painted part change their length."""
+    rings = now().reshape(RINGS, AROUND, 3)[14:27]
+    return np.abs(np.linalg.norm(np.diff(rings, axis=0), axis=2) / 0.1 - 1).max()
+
+
+def settle():
+    """Updates until the pose is at rest."""
+    last = None
+    for _ in range(100):
+        bpy.ops.hf.update()
+        if last is not None and np.abs(now() - last).max() < 1e-6:
+            break
+        last = now()
+
+
+bpy.ops.hf.unbind()
+for empty in list(handles().values()):
+    bpy.data.objects.remove(empty)
+body.data.vertices.foreach_set("co", rest.ravel())
+active(body)
+assert bpy.ops.hf.add_groups() == {"FINISHED"}
+bpy.data.objects.remove(handles()["middle"])
+handles()["high"].location.x += 1
+bpy.context.view_layer.update()
+settle()
+soft, factor, before = stretch(), held().surface, now()
+painted = body.vertex_groups.new(name="belt")
+painted.add(list(range(13 * AROUND, 28 * AROUND)), 1.0, "REPLACE")
+try:
+    bpy.ops.hf.stiffness(group="nothing")
+    raise AssertionError("taken")
+except RuntimeError as error:
+    assert "has no vertex group 'nothing'" in str(error) and "hf_stiff" not in body
+assert bpy.ops.hf.stiffness(group="belt") == {"FINISHED"}
+settle()
+assert soft > 0.05 and stretch() < 0.002, (soft, stretch())
+assert held().surface is not factor and held().pose.handle_count == 2
+rigid = now()
+session.forget_all()  # as after opening the file again
+bpy.ops.hf.update()
+settle()
+np.testing.assert_allclose(now(), rigid, atol=0.02)
+assert stretch() < 0.002
+assert bpy.ops.hf.stiffness(clear=True) == {"FINISHED"} and "hf_stiff" not in body
+settle()
+np.testing.assert_allclose(now(), before, atol=0.02)
+
 bpy.ops.preferences.addon_disable(module="hf_blender")
 print("blender edit: all right")

@@ -132,6 +132,19 @@ def group_vertices(obj, name, least=0.5):
     return groups_vertices(obj, [name], least)[0]
 
 
+def group_weights(obj, name):
+    """The weight of every vertex in a vertex group, 0 outside."""
+    group = obj.vertex_groups.get(name)
+    if group is None:
+        raise hf.InvalidArgumentError(f"{obj.name} has no vertex group '{name}'")
+    out = np.zeros(len(obj.data.vertices))
+    for number, vertex in enumerate(obj.data.vertices):
+        for g in vertex.groups:
+            if g.group == group.index:
+                out[number] = g.weight
+    return out
+
+
 def connected(mesh, start, inside):
     """The vertices of a mask that edges inside it connect with a vertex."""
     edges = column(mesh.edges, "vertices", 2).reshape(-1, 2)

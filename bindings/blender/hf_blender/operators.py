@@ -213,6 +213,27 @@ class HF_OT_update(bpy.types.Operator):
         refresh(mesh_of(context))
 
 
+class HF_OT_stiffness(bpy.types.Operator):
+    """Paint a vertex group in Weight Paint, then press this: what is painted bends less, as a belt or a shield. Press it again
+    after more strokes"""
+    bl_idname, bl_label, bl_options = "hf.stiffness", "Stiffness from group", {"REGISTER", "UNDO"}
+    group: bpy.props.StringProperty(name="Vertex group", description="Empty: the active one")
+    most: bpy.props.FloatProperty(name="Stiffness", default=1e4, min=1e-4, max=1e4,
+        description="Where the weight is 1. 10,000: rigid; 1: as it is; 0.02: takes up the bending around it")
+    clear: bpy.props.BoolProperty(name="Clear", description="All vertices as they were, without a painted group")
+
+    @guarded
+    def execute(self, context):
+        obj = mesh_of(context)
+        session.session_of(obj, context.window_manager)
+        group = self.group or (obj.vertex_groups.active.name if obj.vertex_groups.active else "")
+        if not group and not self.clear:
+            raise hf.EmptyError(f"{obj.name} has no vertex group; paint one in Weight Paint first")
+        with quiet():
+            session.stiffen(obj, "" if self.clear else group, self.most)
+        refresh(obj)
+
+
 class HF_OT_field(bpy.types.Operator):
     """A harmonic field as a vertex group or as coloured strips"""
     bl_idname, bl_label, bl_options = "hf.field", "Field", {"REGISTER", "UNDO"}
@@ -429,5 +450,5 @@ class HF_OT_mirror_weights(bpy.types.Operator):
 
 
 OPERATORS = (HF_OT_bind, HF_OT_unbind, HF_OT_add_handle, HF_OT_add_groups, HF_OT_add_bones, HF_OT_propose, HF_OT_remove_handle,
-    HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer, HF_OT_dials, HF_OT_retarget, HF_OT_weights_from_bones,
-    HF_OT_pin_weights, HF_OT_carry_weights, HF_OT_mirror_weights)
+    HF_OT_stiffness, HF_OT_update, HF_OT_field, HF_OT_weights, HF_OT_transfer, HF_OT_dials, HF_OT_retarget,
+    HF_OT_weights_from_bones, HF_OT_pin_weights, HF_OT_carry_weights, HF_OT_mirror_weights)

@@ -102,12 +102,15 @@ class Tool(Panel):
 class HF_PT_pose(Tool, bpy.types.Panel):
     bl_label, bl_idname = "Pose", "HF_PT_pose"
     buttons = (("hf.propose", ""), ("hf.add_handle", "Add handle from selection"), ("hf.add_groups", ""),
-        ("hf.add_bones", ""), ("hf.remove_handle", ""), ("hf.update", ""))
+        ("hf.add_bones", ""), ("hf.remove_handle", ""), ("hf.stiffness", ""), ("hf.update", ""))
 
     def draw(self, context):
         super().draw(context)
         self.layout.prop(context.scene, "hf_live")
         self.layout.prop(context.scene, "hf_lengths")
+        painted = mesh_of(context).get(session.STIFF + "_group")
+        if painted:
+            say(self.layout, context, f"Stiffness {mesh_of(context)[session.STIFF]:g} where {painted} is painted")
         carrier = operators.active_carrier(context)
         if carrier is not None and not carrier["hf_layer"]:
             column = self.layout.column(align=True)
