@@ -385,7 +385,8 @@ typedef struct hf_surface_edit_desc {
  * again with the same ordering where that costs less, and for bi-harmonic fields. A surface that is edited back has the
  * fields of the old one.
  *
- * Fields, poses and weights on the new surface follow its stiffness. Lengths do not change: regions, transfers,
+ * Fields, poses and weights on the new surface follow its stiffness. A pose keeps lengths to 0.1 % where it is 100 or
+ * more. Lengths do not change: regions, transfers,
  * distances, directions and quads are those of the old surface. hf_solver_move_to and hf_pose_move_to take sites and
  * handles along. Soft sites keep the unit of their stiffness. hf_surface_save is refused; save the factor of the
  * surface before its edits. Memory limits hold for both surfaces together. out_surface: as in hf_surface_create.

@@ -61,6 +61,10 @@ constexpr std::uint32_t default_pose_iterations = 10;
 // elastic energy of a bent cylinder and a twisted bar by 0.3 %. The full-mesh step (refine.h) lowers these two energies
 // by 3 and 5 %.
 constexpr std::uint32_t default_groups = 250;
+// The elastic energy counts a stiffness of at most this and at least 1 over it; the fields count all of it. A stiff
+// region keeps its lengths to 0.1 %. With 25 to 0.4 %. With 1e4 to 1e-5, but its rotation then hardly changes in an
+// iteration: a tube with a rigid belt stops 0.04 of its box away from where it ends with 25 to 256.
+constexpr double largest_energy_stiffness = 100;
 // A pose counts as converged when no group's rotation changes by more in an iteration (Frobenius norm). Solving it
 // again then does nothing. At 1e-6, poses at rest stay 2e-5 of the box away from it.
 constexpr double settled_change = 1e-9;

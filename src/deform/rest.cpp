@@ -101,8 +101,9 @@ Rest::Rest(const Core& core, Memory& memory)
       sample_triangles(core.mesh, *this);
       for (double& w : stiffness) w = std::clamp(w, least_edge_weight, largest_edge_weight);
       for (std::int32_t e = 0; core.stiffness && e < core.topology.edge_count(); ++e) {
-        stiffness[e] *=
+        const double s =
             edge_stiffness((*core.stiffness)[core.topology.first(e)], (*core.stiffness)[core.topology.second(e)]);
+        stiffness[e] *= std::clamp(s, 1 / largest_energy_stiffness, largest_energy_stiffness);
       }
     }
   });
