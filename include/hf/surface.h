@@ -385,11 +385,11 @@ typedef struct hf_surface_edit_desc {
  * again with the same ordering where that costs less, and for bi-harmonic fields. A surface that is edited back has the
  * fields of the old one.
  *
- * Fields, poses and weights on the new surface follow its stiffness. A pose keeps lengths to 0.1 % where it is 100 or
- * more. Lengths do not change: regions, transfers,
- * distances, directions and quads are those of the old surface. hf_solver_move_to and hf_pose_move_to take sites and
- * handles along. Soft sites keep the unit of their stiffness. hf_surface_save is refused; save the factor of the
- * surface before its edits. Memory limits hold for both surfaces together. out_surface: as in hf_surface_create.
+ * Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or more.
+ * Lengths do not change, so regions, transfers, distances, directions and quads do not see stiffness. hf_solver_move_to
+ * and hf_pose_move_to take sites and handles along. Soft sites keep the unit of their stiffness. hf_surface_save is
+ * refused: save the factor of the surface before its edits. Memory limits hold for both surfaces together. out_surface:
+ * as in hf_surface_create.
  * Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a stiffness out of range) and
  * HF_ERROR_CONFLICT (a vertex, or a welded copy, listed twice with different numbers), index = position in the list;
  * HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT (vertices is NULL and vertex_count is not that of the surface),

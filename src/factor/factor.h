@@ -44,6 +44,7 @@ struct FactorStatistics {
   bool loaded = false;    // loaded from bytes: the three times above are 0
   bool borrowed = false;  // the numbers are the caller's and are read in place
   double load_ms = 0;
+  double rounding = 0;  // of an edited factor: about the relative error of a solution (edited_factor.h)
 };
 
 // A batch of sparse columns w_1 .. w_k, the weights of sites, in the caller's numbering. Column i has the entries

@@ -1,7 +1,9 @@
 // Fields on surfaces whose stiffness was edited, against a core made with that stiffness and against dense solves.
 #include "engine/stiffness.h"
 
+#include "support/dirty_meshes.h"
 #include "support/engines.h"
+#include "support/hard_meshes.h"
 #include "unit/engine/edit_script.h"
 
 namespace {
@@ -116,6 +118,32 @@ TEST(Stiffness, ManyStrokesLoseNoDigits) {
   }
   EXPECT_EQ(factors, 3u);
   EXPECT_EQ(hf_inner::edit_core(core, nullptr), first);
+}
+
+// Ribbons whose fields lose digits, needles, books of sheets on one edge, holes, faults, and a doubled sheet.
+TEST(Stiffness, HardMeshesAreEditedToo) {
+  hf_test::PlainMesh ribbon = hf_test::grid(300, 1), doubled = hf_test::grid(6, 5, 1, 0.2);
+  const std::vector<std::uint32_t> once = doubled.triangles;
+  for (std::size_t t = 0; t + 2 < once.size(); t += 3)
+    doubled.triangles.insert(doubled.triangles.end(), {once[t], once[t + 2], once[t + 1]});
+  const std::vector<hf_test::PlainMesh> meshes = {ribbon,
+                                                  hf_test::sheared_patch(20, 12, 30),
+                                                  hf_test::book(3, 8, 6, 0.4),
+                                                  hf_test::slab_with_holes(3),
+                                                  hf_test::dirty(),
+                                                  doubled,
+                                                  hf_test::disk(6)};
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const auto plain = hf_test::make_core(meshes[i]);
+    for (const double s : {0.01, 100.0, 1e4}) {
+      Stiffness stiffness = stroke(*plain, nullptr, 0.1, s, 11);
+      stiffness = stroke(*plain, stiffness, 0.07, 1 / s, 77);
+      const auto rows = hf_inner::edit_core(plain, stiffness, always_rows),
+                 fresh = hf_inner::edit_core(plain, stiffness, never_rows);
+      const double error = error_of(rows), least = error_of(fresh);
+      EXPECT_LT(error, std::max(1e-10, 20 * least)) << i << " " << s << " fresh " << least;
+    }
+  }
 }
 
 // Edits, rebases, refused batches, partial fields and previews of sites on an edited surface.
