@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <map>
 
 #include "base/error.h"
 #include "gltf/clip_binding.h"
@@ -23,6 +25,22 @@ SkeletonBody::SkeletonBody(const JointSide& given, hf_inner::Memory& memory)
   look();
 }
 
+namespace {
+
+// The joint or node that moves a vertex most; -1: none.
+int owner_of(const CharacterArrays& arrays, size_t v) {
+  int owner = arrays.vertex_joints[v];
+  double most = 0;
+  for (std::uint32_t k = arrays.starts[v]; k < arrays.starts[v + 1]; ++k) {
+    if (!(arrays.weights[k] > most)) continue;
+    most = arrays.weights[k];
+    owner = static_cast<int>(arrays.joints[k]);
+  }
+  return owner;
+}
+
+}  // namespace
+
 void SkeletonBody::look() {
   const Character& c = *character;
   // A caller who says what joints are knows the body.
@@ -34,13 +52,32 @@ void SkeletonBody::look() {
     if (chain.role == Role::leg) ++(chain.side == Side::left ? left : right);
     limbs.push_back(limb_of(chain, globals));
   }
+  find_off();
   leg_pairs = std::min(left, right);
   upright = c.trunk > upright_trunk && leg_pairs <= 1;
 }
 
+void SkeletonBody::find_off() {
+  // A share of the height. Half takes a shoulder that stands above its arm; double takes the hip of the other side.
+  constexpr double far = 0.1;
+  std::map<int, std::pair<glm::dvec3, glm::dvec3>> boxes;
+  for (const BodyLimb& limb : limbs) boxes[limb.nodes[0]] = {glm::dvec3(1e300), glm::dvec3(-1e300)};
+  for (size_t v = 0; v + 1 < arrays.starts.size(); ++v) {
+    const auto box = boxes.find(owner_of(arrays, v));
+    if (box == boxes.end()) continue;
+    const glm::dvec3 p = glm::make_vec3(arrays.positions.data() + 3 * v);
+    box->second = {glm::min(box->second.first, p), glm::max(box->second.second, p)};
+  }
+  for (BodyLimb& limb : limbs) {
+    const auto& [low, high] = boxes[limb.nodes[0]];
+    const glm::dvec3 joint = vector_of(character->frames[static_cast<size_t>(limb.nodes[0])].origin);
+    limb.off = low.x <= high.x && glm::distance(joint, glm::clamp(joint, low, high)) > far * character->height;
+  }
+}
+
 BodyLimb SkeletonBody::limb_of(const Chain& chain, const std::vector<glm::dmat4>& globals) const {
   const Character& c = *character;
-  BodyLimb out{chain.role, chain.side, chain.number, {-1, -1, -1}, {}, {}};
+  BodyLimb out{chain.role, chain.side, chain.number, {-1, -1, -1}, {}, {}, false};
   std::vector<int> path;
   for (std::uint32_t k = 0; k < chain.count; ++k) path.push_back(static_cast<int>(c.chain_joints[chain.first + k]));
   const auto index = static_cast<std::int32_t>(&chain - c.chains.data());
@@ -69,6 +106,66 @@ BodyLimb SkeletonBody::limb_of(const Chain& chain, const std::vector<glm::dmat4>
   out.path = std::move(path);
   for (const double length : along) out.shares.push_back(along.back() > 0 ? length / along.back() : 0);
   return out;
+}
+
+namespace {
+
+bool is_trunk(Role role) { return role == Role::spine || role == Role::neck || role == Role::shoulder; }
+
+// A wing is as unknown as an arm that looks like one: where arms have no partner, nothing leads either.
+bool is_unknown(Role role) { return role == Role::other || role == Role::wing; }
+
+// Of each node of unknown part that hangs on the trunk: the topmost such node above it. -1: its part is known, or it
+// hangs on another part.
+std::vector<int> unknown_parts(const Model& model, const Character& c) {
+  std::vector<int> out(model.nodes.size(), -1);
+  for (size_t n = 0; n < out.size(); ++n) {
+    int top = -1, at = static_cast<int>(n);
+    for (size_t steps = 0; at >= 0 && steps <= out.size() && is_unknown(c.roles[static_cast<size_t>(at)]); ++steps) {
+      top = at;
+      const std::int32_t carrier = c.carriers[static_cast<size_t>(at)];
+      at = carrier >= 0 ? carrier : model.nodes[static_cast<size_t>(at)].parent;
+    }
+    if (at >= 0 && is_trunk(c.roles[static_cast<size_t>(at)])) out[n] = top;
+  }
+  return out;
+}
+
+}  // namespace
+
+size_t SkeletonBody::unknown_arms() const {
+  // Shares of the height. A part is as large as an arm may be: half takes a pouch for an arm, double loses the arm of a
+  // robot. Its middle is beside the plane of symmetry: half takes a pack that hangs askew, double loses an arm that
+  // hangs close. It begins above the hips by this share of what is above them: a skirt begins there, a shoulder at .6.
+  constexpr double large = 0.15, beside = 0.06, above_hips = 0.25;
+  const Character& c = *character;
+  const glm::dvec3 up = vector_of(c.up), left = vector_of(c.left), middle = vector_of(c.middle);
+  const std::vector<int> parts = unknown_parts(side.model, c);
+  struct Part {
+    glm::dvec3 low{1e300}, high{-1e300};
+    double sum = 0, count = 0, top = 0;
+  };
+  std::map<int, Part> found;
+  for (size_t v = 0; v + 1 < arrays.starts.size(); ++v) {
+    const int owner = owner_of(arrays, v);
+    if (owner < 0 || parts[static_cast<size_t>(owner)] < 0) continue;
+    const glm::dvec3 p = glm::make_vec3(arrays.positions.data() + 3 * v) - middle;
+    Part& part = found[parts[static_cast<size_t>(owner)]];
+    part.low = glm::min(part.low, p);
+    part.high = glm::max(part.high, p);
+    part.top = std::max(part.top, glm::dot(p, up));
+    part.sum += glm::dot(p, left);
+    part.count += 1;
+  }
+  bool sides[2] = {false, false};
+  const double begins = c.hip_height + above_hips * (c.height - c.hip_height);
+  for (const auto& [node, part] : found) {
+    const double aside = part.sum / part.count;
+    if (glm::distance(part.low, part.high) > large * c.height && std::abs(aside) > beside * c.height &&
+        part.top > begins)
+      sides[aside > 0 ? 0 : 1] = true;
+  }
+  return static_cast<size_t>(sides[0]) + static_cast<size_t>(sides[1]);
 }
 
 glm::dvec3 SkeletonBody::trunk(const std::vector<glm::dmat4>& globals) const {
