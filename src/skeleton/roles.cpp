@@ -146,16 +146,19 @@ void assign_sides(Body& body) {
   }
 }
 
-// Returns the place in the path to the head at which a limb begins. Where arms hang on a second row of bones, such as
-// the controls of a Rigify rig, it is the joint of the path that is nearest to theirs.
+// Returns the place in the path to the head at which a limb begins: that of a central joint. Where arms hang on a
+// second row of bones, such as the controls of a Rigify rig, it is the nearest one. A pair on something at one side,
+// such as a pack, does not begin there: 0.
 std::size_t nearest_below_head(const Body& body, const Vector<Index>& path, Index carrier) {
   std::size_t nearest = 0;
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     if (path[k] == carrier) return k;
+    if (!body.is_central(path[k])) continue;  // a head may hang on a collar
     const auto apart = [&](std::size_t i) { return norm(body.pivots[at(path[i])] - body.pivots[at(carrier)]); };
     if (apart(k) < apart(nearest)) nearest = k;
   }
-  return body.head == carrier ? 0 : nearest;
+  const bool aside = std::fabs(body.lateral(body.pivots[at(carrier)])) > 2 * central;
+  return body.head == carrier || aside ? 0 : nearest;
 }
 
 // From the root of the tree to the head: spine, and neck after the last arm or front leg, or by its name.
@@ -264,6 +267,22 @@ void take_declared_roles(Body& body) {
   }
 }
 
+// A body stands on its feet. What it wears or holds, such as a pickaxe that hangs lower, does not carry it.
+void find_ground(Body& body) {
+  double feet = 1e300, trunk = 1e300;
+  for (std::size_t v = 0; v < body.points.size(); ++v) {
+    const Index owner = body.owners[v];
+    if (owner < 0 || !body.kept[at(owner)]) continue;
+    const Role role = body.roles[at(owner)];
+    const bool arm = role == Role::arm || role == Role::hand || role == Role::finger;
+    if (role == Role::other || (arm && body.trunk > upright_trunk)) continue;
+    double& low = role == Role::leg || role == Role::foot || role == Role::toe ? feet : trunk;
+    low = std::min(low, dot(body.points[v], body.up));
+  }
+  // A body that stands on its hands or lies has its trunk below its feet.
+  if (feet < trunk + standing * body.height) body.ground = std::max(body.ground, std::min(feet, trunk));
+}
+
 }  // namespace
 
 void assign_roles(Body& body) {
@@ -286,6 +305,7 @@ void assign_roles(Body& body) {
   assign_trunk(body, given);
   assign_rest(body, given);
   take_declared_roles(body);
+  find_ground(body);
 }
 
 }  // namespace hf_inner
