@@ -55,6 +55,15 @@ bool ends_in_foot(const Body& body, const Limb& limb) {
   });
 }
 
+// Arms without names that reach the ground beside legs that have names: these begin lower on an upright body.
+bool hangs_over_legs(const Body& body, const Limb& limb) {
+  const auto height = [&](const Limb& l) { return body.height_of(body.pivots[at(l.roots[0])]); };
+  return body.trunk > upright_trunk && std::any_of(body.limbs.begin(), body.limbs.end(), [&](const Limb& other) {
+           return other.named == NameClass::leg && other.stands &&
+                  height(limb) > height(other) + 2 * standing * body.height;
+         });
+}
+
 Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count) {
   if (body.head >= 0 && body.head != body.root && body.is_below(limb.carrier, body.head))
     return is_leg_on_head(body, limb) ? Role::leg : role_on_head(limb);
@@ -87,7 +96,7 @@ Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count
       return Role::other;
   }
   if (!large) return Role::other;
-  if (limb.stands) return Role::leg;
+  if (limb.stands && !hangs_over_legs(body, limb)) return Role::leg;
   if (flatness(body, limb) < 0.15 && limb.length > 0.3 && limb.paths[0].size() < 4) return Role::wing;
   return Role::arm;
 }

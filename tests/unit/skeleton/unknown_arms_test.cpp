@@ -106,6 +106,20 @@ TEST(UnknownArms, ChainsWithoutNamesThatMirrorEachOtherAreArms) {
   EXPECT_EQ(fit.unmatched, 0);
 }
 
+// One arm is raised, and its hand holds something.
+TEST(UnknownArms, ChainsWithoutNamesInDifferentPosesAreArms) {
+  Rig rig = straight_body();
+  const int hand = rig.find("mixamorig:RightHand");
+  rig.turn(rig.find("mixamorig:RightArm"), {0, 0, 1}, -60);
+  rig.turn(rig.find("mixamorig:RightForeArm"), {1, 0, 0}, -40);
+  const Vec3 grip = rig.joints[static_cast<std::size_t>(hand)].pivot;
+  const int club = rig.add("Bone.044", hand, grip + Vec3{-0.05, 0, 0.05}, Role::other);
+  rig.add_box(club, grip, grip + Vec3{-0.1, 0.1, 0.4}, 0.03);
+  const PoseFit fit = fit_of(make_rig_model(PlacedRig(unnamed(rig), {}), "robot.glb"));
+  EXPECT_EQ(fit.limbs.size(), 4u);
+  EXPECT_EQ(fit.unmatched, 0);
+}
+
 TEST(UnknownArms, PiecesThatNothingLeadsHaveNoPartner) {
   for (const Hang hang : {Hang::on_node, Hang::on_joint}) {
     for (const double shrug : {0.0, 30.0}) {
