@@ -58,20 +58,29 @@ void SkeletonBody::look() {
 }
 
 void SkeletonBody::find_off() {
-  // A share of the height. Half takes a shoulder that stands above its arm; double takes the hip of the other side.
-  constexpr double far = 0.1;
-  std::map<int, std::pair<glm::dvec3, glm::dvec3>> boxes;
-  for (const BodyLimb& limb : limbs) boxes[limb.nodes[0]] = {glm::dvec3(1e300), glm::dvec3(-1e300)};
-  for (size_t v = 0; v + 1 < arrays.starts.size(); ++v) {
-    const auto box = boxes.find(owner_of(arrays, v));
-    if (box == boxes.end()) continue;
-    const glm::dvec3 p = glm::make_vec3(arrays.positions.data() + 3 * v);
-    box->second = {glm::min(box->second.first, p), glm::max(box->second.second, p)};
+  // Sizes of the limb: a turn about a point farther away throws it off the body. Half comes near to thighs that begin
+  // above their skin, as those of the fox of Khronos; double loses pieces whose joint is the middle of the model.
+  constexpr double far = 0.5;
+  std::map<int, size_t> limb_of_node;
+  for (size_t k = 0; k < limbs.size(); ++k) {
+    for (const int node : limbs[k].path) limb_of_node[node] = k;
+    for (const int node : limbs[k].nodes) limb_of_node[node] = k;
   }
-  for (BodyLimb& limb : limbs) {
-    const auto& [low, high] = boxes[limb.nodes[0]];
-    const glm::dvec3 joint = vector_of(character->frames[static_cast<size_t>(limb.nodes[0])].origin);
-    limb.off = low.x <= high.x && glm::distance(joint, glm::clamp(joint, low, high)) > far * character->height;
+  std::vector<std::pair<glm::dvec3, glm::dvec3>> boxes(limbs.size(), {glm::dvec3(1e300), glm::dvec3(-1e300)});
+  for (size_t v = 0; v + 1 < arrays.starts.size(); ++v) {
+    const int owner = owner_of(arrays, v);
+    const auto at = limb_of_node.find(owner);
+    if (owner < 0 || at == limb_of_node.end()) continue;
+    auto& [low, high] = boxes[at->second];
+    const glm::dvec3 p = glm::make_vec3(arrays.positions.data() + 3 * v);
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  for (size_t k = 0; k < limbs.size(); ++k) {
+    const auto& [low, high] = boxes[k];
+    const glm::dvec3 joint = vector_of(character->frames[static_cast<size_t>(limbs[k].nodes[0])].origin);
+    limbs[k].off =
+        low.x <= high.x && glm::distance(joint, glm::clamp(joint, low, high)) > far * glm::distance(low, high);
   }
 }
 

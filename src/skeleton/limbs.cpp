@@ -63,7 +63,8 @@ void even_paths(const Body& body, Limb& limb) {
   const int longer = limb.paths[0].size() > limb.paths[1].size() ? 0 : 1;
   if (limb.paths[0].size() == limb.paths[1].size()) return;
   const Index more = limb.paths[longer][limb.paths[1 - longer].size()];
-  if (limb.posed || body.names[at(more)].named == NameClass::loose) {  // a hand holds something
+  // A hand holds something. Names say where the hand is; without names it is where both sides end.
+  if (limb.named == NameClass::none && (limb.posed || body.names[at(more)].named == NameClass::loose)) {
     limb.paths[longer].resize(limb.paths[1 - longer].size());
     return;
   }
