@@ -188,7 +188,8 @@ nlohmann::json put_clips(const Model& clips, const Model& target, const Transfer
     throw std::runtime_error(clips.name +
                              " has no surface: its clips go to TARGET's own skeleton; --sheet, --edit, --suggest-pairs "
                              "and other kinds of --as need a surface");
-  const BoundClips bound = bind_clips(target, clips, command.clip);
+  BoundClips bound = bind_clips(target, clips, command.clip);
+  add_riders(target, bound.model, bound.clips);
   write_gltf(bound.model, command.output);
   nlohmann::json names = nlohmann::json::array();
   for (size_t c = 0; c < bound.clips; ++c) names.push_back(bound.model.animations[c].name);
@@ -260,7 +261,9 @@ double least_confidence(const RunReport& report) {
 struct TrialFolder {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("hf_transfer_" + std::to_string(std::random_device()()));
-  TrialFolder() { std::filesystem::create_directory(path); }
+  TrialFolder() {
+    if (!std::filesystem::create_directory(path)) throw std::runtime_error(path.string() + " is there already");
+  }
   ~TrialFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path, ignored);
@@ -269,25 +272,40 @@ struct TrialFolder {
   TrialFolder& operator=(const TrialFolder&) = delete;
 };
 
-// Where the surface leaves doubt and joints could lead too, both are written, and the better file is kept. True: joints
-// were better.
-bool try_joints(const JointModels& models, const RunReport& by_surface, const TransferCommand& command,
-                ProgressBar& bar, nlohmann::json& json) {
-  constexpr double sure = 0.8;  // an artist uses such a run as it is; a higher bound costs a second run for nothing
-  const double doubted = least_confidence(by_surface);
-  if (doubted >= sure || (!command.kind.empty() && command.kind != "own-skin")) return false;
+struct Trial {
+  RunReport report;
+  std::vector<std::pair<std::filesystem::path, std::vector<uint8_t>>> files;  // what the user's files would hold
+};
+
+Trial run_trial(const JointModels& models, const TransferCommand& command, ProgressBar& bar) {
   const TrialFolder folder;
   TransferCommand trial = command;
   if (!command.output.empty()) trial.output = folder.path / command.output.filename();
   if (!command.sheet.empty()) trial.sheet = folder.path / command.sheet.filename();
-  RunReport report = run_by_joints(models, choose_clips(models.source, command.clip), trial, bar);
-  const bool better = least_confidence(report) > doubted;
+  Trial out{run_by_joints(models, choose_clips(models.source, command.clip), trial, bar), {}};
   for (const auto& [from, to] : {std::pair(trial.output, command.output), {trial.sheet, command.sheet}})
-    if (better && !to.empty()) {
-      const std::vector<uint8_t> bytes = read_bytes(from, std::numeric_limits<uint64_t>::max());
-      write_bytes(to, bytes.data(), bytes.size());
-    }
-  if (!better) return false;
+    if (!to.empty()) out.files.emplace_back(to, read_bytes(from, std::numeric_limits<uint64_t>::max()));
+  return out;
+}
+
+// Where the surface leaves doubt and joints could lead too, both are written, and the better file is kept. A trial that
+// fails leaves the motion of the surface. True: joints were better.
+bool try_joints(const JointModels& models, RunReport& by_surface, const TransferCommand& command, ProgressBar& bar,
+                nlohmann::json& json) {
+  constexpr double sure = 0.8;  // an artist uses such a run as it is; a higher bound costs a second run for nothing
+  const double doubted = least_confidence(by_surface);
+  if (doubted >= sure || (!command.kind.empty() && command.kind != "own-skin")) return false;
+  Trial trial;
+  try {
+    trial = run_trial(models, command, bar);
+  } catch (const std::exception& error) {
+    bar.end();
+    by_surface.warnings.push_back(std::string("joints were tried too, and failed: ") + error.what());
+    return false;
+  }
+  RunReport& report = trial.report;
+  if (!(least_confidence(report) > doubted)) return false;
+  for (const auto& [to, bytes] : trial.files) write_bytes(to, bytes.data(), bytes.size());
   char why[128];
   std::snprintf(why, sizeof why, "the surfaces reach %.2f of confidence here; --way surface takes them", doubted);
   report.output = command.output.string();
@@ -368,8 +386,8 @@ int transfer(TransferCommand command, nlohmann::json& json) {
     report.way_why = way.why;
     return report;
   };
-  const RunReport first = with_axes(run(session, models, source, target, motion, command, false, bar));
-  if (way.either && command.edits.empty() && try_joints(models, first, command, bar, json)) return 0;
+  RunReport first = with_axes(run(session, models, source, target, motion, command, false, bar));
+  if (way.either && try_joints(models, first, command, bar, json)) return 0;
   std::string text = to_text(first, source.name + " on " + target.name);
   json = to_json(first);
   bool factorised_again = false;

@@ -74,6 +74,11 @@ std::optional<Animation> copied_channels(const JointModels& models, const Animat
     out.channels.push_back(channel);
     out.channels.back().node = there;
   }
+  if (!played.riders.empty()) {
+    for (Channel& channel : clip_of_poses(models.target, clip.name, played.times, played.target).channels)
+      if (std::find(played.riders.begin(), played.riders.end(), channel.node) != played.riders.end())
+        out.channels.push_back(std::move(channel));
+  }
   for (size_t f = 0; f < played.times.size(); ++f) {
     const Pose pose = sample(models.target, out, played.times[f]);
     for (size_t n = 0; n < pose.size(); ++n) {
@@ -224,15 +229,17 @@ JointClip play_best(const JointModels& models, const Animation& clip, const std:
 }
 
 // Says which meshes beside the skeleton stay behind, and how far the body leaves them.
-void measure_left_behind(const JointModels& models, const Model& written, const FlatMesh& mesh, PlayedClip& played,
+void measure_left_behind(const JointModels& models, const std::vector<Fastening>& left_behind, PlayedClip& played,
                          RunReport& report) {
-  for (const int node : models.pair.left_behind()) {
-    const double off = comes_off(written, mesh, node, played.target_frames);
+  for (const Fastening& fastening : left_behind) {
+    const double off = comes_off(fastening, played.target_frames);
+    if (!(off > 0)) continue;  // the clip of an equal skeleton moves it
     played.gap = std::max(played.gap, off);
     char text[64];
     std::snprintf(text, sizeof text, "%.1f %% of the box", 100 * off);
     report.warnings.push_back("clip \"" + played.clip.name + "\": no clip of " + models.target.name +
-                              " says on which joint \"" + models.target.nodes[static_cast<size_t>(node)].name +
+                              " says on which joint \"" +
+                              models.target.nodes[static_cast<size_t>(fastening.node)].name +
                               "\" rides, so it stays: it comes off by " + text);
   }
 }
@@ -345,10 +352,12 @@ RunReport run_by_joints(const JointModels& models, const std::vector<const Anima
   const StandingBody source{models.source, models.source_mesh, models.source_known},
       target{models.target, models.target_mesh, models.target_known};
   const std::vector<uint8_t> source_out = beside_flesh(source), target_out = beside_flesh(target);
+  const std::vector<Fastening> left_behind = fastenings_of(target, models.pair.left_behind());
   for (size_t c = 0; c < played.size(); ++c) {
-    if (report.written_as != "frames")
+    if (report.written_as != "frames") {
       played[c].target_frames = frames_of(written, again, written.animations[c], played[c].clip.times);
-    if (report.written_as != "frames") measure_left_behind(models, written, again, played[c], report);
+    }
+    measure_left_behind(models, left_behind, played[c], report);
     played[c].feet.surface_sunk = depth_of(source, target, report.scale, source_out, target_out,
                                            played[c].source_frames, played[c].target_frames);
     report.clip_names.push_back(clips[c]->name);

@@ -51,12 +51,17 @@ struct Standing {
   double ground = 0, height = 1;
 
   explicit Standing(const StandingBody& given) : body(given) {
-    const std::vector<uint8_t> out = beside_body(body);
+    const std::vector<uint8_t> out = beside_body(body), flesh = beside_flesh(body);
     const std::vector<double> rest = double_positions(body.mesh.positions);
     const glm::dvec3& up = body.known.axes.up;
-    ground = lowest_of(rest, up, out);
-    height = -lowest_of(rest, -up, out) - ground;
     const std::vector<int> owners = owners_of(body.model, body.mesh);
+    // The ground is under the feet: a pickaxe may hang lower.
+    std::vector<uint8_t> no_feet = out;
+    for (size_t v = 0; v < no_feet.size() && !body.known.nodes.empty(); ++v)
+      no_feet[v] = no_feet[v] || body.known.nodes[static_cast<size_t>(owners[v])].part != BodyPart::leg;
+    ground = lowest_of(rest, up, no_feet);
+    if (!std::isfinite(ground)) ground = lowest_of(rest, up, flesh);
+    height = -lowest_of(rest, -up, flesh) - ground;
     std::map<int, Sole> found;
     for (uint32_t v = 0; v < owners.size(); ++v) {
       if (out[v] || owners[v] < 0 || body.known.nodes.empty()) continue;
@@ -215,35 +220,77 @@ double hover_of(const StandingBody& source, const StandingBody& target, double s
   return count > 0 ? sum / count / SurfaceBox(target.mesh).diagonal() : -1;
 }
 
-double comes_off(const Model& model, const FlatMesh& mesh, int node, const std::vector<std::vector<double>>& frames) {
-  std::vector<uint8_t> under(mesh.positions.size(), 0);
-  for (const FlatPart& part : mesh.parts) {
-    int above = part.node;
-    while (above >= 0 && above != node) above = model.nodes[static_cast<size_t>(above)].parent;
-    for (uint32_t v = 0; v < part.vertex_count; ++v) under[part.first_vertex + v] = above == node;
-  }
+std::vector<Fastening> fastenings_of(const StandingBody& body, const std::vector<int>& nodes) {
   constexpr size_t most_own = 64;  // of its vertices are compared; a pack has no more corners that touch
-  std::vector<size_t> own;
-  for (size_t v = 0; v < under.size(); ++v)
-    if (under[v] && !mesh.loose[v]) own.push_back(v);
-  size_t a = 0, b = 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (size_t k = 0; k < own.size(); k += std::max<size_t>(1, own.size() / most_own)) {
-    for (size_t v = 0; v < under.size(); ++v) {
-      if (under[v] || mesh.loose[v]) continue;
-      const double distance = glm::distance(mesh.positions[own[k]], mesh.positions[v]);
-      if (distance >= nearest) continue;
-      nearest = distance;
-      a = own[k];
-      b = v;
-    }
+  // A pack stands off the back by this share of the box at most: half loses one on thick straps, double takes a tree
+  // that the body passes.
+  constexpr double touches = 0.02;
+  const FlatMesh& mesh = body.mesh;
+  const std::vector<uint8_t> beside = beside_body(body);
+  const Standing standing(body);
+  const auto place = [&](size_t v) { return mesh.positions[v]; };
+  struct Box {
+    glm::dvec3 low{1e300}, high{-1e300};
+    void add(const glm::dvec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
+    bool has(const glm::dvec3& p, double slack) const { return p == glm::clamp(p, low - slack, high + slack); }
+  };
+  Box around;
+  std::vector<uint32_t> flesh;
+  for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    if (mesh.loose[v] || beside[v]) continue;
+    flesh.push_back(v);
+    around.add(place(v));
   }
+  std::vector<Fastening> out;
+  const double diagonal = SurfaceBox(mesh).diagonal(), slack = touches * diagonal;
+  for (const int node : nodes) {
+    Fastening found;
+    found.node = node;
+    found.box = diagonal;
+    Box box;
+    std::vector<uint32_t> own;
+    for (const FlatPart& part : mesh.parts) {
+      int above = part.node;
+      while (above >= 0 && above != node) above = body.model.nodes[static_cast<size_t>(above)].parent;
+      for (uint32_t v = part.first_vertex; above == node && v < part.first_vertex + part.vertex_count; ++v) {
+        if (mesh.loose[v]) continue;
+        own.push_back(v);
+        box.add(place(v));
+      }
+    }
+    // Ground, a room or a hill is no higher than the soles, or larger than the body.
+    const auto under_soles = [&](uint32_t v) {
+      return glm::dot(body.known.axes.up, place(v)) < standing.ground + carries * standing.height;
+    };
+    if (own.empty() || flesh.empty() || std::all_of(own.begin(), own.end(), under_soles) ||
+        glm::distance(box.low, box.high) > glm::distance(around.low, around.high))
+      continue;
+    if (glm::any(glm::greaterThan(box.low - slack, around.high)) ||
+        glm::any(glm::lessThan(box.high + slack, around.low)) ||
+        std::none_of(flesh.begin(), flesh.end(), [&](uint32_t v) { return box.has(place(v), slack); }))
+      continue;
+    found.apart = std::numeric_limits<double>::infinity();
+    for (size_t k = 0; k < own.size(); k += std::max<size_t>(1, own.size() / most_own)) {
+      for (const uint32_t v : flesh) {
+        const double distance = glm::distance(place(own[k]), place(v));
+        if (distance >= found.apart) continue;
+        found.apart = distance;
+        found.own = own[k];
+        found.other = v;
+      }
+    }
+    out.push_back(found);
+  }
+  return out;
+}
+
+double comes_off(const Fastening& fastening, const std::vector<std::vector<double>>& frames) {
   double out = 0;
   for (const std::vector<double>& frame : frames) {
     const auto at = [&](size_t v) { return glm::dvec3(frame[3 * v], frame[3 * v + 1], frame[3 * v + 2]); };
-    out = std::max(out, glm::distance(at(a), at(b)) - nearest);
+    out = std::max(out, glm::distance(at(fastening.own), at(fastening.other)) - fastening.apart);
   }
-  return std::isfinite(nearest) ? out / SurfaceBox(mesh).diagonal() : 0;
+  return out / fastening.box;
 }
 
 namespace {

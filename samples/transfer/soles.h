@@ -37,9 +37,17 @@ double hover_of(const StandingBody& source, const StandingBody& target, double s
                 const std::vector<std::vector<double>>& source_frames,
                 const std::vector<std::vector<double>>& target_frames);
 
-// How far what hangs on a node comes off the rest of the body at most, in boxes: its vertex and the other that are
-// nearest to each other at rest.
-double comes_off(const Model& model, const FlatMesh& mesh, int node, const std::vector<std::vector<double>>& frames);
+// What a body wears beside its skeleton: the vertex of a node, and that of the body, which are nearest to each other at
+// rest, how far they are apart, and the box.
+struct Fastening {
+  int node = -1;
+  size_t own = 0, other = 0;
+  double apart = 0, box = 1;
+};
+// Of those nodes that touch the body. Scenery does not count: ground, rooms, what is larger than the body.
+std::vector<Fastening> fastenings_of(const StandingBody& body, const std::vector<int>& nodes);
+// How far it comes off the body at most, in boxes.
+double comes_off(const Fastening& fastening, const std::vector<std::vector<double>>& frames);
 
 // How much the target accelerates over the source: root mean squares of second differences, where trunk, head, arms
 // and legs of each side count the same. So neither the sizes of parts nor how finely they are meshed matter. Lengths of

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "base/progress.h"
 #include "gltf/pose_numbers.h"
 
 namespace hf_gltf {
@@ -17,6 +19,13 @@ constexpr double rides_within = 1e-2;
 constexpr double alike = 0.005;
 // Clips that are read, and times of each. A body shows in few poses what moves with what; more cost time.
 constexpr size_t most_clips = 8, times_of_clip = 6;
+// Comparisons of two transforms in one search. A body of 100 joints takes at most 15,000 for a node, and most joints
+// are out after the first few, so thousands of nodes are looked at. Half of it loses props in a large scene; double
+// costs another tenth of a second there.
+constexpr size_t most_comparisons = 1'000'000;
+// A transform whose volume is below this share of the product of its axes is flat: nothing can ride in its space. Half
+// or double changes nothing, as rounding is far below and bones are far above.
+constexpr double flat = 1e-9;
 
 struct Candidate {
   int node = -1;
@@ -31,13 +40,13 @@ bool hangs_on_joint(const Model& model, const std::vector<uint8_t>& bound, int n
   return false;
 }
 
-// The topmost node over a mesh that clips move and that carries no joint; else the node of the mesh.
+// The node that moves a mesh by itself: the lowest one at or over it that clips move and that carries no joint; else
+// the node of the mesh. Props of one group may ride on different joints.
 int moved_above(const Model& model, const std::vector<uint8_t>& animated, const std::vector<uint8_t>& carries,
                 int node) {
-  int found = node;
   for (int n = node; n >= 0 && !carries[static_cast<size_t>(n)]; n = model.nodes[static_cast<size_t>(n)].parent)
-    if (animated[static_cast<size_t>(n)]) found = n;
-  return found;
+    if (animated[static_cast<size_t>(n)]) return n;
+  return node;
 }
 
 std::vector<Candidate> find_candidates(const Model& model, const FlatMesh& mesh) {
@@ -51,39 +60,131 @@ std::vector<Candidate> find_candidates(const Model& model, const FlatMesh& mesh)
   for (const Animation& clip : model.animations)
     for (const Channel& channel : clip.channels) animated[static_cast<size_t>(channel.node)] = 1;
   std::vector<Candidate> out;
+  std::vector<int> places(model.nodes.size(), -1);  // in out, by node
   for (const FlatPart& part : mesh.parts) {
     if (model.nodes[static_cast<size_t>(part.node)].skin >= 0 || hangs_on_joint(model, bound, part.node)) continue;
     const int node = moved_above(model, animated, carries, part.node);
-    auto found = std::find_if(out.begin(), out.end(), [&](const Candidate& c) { return c.node == node; });
-    if (found == out.end()) found = out.insert(out.end(), Candidate{node});
+    int& at = places[static_cast<size_t>(node)];
+    if (at < 0) {
+      at = static_cast<int>(out.size());
+      out.push_back(Candidate{node});
+    }
+    Candidate& found = out[static_cast<size_t>(at)];
     for (uint32_t v = part.first_vertex; v < part.first_vertex + part.vertex_count; ++v) {
-      found->low = glm::min(found->low, mesh.positions[v]);
-      found->high = glm::max(found->high, mesh.positions[v]);
+      found.low = glm::min(found.low, mesh.positions[v]);
+      found.high = glm::max(found.high, mesh.positions[v]);
     }
   }
   return out;
 }
 
-std::vector<std::vector<glm::dmat4>> sampled_globals(const Model& model) {
-  std::vector<std::vector<glm::dmat4>> out;
-  for (size_t k = 0; k < std::min(model.animations.size(), most_clips); ++k) {
-    const Animation& clip = model.animations[k];
-    for (size_t t = 0; t < times_of_clip; ++t) {
-      const double share = static_cast<double>(t) / static_cast<double>(times_of_clip - 1);
-      out.push_back(global_matrices(model, sample(model, clip, share * clip_duration(clip))));
-    }
-  }
-  return out;
+bool is_flat(const glm::dmat4& m) {
+  const double volume = std::abs(glm::determinant(glm::dmat3(m)));
+  return !std::isfinite(volume) || !(volume > flat * glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]));
 }
 
-// How far the corners of a box move at most between two transforms.
+// How far the corners of a box move at most between two transforms. Infinity: one of them is not finite.
 double moved_by(const Candidate& c, const glm::dmat4& a, const glm::dmat4& b) {
   double out = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec4 p(corner & 1 ? c.high.x : c.low.x, corner & 2 ? c.high.y : c.low.y,
                        corner & 4 ? c.high.z : c.low.z, 1);
-    out = std::max(out, glm::length(glm::dvec3((a - b) * p)));
+    const double moved = glm::length(glm::dvec3((a - b) * p));
+    if (!std::isfinite(moved)) return std::numeric_limits<double>::infinity();
+    out = std::max(out, moved);
   }
+  return out;
+}
+
+// Looks for the joints on which nodes ride, in sampled poses of the clips. Transforms are kept for joints and
+// candidates alone: a file can have 30,000 other nodes.
+class Search {
+ public:
+  Search(const Model& model, const FlatMesh& mesh, const Pose& rest, const std::vector<uint8_t>& body,
+         const std::vector<Candidate>& candidates)
+      : within_(rides_within * SurfaceBox(mesh).diagonal()) {
+    for (size_t j = 0; j < body.size(); ++j)
+      if (body[j]) nodes_.push_back(static_cast<int>(j));
+    joints_ = nodes_.size();
+    for (const Candidate& c : candidates) nodes_.push_back(c.node);
+    at_rest_ = kept(global_matrices(model, rest));
+    for (size_t k = 0; k < std::min(model.animations.size(), most_clips); ++k) {
+      const Animation& clip = model.animations[k];
+      for (size_t t = 0; t < times_of_clip; ++t) {
+        hf_inner::poll();
+        const double share = static_cast<double>(t) / static_cast<double>(times_of_clip - 1);
+        poses_.push_back(kept(global_matrices(model, sample(model, clip, share * clip_duration(clip)))));
+      }
+    }
+    if (poses_.empty()) return;
+    for (const glm::dmat4& m : poses_[0]) from_first_.push_back(is_flat(m) ? glm::dmat4(0) : glm::inverse(m));
+  }
+
+  // Adds what is found for candidate k.
+  void look(const Candidate& c, size_t k, Riders& out) {
+    const size_t node = joints_ + k;
+    if (is_flat(at_rest_[node])) return;  // it is not seen
+    bool body_moves = false;
+    int best = -1;
+    // A joint on which it rides from its rest on is better than one that clips alone keep at its side.
+    for (const std::vector<glm::dmat4>* first : {&at_rest_, poses_.empty() ? &at_rest_ : &poses_[0]}) {
+      best = nearest_still(c, node, *first, body_moves);
+      if (best < 0) continue;
+      const auto joint = static_cast<size_t>(best);
+      out.known.push_back({c.node, nodes_[joint], glm::inverse((*first)[joint]) * (*first)[node]});
+      return;
+    }
+    if (!body_moves || !still(c, node)) out.unknown.push_back(c.node);
+  }
+
+ private:
+  std::vector<glm::dmat4> kept(const std::vector<glm::dmat4>& globals) const {
+    std::vector<glm::dmat4> out;
+    for (const int node : nodes_) out.push_back(globals[static_cast<size_t>(node)]);
+    return out;
+  }
+  // Against the first pose of the clips, in the space of the model.
+  bool still(const Candidate& c, size_t n) {
+    return std::all_of(poses_.begin(), poses_.end(), [&](const std::vector<glm::dmat4>& globals) {
+      ++comparisons_;
+      return moved_by(c, globals[n] * from_first_[n], glm::dmat4(1)) <= within_;
+    });
+  }
+  // The joint that moves and against which a node moves least in the clips, then the nearest; -1: none is good enough.
+  int nearest_still(const Candidate& c, size_t node, const std::vector<glm::dmat4>& first, bool& body_moves) {
+    int best = -1;
+    double least = within_, nearest = std::numeric_limits<double>::infinity();
+    if (is_flat(first[node])) return best;
+    const glm::dmat4 back = glm::inverse(at_rest_[node]);
+    for (size_t j = 0; j < joints_ && !poses_.empty() && comparisons_ < most_comparisons; ++j) {
+      hf_inner::poll();
+      if (is_flat(first[j]) || is_flat(at_rest_[j]) || still(c, j)) continue;
+      body_moves = true;
+      const glm::dmat4 offset = glm::inverse(first[j]) * first[node] * back;
+      double off = alike * within_;
+      for (size_t p = 0; p < poses_.size() && off <= least; ++p, ++comparisons_)
+        off = std::max(off, moved_by(c, poses_[p][j] * offset, poses_[p][node] * back));
+      const double distance = glm::distance(glm::dvec3(at_rest_[j][3]), c.middle());
+      if (off > least || (off == least && distance >= nearest)) continue;
+      least = off;
+      nearest = distance;
+      best = static_cast<int>(j);
+    }
+    return comparisons_ < most_comparisons ? best : -1;  // a joint that was not looked at may be better
+  }
+
+  std::vector<int> nodes_;  // joints of the body, then candidates
+  size_t joints_ = 0, comparisons_ = 0;
+  std::vector<glm::dmat4> at_rest_, from_first_;
+  std::vector<std::vector<glm::dmat4>> poses_;
+  double within_;
+};
+
+// The transform of the parent in the space of the model.
+glm::dmat4 above_of(const Model& model, const Pose& pose, int node) {
+  glm::dmat4 out(1);
+  for (int n = model.nodes[static_cast<size_t>(node)].parent; n >= 0; n = model.nodes[static_cast<size_t>(n)].parent)
+    out = local_matrix(pose[static_cast<size_t>(n)]) * out;
   return out;
 }
 
@@ -92,67 +193,35 @@ double moved_by(const Candidate& c, const glm::dmat4& a, const glm::dmat4& b) {
 Riders find_riders(const Model& model, const FlatMesh& mesh, const Pose& rest, const std::vector<uint8_t>& body) {
   Riders out;
   if (model.skins.empty()) return out;
-  const std::vector<Candidate> candidates = find_candidates(model, mesh);
+  std::vector<Candidate> candidates = find_candidates(model, mesh);
   if (candidates.empty()) return out;
-  const std::vector<glm::dmat4> at_rest = global_matrices(model, rest);
-  const std::vector<std::vector<glm::dmat4>> poses = sampled_globals(model);
-  const double within = rides_within * SurfaceBox(mesh).diagonal();
-  for (const Candidate& c : candidates) {
-    const auto node = static_cast<size_t>(c.node);
-    const glm::dmat4 back = glm::inverse(at_rest[node]);
-    // Against the first pose of the clips, in the space of the model.
-    const auto still = [&](size_t n) {
-      return std::all_of(poses.begin(), poses.end(), [&](const auto& globals) {
-        return moved_by(c, globals[n] * glm::inverse(poses[0][n]), glm::dmat4(1)) <= within;
-      });
-    };
-    // How far it moves against a joint in the clips.
-    const auto moves_on = [&](size_t j, const std::vector<glm::dmat4>& first) {
-      const glm::dmat4 offset = glm::inverse(first[j]) * first[node] * back;
-      double out = 0;
-      for (const std::vector<glm::dmat4>& globals : poses)
-        out = std::max(out, moved_by(c, globals[j] * offset, globals[node] * back));
-      return out;
-    };
-    bool body_moves = false;
-    int best = -1;
-    // A joint on which it rides from its rest on is better than one that clips alone keep at its side.
-    for (const std::vector<glm::dmat4>* first : {&at_rest, poses.empty() ? &at_rest : &poses[0]}) {
-      double least = within, nearest = 1e300;
-      for (size_t j = 0; j < body.size() && !poses.empty(); ++j) {
-        if (!body[j] || still(j)) continue;
-        body_moves = true;
-        const double off = std::max(moves_on(j, *first), alike * within);
-        const double distance = glm::distance(glm::dvec3(at_rest[j][3]), c.middle());
-        if (off > least || (off == least && distance >= nearest)) continue;
-        least = off;
-        nearest = distance;
-        best = static_cast<int>(j);
-      }
-      if (best < 0) continue;
-      out.known.push_back({c.node, best, glm::inverse((*first)[static_cast<size_t>(best)]) * (*first)[node]});
-      break;
-    }
-    if (best < 0 && (!body_moves || !still(node))) out.unknown.push_back(c.node);
-  }
+  const auto depth = [&](int node) {
+    size_t count = 0;
+    for (; node >= 0; node = model.nodes[static_cast<size_t>(node)].parent) ++count;
+    return count;
+  };
+  // A rider may hang on another: it is placed after that one.
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [&](const Candidate& a, const Candidate& b) { return depth(a.node) < depth(b.node); });
+  Search search(model, mesh, rest, body, candidates);
+  for (size_t k = 0; k < candidates.size(); ++k) search.look(candidates[k], k, out);
   return out;
 }
 
 void place_riders(const Model& model, const Riders& riders, Pose& pose) {
   if (riders.known.empty()) return;
   const std::vector<glm::dmat4> globals = global_matrices(model, pose);
-  std::vector<NodePose> placed;
   for (const Rider& rider : riders.known) {
-    const int parent = model.nodes[static_cast<size_t>(rider.node)].parent;
-    const glm::dmat4 above = parent < 0 ? glm::dmat4(1) : globals[static_cast<size_t>(parent)];
+    const glm::dmat4 above = above_of(model, pose, rider.node), &joint = globals[static_cast<size_t>(rider.joint)];
+    if (is_flat(above) || is_flat(joint)) continue;  // it is not seen, or there is nothing to ride on
     NodePose node = pose[static_cast<size_t>(rider.node)];
     node.fixed = true;
-    node.matrix = glm::inverse(above) * globals[static_cast<size_t>(rider.joint)] * rider.on_joint;
+    node.matrix = glm::inverse(above) * joint * rider.on_joint;
     std::vector<double> trs;
     append_trs({node}, trs);
-    placed.push_back(pose_of({node}, trs).front());
+    if (std::all_of(trs.begin(), trs.end(), [](double x) { return std::isfinite(x); }))
+      pose[static_cast<size_t>(rider.node)] = pose_of({node}, trs).front();
   }
-  for (size_t k = 0; k < placed.size(); ++k) pose[static_cast<size_t>(riders.known[k].node)] = placed[k];
 }
 
 }  // namespace hf_gltf

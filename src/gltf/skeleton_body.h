@@ -31,8 +31,9 @@ inline bool is_understood(const Character& c) {
 
 // A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half would
 // refuse bodies that shift their weight to one leg; double would take a stride for a stance.
-inline constexpr double even = 0.08;
-// How far arms and legs are from mirroring each other: the mean over their joints, a share of the height.
+inline constexpr double most_uneven = 0.08;
+// How far arms and legs are from mirroring each other: the mean over their joints, a share of the height. Infinity: no
+// joint of an arm or leg has a mate.
 double unevenness(const Character& c);  // stance.cpp
 
 inline glm::dvec3 vector_of(const hf_inner::Vec3& v) { return {v.x, v.y, v.z}; }
@@ -48,6 +49,7 @@ struct BodyLimb {
   int nodes[3] = {-1, -1, -1};
   std::vector<int> path;       // from root to end
   std::vector<double> shares;  // of its length, from root to each
+  bool off = false;            // its first joint lies far from what it moves, so a turn throws the limb off the body
 };
 
 struct SkeletonBody {
@@ -66,6 +68,9 @@ struct SkeletonBody {
   static Pose rest_of(const JointSide& side) { return side.rest ? *side.rest : rest_pose(side.model); }
 
   void look();
+  void find_off();
+  // Counts sides of the upper body where something stands out that may be an arm and that no role names.
+  size_t unknown_arms() const;
   BodyLimb limb_of(const Chain& chain, const std::vector<glm::dmat4>& globals) const;
   // Left, up and forward as columns.
   glm::dmat3 axes() const {

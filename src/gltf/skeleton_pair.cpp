@@ -71,16 +71,31 @@ glm::dquat turn_between(const glm::dvec3& a, const glm::dvec3& b) {
 
 }  // namespace
 
+namespace {
+
+Riders riders_of(const SkeletonBody& body) {
+  std::vector<uint8_t> moves;
+  for (const hf_inner::JointKind kind : body.character->kinds) moves.push_back(kind != hf_inner::JointKind::helper);
+  return find_riders(body.side.model, body.side.mesh, body.rest_of(), moves);
+}
+
+// The nodes that a clip moves.
+std::vector<uint8_t> moved_by_clip(const Model& model, const Animation& clip) {
+  std::vector<uint8_t> out(model.nodes.size(), 0);
+  for (const Channel& channel : clip.channels)
+    if (channel.path != Path::weights) out[static_cast<size_t>(channel.node)] = 1;
+  return out;
+}
+
+}  // namespace
+
 struct SkeletonPair::Inside {
   mutable hf_inner::Memory memory;
   SkeletonBody source, target;
   std::string refusal;
   Riders riders;  // of the target
   Inside(const JointSide& s, const JointSide& t) : source(s, memory), target(t, memory) {
-    if (!target.character) return;
-    std::vector<uint8_t> body;
-    for (const hf_inner::JointKind kind : target.character->kinds) body.push_back(kind != hf_inner::JointKind::helper);
-    riders = find_riders(t.model, t.mesh, target.rest_of(), body);
+    if (target.character) riders = riders_of(target);
   }
 
   bool understood() const {
@@ -90,11 +105,12 @@ struct SkeletonPair::Inside {
   // without such limbs has no arm to lead.
   size_t unknown_limbs() const {
     const Character& c = *target.character;
-    return static_cast<size_t>(std::count_if(c.chains.begin(), c.chains.end(), [&](const Chain& chain) {
+    const auto chains = static_cast<size_t>(std::count_if(c.chains.begin(), c.chains.end(), [&](const Chain& chain) {
       if (chain.role != Role::other || chain.side == Side::middle || chain.parent < 0) return false;
       const Role on = c.chains[static_cast<size_t>(chain.parent)].role;
       return on == Role::spine || on == Role::neck;
     }));
+    return std::max(chains, target.unknown_arms());
   }
   size_t matched() const {
     size_t out = 0;
@@ -132,8 +148,8 @@ const std::vector<int>& SkeletonPair::left_behind() const { return in_->riders.u
 double SkeletonPair::unevenness() const {
   double out = 0;
   for (const SkeletonBody* body : {&in_->source, &in_->target}) {
-    const double share = body->character ? hf_gltf::unevenness(*body->character) / even : 0;
-    if (share < 1e100) out = std::max(out, share - 1);
+    const double share = body->character ? hf_gltf::unevenness(*body->character) / most_uneven : 0;
+    if (std::isfinite(share)) out = std::max(out, share - 1);  // a body without pairs of limbs says nothing
   }
   return out;
 }
@@ -213,13 +229,26 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
   const size_t count = source.side.model.nodes.size();
   const Pose rest = target.rest_of();
   std::vector<double> trs(10 * rest.size());
+  Riders riders = in_->riders;
+  if (retarget.report().same_skeleton) {  // what the clip itself moves is copied
+    const std::vector<uint8_t> moved = moved_by_clip(source.side.model, clip);
+    std::vector<std::uint32_t> partners(rest.size(), HF_NO_INDEX);
+    retarget.partners(partners.data());
+    riders.known.erase(std::remove_if(riders.known.begin(), riders.known.end(),
+                                      [&](const Rider& rider) {
+                                        const std::uint32_t by = partners[static_cast<size_t>(rider.node)];
+                                        return by != HF_NO_INDEX && moved[by] != 0;
+                                      }),
+                       riders.known.end());
+  }
+  for (const Rider& rider : riders.known) out.riders.push_back(rider.node);
   double ms = 0;
   for (size_t f = 0; f < times.size(); ++f) {
     const auto start = std::chrono::steady_clock::now();
     retarget.frame(poses.data() + 10 * count * f, f == 0 ? 0 : times[f] - times[f - 1], trs.data());
     ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     out.target.push_back(pose_of(rest, trs));
-    place_riders(target.side.model, in_->riders, out.target.back());
+    place_riders(target.side.model, riders, out.target.back());
   }
   const hf_inner::RetargetReport& report = retarget.report();
   out.same = report.same_skeleton;
@@ -244,6 +273,37 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
   return out;
 }
 
+void add_riders(const Model& target, Model& bound, size_t clips) {
+  const FlatMesh mesh = flatten(target);
+  hf_inner::Memory memory;
+  const SkeletonBody body({target, mesh}, memory);
+  if (!body.character) return;
+  const Riders all = riders_of(body);
+  for (size_t c = 0; c < clips && !all.known.empty(); ++c) {
+    const Animation& clip = bound.animations[c];
+    const std::vector<uint8_t> moved = moved_by_clip(bound, clip);
+    Riders riders;
+    for (const Rider& rider : all.known)
+      if (!moved[static_cast<size_t>(rider.node)]) riders.known.push_back(rider);
+    const std::vector<double> times = key_times(clip);
+    std::vector<Pose> poses;
+    for (const double time : times) {
+      poses.push_back(sample(bound, clip, time));
+      std::vector<double> trs;
+      append_trs(poses.back(), trs);
+      poses.back() = pose_of(poses.back(), trs);
+      place_riders(bound, riders, poses.back());
+    }
+    std::vector<int> nodes;
+    for (const Rider& rider : riders.known) nodes.push_back(rider.node);
+    for (Channel& channel : clip_of_poses(bound, clip.name, times, poses).channels) {
+      if (std::find(nodes.begin(), nodes.end(), channel.node) == nodes.end()) continue;
+      split_matrix(bound.nodes[static_cast<size_t>(channel.node)]);
+      bound.animations[c].channels.push_back(std::move(channel));
+    }
+  }
+}
+
 PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pose>& target) const {
   PoseFit out;
   if (!in_->source.character || !in_->target.character) return out;
@@ -251,7 +311,9 @@ PoseFit SkeletonPair::fit(const std::vector<Pose>& source, const std::vector<Pos
   out.source_limbs = a.limbs.size();
   out.target_limbs = b.limbs.size();
   const size_t matched = in_->matched(), most = std::max(out.source_limbs, out.target_limbs);
-  const size_t lost = out.target_limbs - matched + std::min(out.source_limbs - matched, in_->unknown_limbs());
+  const auto off = static_cast<size_t>(std::count_if(
+      b.limbs.begin(), b.limbs.end(), [&](const BodyLimb& limb) { return limb.off && in_->partner(limb); }));
+  const size_t lost = off + out.target_limbs - matched + std::min(out.source_limbs - matched, in_->unknown_limbs());
   if (most > 0) out.unmatched = std::min(1.0, static_cast<double>(lost) / static_cast<double>(most));
   const glm::dmat3 across = b.axes() * glm::transpose(a.axes());
   const std::vector<glm::dmat4> a_rest = global_matrices(a.side.model, a.rest_of()),

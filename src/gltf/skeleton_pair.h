@@ -46,6 +46,7 @@ struct JointClip {
   double frame_ms = 0;
   glm::dvec3 travel{0, 0, 0};  // of the target, that was taken out
   bool moves = false;          // the body moves at all in this clip
+  std::vector<int> riders;     // nodes of the target that were put on joints, see riders.h
 };
 
 // How far bones of arms and legs point elsewhere than the source's, in degrees, over all frames. Where
@@ -60,10 +61,15 @@ struct PoseFit {
   double degrees = -1, worst = 0;             // mean over them, below 0: unknown; worst frame of the worst limb
   double trunk_degrees = 0, trunk_worst = 0;  // hips to neck, since rest
   size_t source_limbs = 0, target_limbs = 0;  // arms and legs
-  // Arms and legs of the target that nothing leads, and arms and legs of the source without a partner for which the
-  // target has a limb of unknown part. A share of the arms and legs of the body that has more.
+  // Arms and legs of the target that nothing leads, or whose first joint lies far from what it moves, and arms and legs
+  // of the source without a partner for which the target has a limb of unknown part. A share of the arms and legs of
+  // the body that has more.
   double unmatched = 0;
 };
+
+// Gives the first clips of a model keys for what rides on joints (riders.h) and is not moved by them. bound: the target
+// with these clips put in. For clips that name joints alone, such as those of bind_clips.
+void add_riders(const Model& target, Model& bound, size_t clips);
 
 class SkeletonPair {
  public:
@@ -79,6 +85,7 @@ class SkeletonPair {
   // Whether both have two pairs.
   bool four_legged() const;
   // Nodes of the target with a mesh beside the skeleton of which no clip says on which joint they ride: they stay.
+  // Scenery is among them.
   const std::vector<int>& left_behind() const;
   // How uneven the rests are of which the motion counts: how far arms and legs are from mirroring each other, beyond
   // what a standing body may be. 0: both stand. 1: twice that.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "gltf/skeleton_body.h"
@@ -20,7 +21,7 @@ constexpr std::ptrdiff_t most_legs = 1 << 16;  // more than any body has
 
 struct Look {
   bool understood = false;
-  double uneven = 1e300;
+  double uneven = std::numeric_limits<double>::infinity();
   std::ptrdiff_t lifted = 0;  // legs in the air
 };
 
@@ -173,7 +174,7 @@ double unevenness(const Character& c) {
     middle += 0.5 * (a + b);
     count += 1;
   });
-  if (!(count > 0) || !(c.height > 0)) return 1e300;
+  if (!(count > 0) || !(c.height > 0)) return std::numeric_limits<double>::infinity();
   const double offset = glm::dot(middle / count, left);
   each_pair([&](const glm::dvec3& a, const glm::dvec3& b) {
     sum += glm::distance(a - 2 * (glm::dot(a, left) - offset) * left, b);
@@ -190,13 +191,13 @@ std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, cons
   if (model.skins.empty()) return {};
   const Pose rest = rest_pose(model);
   const Look own = look_at(model, mesh, rest, axes, true);
-  if (own.understood && own.uneven <= even && own.lifted == 0) return {};
+  if (own.understood && own.uneven <= most_uneven && own.lifted == 0) return {};
   std::optional<Stance> best;
   // A pose that is understood and more than twice as even is better. So is any that is understood where none was, or
   // that has more legs on the ground: a body that rears does not stand.
-  double uneven = own.understood ? 0.5 * own.uneven : 1e300;
+  double uneven = own.understood ? 0.5 * own.uneven : std::numeric_limits<double>::infinity();
   std::ptrdiff_t lifted_in_best = own.understood ? own.lifted : most_legs;
-  const auto is_even = [&] { return best && uneven <= even; };
+  const auto is_even = [&] { return best && uneven <= most_uneven; };
   const auto offer = [&](const Pose& pose, const std::string& from) {
     const Look look = look_at(model, standing(mesh, model, pose), pose, axes, false);
     const bool more = look.lifted < lifted_in_best;

@@ -64,6 +64,9 @@ constexpr double most_pitch = 1.0;
 constexpr int pitch_rounds = 3;
 // Numbers of two rests are equal within this, as a share of the largest.
 constexpr double same_rest = 1e-5;
+// Two joints are in one place, with no bone between them, below this share of the height. Rounding of 32-bit files is a
+// hundredth of it; ten times as much is a bone of a finger.
+constexpr double no_length = 1e-5;
 // Poses taken for equal skeletons hold rotations that differ by no more than this in a quaternion.
 constexpr double same_turn = 1e-5;
 

@@ -268,7 +268,7 @@ void Retargeter::match_chains(const RetargetSide& s, const RetargetSide& t) {
   wanted.assign(at(target.count), 0);
   Matcher matcher(*this, s, t, memory);
   matcher.one_to_one(source.mover, target.mover);
-  for (const Index joint : source.doubles) matcher.used[at(joint)] = 1;
+  for (const Index joint : source.second_rows) matcher.used[at(joint)] = 1;
   const auto last = [](const Rig& rig) { return rig.trunk.empty() ? rig.mover : rig.trunk.back(); };
   const auto next = [](const Rig& rig) { return rig.neck.empty() ? rig.head : rig.neck[0]; };
   matcher.add_path(source.trunk, target.trunk, source.mover, target.mover, next(source), next(target), Role::spine);

@@ -155,7 +155,7 @@ Rig::Rig(const RetargetSide& side, const char* side_name, Memory& m)
       ends(&m),
       trunk(&m),
       neck(&m),
-      doubles(&m),
+      second_rows(&m),
       legs(&m) {
   check_side(side, name);
   count = static_cast<Index>(side.input.joint_count);

@@ -75,7 +75,7 @@ struct Rig {
   double leg_length = 0, hip_height = 0;
   Index mover = -1;           // carries trunk and legs
   Vector<Index> trunk, neck;  // from the mover, without it, to the head
-  Vector<Index> doubles;      // of the mover: where a second row of bones along the trunk begins, at or below it
+  Vector<Index> second_rows;  // of the mover: where a second row of bones along the trunk begins, at or below it
   Index head = -1;
   Vector<RigLeg> legs;   // hindmost first, left before right
   bool upright = false;  // on two legs

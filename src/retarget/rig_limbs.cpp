@@ -43,11 +43,11 @@ Tip find_tip(const Rig& rig, const Character& character, const Chain& chain, Ind
     found += 1;
   }
   const Vec3 offset = (1 / std::max(found, 1.0)) * sum - rig.rest.place[at(last)];
-  const bool far = found > 0 && norm(offset) > same_rest * rig.height;
+  const bool far = found > 0 && norm(offset) > no_length * rig.height;
   if (far) return {last, offset};
   const Vec3 end = rig.ends[at(last)];
   const bool limb = chain.role == Role::arm || chain.role == Role::leg;
-  return limb && norm(end) > same_rest * rig.height ? Tip{last, end} : Tip{};
+  return limb && norm(end) > no_length * rig.height ? Tip{last, end} : Tip{};
 }
 
 // Where a limb bends: at each joint with a clear bend; without one at the joint nearest to the middle.
@@ -59,7 +59,7 @@ void cut_limb(const Rig& rig, Segments& limb) {
   // Two joints in one place, such as an ankle and the control of its heel, have no bone between them.
   const auto bone = [&](std::size_t k) {
     const Vec3 way = place(k + 1) - place(k);
-    return norm(way) > same_rest * rig.height ? unit_vector(way) : Vec3{};
+    return norm(way) > no_length * rig.height ? unit_vector(way) : Vec3{};
   };
   double length = 0;
   for (std::size_t k = 0; k < last; ++k) length += norm(place(k + 1) - place(k));
@@ -157,8 +157,8 @@ void find_trunk(Rig& rig, const Character& character) {
        j >= 0 && j != rig.mover && steps <= rig.count; j = rig.carriers[at(j)], ++steps) {
     const Vec3 from_mover = rig.rest.place[at(j)] - rig.rest.place[at(rig.mover)];
     const Vec3 way = rig.rest.place[at(rig.head >= 0 ? rig.head : arms)] - rig.rest.place[at(rig.mover)];
-    const bool begins = rig.linked[at(j)] && dot(from_mover, unit_vector(way)) < same_rest * rig.height;
-    (begins ? rig.doubles : character.roles[at(j)] == Role::neck ? rig.neck : rig.trunk).push_back(j);
+    const bool begins = rig.linked[at(j)] && dot(from_mover, unit_vector(way)) < no_length * rig.height;
+    (begins ? rig.second_rows : character.roles[at(j)] == Role::neck ? rig.neck : rig.trunk).push_back(j);
   }
   std::reverse(rig.trunk.begin(), rig.trunk.end());
   std::reverse(rig.neck.begin(), rig.neck.end());

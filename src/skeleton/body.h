@@ -48,6 +48,7 @@ struct Limb {
   double low = 0;     // height of its lowest vertex, as a share of the body's
   double place = 0;   // along forward
   bool stands = false;
+  bool posed = false;  // found by the lengths of its bones: its sides rest in different poses
 };
 
 struct Body {

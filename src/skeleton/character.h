@@ -131,7 +131,7 @@ struct Character {
   Vector<RestFrame> frames;
 
   // Lengths in units of the model; 0: there is none. Lengths of legs are measured on the hindmost pair that stands.
-  double height = 0, ground = 0;  // along up; ground is the lowest vertex
+  double height = 0, ground = 0;  // along up; ground is under the feet: the lowest vertex but for what is worn or held
   double leg_length = 0;          // hip, knee, foot, and the height of the foot
   double hip_height = 0;          // of the thigh's joint over the ground
   double arm_length = 0;          // upper arm to hand

@@ -15,6 +15,10 @@ constexpr double one_place = 0.1 * central;
 constexpr double mirrored = 0.04;
 // A side axis with a larger cosine to a coordinate axis is that axis: 14 degrees.
 constexpr double snapped = 0.97;
+// Bones of two arms in different poses have lengths in this ratio, and arms are this long from root to end. A lower
+// ratio takes a sword and a shield for arms; a higher one loses arms that were drawn by hand. Half the length takes
+// pouches for arms, double loses arms that are bent at rest.
+constexpr double equal_bones = 0.9, least_arm = 0.08;
 // A plane of symmetry that is so little better than the next is not sure.
 constexpr double unsure = 0.1;
 // A limb stands if its lowest vertex is within this of the ground, as a share of the height.

@@ -7,12 +7,18 @@
 namespace hf_inner {
 namespace {
 
-// Finds the class that most joints of a limb have, or the class of its root if at least half as many have that one.
+// Finds the class that most joints of a limb have, or the class of its root if at least half as many have that one. A
+// limb of which less than half hangs loose is no loose one: its hand holds a weapon.
 class ClassCount {
  public:
-  void add(NameClass c) noexcept { ++counts_[static_cast<std::size_t>(c)]; }
+  void add(NameClass c) noexcept {
+    ++counts_[static_cast<std::size_t>(c)];
+    ++all_;
+  }
   NameClass most(NameClass root) noexcept {
     counts_[0] = 0;
+    std::size_t& loose = counts_[static_cast<std::size_t>(NameClass::loose)];
+    if (2 * loose < all_) loose = 0;
     std::size_t best = 0;
     for (std::size_t c = 2; c < class_count; ++c) {  // 1: a limb with fingers is no finger
       if (counts_[c] > counts_[best]) best = c;
@@ -24,7 +30,7 @@ class ClassCount {
   }
 
  private:
-  std::size_t counts_[class_count] = {};
+  std::size_t counts_[class_count] = {}, all_ = 0;
 };
 
 bool reaches_ground(const Body& body, Index joint) {
@@ -56,6 +62,12 @@ bool comes_down(const Body& body, Index root) {
 void even_paths(const Body& body, Limb& limb) {
   const int longer = limb.paths[0].size() > limb.paths[1].size() ? 0 : 1;
   if (limb.paths[0].size() == limb.paths[1].size()) return;
+  const Index more = limb.paths[longer][limb.paths[1 - longer].size()];
+  // A hand holds something. Names say where the hand is; without names it is where both sides end.
+  if (limb.named == NameClass::none && (limb.posed || body.names[at(more)].named == NameClass::loose)) {
+    limb.paths[longer].resize(limb.paths[1 - longer].size());
+    return;
+  }
   Vector<Index> path(&body.memory);
   for (const Index j : limb.paths[longer]) {
     const Index mate = body.mates[at(j)];
@@ -137,6 +149,68 @@ bool lies_left(const Body& body, Index j, Index mate) {
   return mean(j) >= mean(mate);
 }
 
+// The joints down from a root, each the longest child of the one above.
+Vector<Index> longest_way(const Body& body, Index root) {
+  Vector<Index> out(1, root, &body.memory);
+  for (;;) {
+    Index longest = -1;
+    for (const Index c : body.children_of(out.back())) {
+      if (longest < 0 || way(body, out.back(), c) > way(body, out.back(), longest)) longest = c;
+    }
+    if (longest < 0) return out;
+    out.push_back(longest);
+  }
+}
+
+// How many joints of two ways down have bones of equal lengths between them.
+std::size_t equal_joints(const Body& body, const Vector<Index>& a, const Vector<Index>& b) {
+  std::size_t k = 1;
+  for (; k < std::min(a.size(), b.size()); ++k) {
+    const double x = norm(body.pivots[at(a[k])] - body.pivots[at(a[k - 1])]),
+                 y = norm(body.pivots[at(b[k])] - body.pivots[at(b[k - 1])]);
+    if (std::min(x, y) < equal_bones * std::max(x, y) - one_place) break;
+  }
+  return k;
+}
+
+// Arms without names that rest in different poses do not mirror each other. They are the two chains on both sides of a
+// central joint whose bones have equal lengths. A body whose arms are named has no others.
+void pair_posed_arms(Body& body) {
+  const bool has_arms = std::any_of(body.limbs.begin(), body.limbs.end(), [](const Limb& limb) {
+    return limb.named == NameClass::arm || limb.named == NameClass::wing;
+  });
+  if (!body.named || has_arms) return;
+  for (const Index carrier : body.tree) {
+    if (!body.is_central(carrier)) continue;
+    Index roots[2] = {-1, -1};
+    for (const Index c : body.children_of(carrier)) {
+      const double side = body.lateral(body.mean_below(c));
+      if (body.mates[at(c)] >= 0 || body.names[at(c)].named != NameClass::none || std::fabs(side) < 2 * central)
+        continue;
+      Index& root = roots[side > 0 ? 0 : 1];
+      if (root < 0 || body.reaches[at(c)] > body.reaches[at(root)]) root = c;
+    }
+    if (roots[0] < 0 || roots[1] < 0) continue;
+    Vector<Index> left = longest_way(body, roots[0]), right = longest_way(body, roots[1]);
+    const std::size_t count = equal_joints(body, left, right);
+    const double length = norm(body.pivots[at(left[count - 1])] - body.pivots[at(left[0])]);
+    if (count < 3 || length < least_arm) continue;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (body.mates[at(left[k])] >= 0 || body.mates[at(right[k])] >= 0) break;
+      body.mates[at(left[k])] = right[k];
+      body.mates[at(right[k])] = left[k];
+    }
+    Limb limb(body.memory);
+    limb.roots[0] = roots[0];
+    limb.roots[1] = roots[1];
+    limb.carrier = carrier;
+    limb.length = 0.5 * (body.reaches[at(roots[0])] + body.reaches[at(roots[1])]);
+    limb.posed = true;
+    body.limbs.push_back(std::move(limb));
+    body.say("Two chains of equal bones in different poses are a pair.");
+  }
+}
+
 }  // namespace
 
 void find_limbs(Body& body) {
@@ -155,6 +229,7 @@ void find_limbs(Body& body) {
     limb.length = 0.5 * (body.reaches[at(j)] + body.reaches[at(mate)]);
     body.limbs.push_back(std::move(limb));
   }
+  pair_posed_arms(body);
 }
 
 void follow_limbs(Body& body) {

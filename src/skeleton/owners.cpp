@@ -63,13 +63,13 @@ bool is_inside(const Body& body, Vec3 p) {
 bool is_bound(const Body& body, Index joint) { return !body.input.bound || body.input.bound[at(joint)]; }
 
 // Whether a joint has a child in its own place that owns vertices: the two are one bone.
-Vector<std::uint8_t> find_doubles(const Body& body) {
-  Vector<std::uint8_t> doubles(at(body.count), 0, &body.memory);
+Vector<std::uint8_t> find_one_bone(const Body& body) {
+  Vector<std::uint8_t> one_bone(at(body.count), 0, &body.memory);
   for (Index j = 0; j < body.count; ++j) {
     const Index p = body.parents[at(j)];
-    if (p >= 0 && body.owns[at(j)] && norm(body.pivots[at(j)] - body.pivots[at(p)]) < one_place) doubles[at(p)] = 1;
+    if (p >= 0 && body.owns[at(j)] && norm(body.pivots[at(j)] - body.pivots[at(p)]) < one_place) one_bone[at(p)] = 1;
   }
-  return doubles;
+  return one_bone;
 }
 
 // Whether a joint is a bone that ends where several parts of the body begin, such as a spine between two arms and a
@@ -101,12 +101,12 @@ Vector<std::uint8_t> find_branchings(const Body& body, const Vector<std::uint8_t
 // Joints that own nothing and stand above all owners: a spine that other joints deform for is inside, a root on the
 // ground is not.
 void keep_inner_joints(Body& body, const Vector<std::uint8_t>& below) {
-  const Vector<std::uint8_t> doubles = find_doubles(body), branchings = find_branchings(body, below);
+  const Vector<std::uint8_t> one_bone = find_one_bone(body), branchings = find_branchings(body, below);
   std::size_t tests = 0;
   for (std::size_t k = body.order.size(); k-- > 0 && tests < inside_tests;) {
     const Index j = body.order[k];
     if (body.kept[at(j)] || !below[at(j)] || !is_bound(body, j)) continue;
-    if (doubles[at(j)] || branchings[at(j)]) {
+    if (one_bone[at(j)] || branchings[at(j)]) {
       body.kept[at(j)] = 1;
       continue;
     }

@@ -55,6 +55,15 @@ bool ends_in_foot(const Body& body, const Limb& limb) {
   });
 }
 
+// Arms without names that reach the ground beside legs that have names: these begin lower on an upright body.
+bool hangs_over_legs(const Body& body, const Limb& limb) {
+  const auto height = [&](const Limb& l) { return body.height_of(body.pivots[at(l.roots[0])]); };
+  return body.trunk > upright_trunk && std::any_of(body.limbs.begin(), body.limbs.end(), [&](const Limb& other) {
+           return other.named == NameClass::leg && other.stands &&
+                  height(limb) > height(other) + 2 * standing * body.height;
+         });
+}
+
 Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count) {
   if (body.head >= 0 && body.head != body.root && body.is_below(limb.carrier, body.head))
     return is_leg_on_head(body, limb) ? Role::leg : role_on_head(limb);
@@ -87,7 +96,7 @@ Role role_of_limb(const Body& body, const Limb& limb, std::size_t standing_count
       return Role::other;
   }
   if (!large) return Role::other;
-  if (limb.stands) return Role::leg;
+  if (limb.stands && !hangs_over_legs(body, limb)) return Role::leg;
   if (flatness(body, limb) < 0.15 && limb.length > 0.3 && limb.paths[0].size() < 4) return Role::wing;
   return Role::arm;
 }
@@ -146,16 +155,19 @@ void assign_sides(Body& body) {
   }
 }
 
-// Returns the place in the path to the head at which a limb begins. Where arms hang on a second row of bones, such as
-// the controls of a Rigify rig, it is the joint of the path that is nearest to theirs.
+// Returns the place in the path to the head at which a limb begins: that of a central joint. Where arms hang on a
+// second row of bones, such as the controls of a Rigify rig, it is the nearest one. A pair on something at one side,
+// such as a pack, does not begin there: 0.
 std::size_t nearest_below_head(const Body& body, const Vector<Index>& path, Index carrier) {
   std::size_t nearest = 0;
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     if (path[k] == carrier) return k;
+    if (!body.is_central(path[k])) continue;  // a head may hang on a collar
     const auto apart = [&](std::size_t i) { return norm(body.pivots[at(path[i])] - body.pivots[at(carrier)]); };
     if (apart(k) < apart(nearest)) nearest = k;
   }
-  return body.head == carrier ? 0 : nearest;
+  const bool aside = std::fabs(body.lateral(body.pivots[at(carrier)])) > 2 * central;
+  return body.head == carrier || aside ? 0 : nearest;
 }
 
 // From the root of the tree to the head: spine, and neck after the last arm or front leg, or by its name.
@@ -264,6 +276,22 @@ void take_declared_roles(Body& body) {
   }
 }
 
+// A body stands on its feet. What it wears or holds, such as a pickaxe that hangs lower, does not carry it.
+void find_ground(Body& body) {
+  double feet = 1e300, trunk = 1e300;
+  for (std::size_t v = 0; v < body.points.size(); ++v) {
+    const Index owner = body.owners[v];
+    if (owner < 0 || !body.kept[at(owner)]) continue;
+    const Role role = body.roles[at(owner)];
+    const bool arm = role == Role::arm || role == Role::hand || role == Role::finger;
+    if (role == Role::other || (arm && body.trunk > upright_trunk)) continue;
+    double& low = role == Role::leg || role == Role::foot || role == Role::toe ? feet : trunk;
+    low = std::min(low, dot(body.points[v], body.up));
+  }
+  // A body that stands on its hands or lies has its trunk below its feet.
+  if (feet < trunk + standing * body.height) body.ground = std::max(body.ground, std::min(feet, trunk));
+}
+
 }  // namespace
 
 void assign_roles(Body& body) {
@@ -286,6 +314,7 @@ void assign_roles(Body& body) {
   assign_trunk(body, given);
   assign_rest(body, given);
   take_declared_roles(body);
+  find_ground(body);
 }
 
 }  // namespace hf_inner

@@ -110,6 +110,13 @@ TEST(TransferFaults, AMeshThatStaysBehindComesOff) {
   model.nodes.push_back(node);
   model.scene_roots.push_back(1);
   const FlatMesh mesh = flatten(model);
+  KnownBody known;
+  known.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  known.nodes.resize(2);
+  known.nodes[0].part = BodyPart::trunk;
+  const std::vector<Fastening> found = fastenings_of({model, mesh, known}, {1});
+  ASSERT_EQ(found.size(), 1u);
+  const Fastening& fastening = found[0];
   std::vector<double> along = double_positions(mesh.positions), stays = along;
   for (const FlatPart& part : mesh.parts) {
     for (size_t v = part.first_vertex; v < part.first_vertex + part.vertex_count; ++v) {
@@ -117,8 +124,82 @@ TEST(TransferFaults, AMeshThatStaysBehindComesOff) {
       if (part.node == 0) stays[3 * v] += 2;
     }
   }
-  EXPECT_NEAR(comes_off(model, mesh, 1, {along}), 0, 1e-12);
-  EXPECT_NEAR(comes_off(model, mesh, 1, {along, stays}), 2 / SurfaceBox(mesh).diagonal(), 1e-12);
+  EXPECT_NEAR(comes_off(fastening, {along}), 0, 1e-12);
+  EXPECT_NEAR(comes_off(fastening, {along, stays}), 2 / SurfaceBox(mesh).diagonal(), 1e-12);
+}
+
+// A block on two feet, 2 high, and something in its hand that hangs lower than the feet.
+struct Walker {
+  Model model;
+  FlatMesh mesh;
+  KnownBody known;
+
+  explicit Walker(bool holds) {
+    add({-0.4, 0.8, -0.2}, {0.4, 2, 0.2}, BodyPart::trunk, -1, 0);
+    add({0.1, 0, -0.2}, {0.3, 0.8, 0.3}, BodyPart::leg, 1, 1);
+    add({-0.3, 0, -0.2}, {-0.1, 0.8, 0.3}, BodyPart::leg, 2, -1);
+    if (holds) {
+      add({-0.6, 1, 0}, {-0.4, 1.2, 0.2}, BodyPart::hand, -1, -1);
+      add({-0.6, -0.5, 0}, {-0.5, 1, 0.1}, BodyPart::other, -1, 0);
+      model.nodes[4].parent = 3;  // the pickaxe hangs on the hand
+      model.nodes[3].children = {4};
+      model.scene_roots.pop_back();
+    }
+    mesh = flatten(model);
+    known.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  }
+  StandingBody body() const { return {model, mesh, known}; }
+  // The body at a height.
+  std::vector<double> at(double height) const {
+    std::vector<double> out = double_positions(mesh.positions);
+    for (size_t i = 1; i < out.size(); i += 3) out[i] += height;
+    return out;
+  }
+  double box() const { return SurfaceBox(mesh).diagonal(); }
+
+ private:
+  void add(const glm::dvec3& low, const glm::dvec3& high, BodyPart part, int limb, int side) {
+    std::vector<glm::dvec3> corners;
+    for (int k = 0; k < 8; ++k)
+      corners.emplace_back(k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z);
+    const Model made = make_model("part", corners, {0, 1, 3, 0, 3, 2, 4, 5, 7, 4, 7, 6});
+    Node node = made.nodes[0];
+    node.mesh = static_cast<int>(model.meshes.size());
+    model.meshes.push_back(made.meshes[0]);
+    model.scene_roots.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(node);
+    known.nodes.push_back({part, side, limb});
+  }
+};
+
+// The second frame is in the air on the source: it does not count.
+TEST(TransferFaults, ABodyHoversByTheMeanHeightOfItsSolesWhileTheSourceStands) {
+  const Walker walker(false);
+  const std::vector<std::vector<double>> source = {walker.at(0), walker.at(0.5), walker.at(0), walker.at(0)};
+  const auto hover = [&](double a, double b, double c, double scale = 1) {
+    return hover_of(walker.body(), walker.body(), scale, source,
+                    {walker.at(a), walker.at(0.9), walker.at(b), walker.at(c)});
+  };
+  EXPECT_EQ(hover(0, 0, 0), 0);
+  EXPECT_NEAR(hover(0.1, 0.2, 0.3), 0.2 / walker.box(), 1e-6);
+  EXPECT_NEAR(hover(0.3, -0.4, 0), 0.1 / walker.box(), 1e-6);  // a body that sinks does not hover less
+  EXPECT_LT(hover_of(walker.body(), walker.body(), 1, {walker.at(0.5)}, {walker.at(0.5)}), 0);  // nothing stands
+  // A source that stands a bit over the ground, scaled.
+  EXPECT_NEAR(hover_of(walker.body(), walker.body(), 2, {walker.at(0.02)}, {walker.at(0.1)}), 0.06 / walker.box(),
+              1e-6);
+}
+
+// A pickaxe that hangs lower than the feet of the source does not say that these are in the air.
+TEST(TransferFaults, TheGroundIsUnderTheFeetAndNotUnderWhatAHandHolds) {
+  const Walker holds(true), bare(false);
+  const std::vector<std::vector<double>> standing = {holds.at(0), holds.at(0), holds.at(0)};
+  EXPECT_NEAR(hover_of(holds.body(), bare.body(), 1, standing, {bare.at(0.1), bare.at(0.1), bare.at(0.1)}),
+              0.1 / bare.box(), 1e-6);
+  // Its feet stand, and those of the target slide by .5 a second.
+  std::vector<std::vector<double>> slides = {bare.at(0), bare.at(0), bare.at(0)};
+  for (size_t f = 0; f < slides.size(); ++f)
+    for (size_t i = 0; i < slides[f].size(); i += 3) slides[f][i] += 0.5 * static_cast<double>(f);
+  EXPECT_NEAR(slide_of(holds.body(), bare.body(), 1, {0, 1, 2}, standing, slides), 0.5 / bare.box(), 1e-6);
 }
 
 TEST(TransferFaults, TheReportHoldsThem) {

@@ -113,6 +113,99 @@ TEST(TransferWay, ASwordInTheGroundIsSaidAndTheBodyIsNot) {
   EXPECT_TRUE(has(said, "what a hand holds is")) << said;
 }
 
+// A box beside the skeleton, as a node of the scene.
+void add_box(hf_gltf::Model& model, const char* name, const glm::dvec3& low, const glm::dvec3& high) {
+  std::vector<glm::dvec3> corners;
+  for (int k = 0; k < 8; ++k)
+    corners.emplace_back(k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z);
+  const hf_gltf::Model made =
+      hf_gltf::make_model(name, corners, {0, 1, 3, 0, 3, 2, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4});
+  hf_gltf::Node node = made.nodes[0];
+  node.name = name;
+  node.mesh = static_cast<int>(model.meshes.size());
+  model.meshes.push_back(made.meshes[0]);
+  model.scene_roots.push_back(static_cast<int>(model.nodes.size()));
+  if (!model.scenes.empty()) model.scenes[model.shown_scene].roots = model.scene_roots;
+  model.nodes.push_back(node);
+}
+
+// No clip says where a hat rides, so it stays behind. A tree, the ground and a house around the body may.
+TEST(TransferWay, AHatThatStaysBehindIsAFaultAndSceneryIsNone) {
+  hf_gltf::Model body = rigged("biped_tall");
+  body.animations.clear();
+  const hf_gltf::FlatMesh mesh = hf_gltf::flatten(body);
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::dvec3& p : mesh.positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::dvec3 size = high - low, top(0.5 * (low.x + high.x), high.y, 0.5 * (low.z + high.z));
+  hf_gltf::Model scene = body;
+  add_box(scene, "tree", low + glm::dvec3(1.6 * size.x, 0, 0), high + glm::dvec3(1.2 * size.x, 0, 0));
+  add_box(scene, "ground", low - glm::dvec3(0.1 * size.y), {high.x + 0.1 * size.y, low.y, high.z + 0.1 * size.y});
+  add_box(scene, "house", low - 0.2 * size, high + 0.2 * size);
+  hf_gltf::Model hat = scene;
+  add_box(hat, "hat", top - 0.05 * size.y, top + 0.1 * size.y);
+  const json plain = walked(written(body, "no_hat.glb"), "no_hat_walk", ""),
+             among = walked(written(scene, "scene.glb"), "scene_walk", ""),
+             worn = walked(written(hat, "hat.glb"), "hat_walk", "");
+  EXPECT_GT(plain["clips"][0]["confidence"], 0.8);
+  EXPECT_GT(among["clips"][0]["confidence"], 0.8);
+  EXPECT_EQ(among["clips"][0]["faults"]["gap"], 0);
+  EXPECT_FALSE(has(among["said"], "rides, so it stays")) << among["said"];
+  EXPECT_GT(worn["clips"][0]["faults"]["gap"], 0.005);
+  EXPECT_LT(worn["clips"][0]["confidence"], plain["clips"][0]["confidence"]);
+  EXPECT_TRUE(has(worn["said"], "on which joint \"hat\" rides, so it stays")) << worn["said"];
+  for (const char* name : {"tree", "ground", "house"})
+    EXPECT_FALSE(has(worn["said"], (std::string("on which joint \"") + name).c_str())) << worn["said"];
+}
+
+json played(const char* source, const char* clip, const char* target, const char* name, const std::string& more = "") {
+  std::string said;
+  const fs::path report = folder() / (std::string(name) + ".json");
+  EXPECT_EQ(transfer(quoted(data() / source) + " " + quoted(data() / target) + " --clip \"" + clip + "\" --fps 12 -o " +
+                         quoted(folder() / (std::string(name) + ".glb")) + " --json " + quoted(report) + more,
+                     said),
+            0)
+      << said;
+  json out = read_json(report);
+  out["said"] = said;
+  return out;
+}
+
+// A person on a machine with bird's legs floats when its legs point as the person's. With its feet on the scaled path
+// it stands. Another one hardly stands on that path, and keeps the way its legs point.
+TEST(TransferWay, OfTwoMotionsOfTheFeetTheBetterOneIsWritten) {
+  if (!fs::exists(data() / "q_Enemy_2Legs.glb") || !fs::exists(data() / "kenney.glb"))
+    GTEST_SKIP() << "the optional shared data is not there (HF_SHARED_DATA)";
+  const json led = played("mannequiny.glb", "run_root.001", "q_Enemy_2Legs.glb", "led");
+  EXPECT_TRUE(has(led["said"], "feet follow the scaled path")) << led["said"];
+  EXPECT_LT(led["clips"][0]["faults"]["hover"], 0.02);
+  const json points = played("kenney.glb", "walk", "q_Enemy_2Legs.glb", "points");
+  EXPECT_FALSE(has(points["said"], "feet follow the scaled path")) << points["said"];
+}
+
+// Without a folder for files of a trial the motion of the surface is written.
+TEST(TransferWay, ATrialThatFailsLeavesTheMotionOfTheSurface) {
+  if (!fs::exists(data() / "q_Cow.glb") || !fs::exists(data() / "farm_Pug.glb"))
+    GTEST_SKIP() << "the optional shared data is not there (HF_SHARED_DATA)";
+  const json tried = played("q_Cow.glb", "Walk", "farm_Pug.glb", "trial");
+  EXPECT_EQ(tried["way"], "skeleton");
+#ifndef _WIN32
+  const char* const before = std::getenv("TMPDIR");
+  const std::string was = before ? before : "";
+  setenv("TMPDIR", (folder() / "no folder").c_str(), 1);
+  const json failed = played("q_Cow.glb", "Walk", "farm_Pug.glb", "no_trial");
+  if (before)
+    setenv("TMPDIR", was.c_str(), 1);
+  else
+    unsetenv("TMPDIR");
+  EXPECT_EQ(failed["way"], "surface");
+  EXPECT_TRUE(has(failed["said"], "joints were tried too, and failed")) << failed["said"];
+  EXPECT_TRUE(fs::exists(folder() / "no_trial.glb"));
+#endif
+}
+
 // Their arms have the same joints, but the one nearest to the middle is another joint in each.
 TEST(TransferWay, LimbsOfTheSameJointsAreComparedJointByJoint) {
   const fs::path source = data() / "q_Trex.glb", target = data() / "q_Velociraptor.glb";

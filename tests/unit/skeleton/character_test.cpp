@@ -288,6 +288,76 @@ TEST(Lengths, AreThoseOfTheBodyInItsUnit) {
 }
 
 // Every joint of the body is in one chain, after its carrier if that is in the same one; frames are rotations.
+// A miner with a pickaxe that hangs lower than his feet stands on his feet. So does one with a low cape. A body that
+// stands on its hands has its ground under the hands.
+TEST(Lengths, TheGroundIsUnderTheFeet) {
+  for (const char* convention : {"mixamo", "kaykit", "words"}) {
+    const double bare = 0;
+    Rig rig = make_biped(convention, {});
+    const auto hand = std::find_if(rig.joints.begin(), rig.joints.end(),
+                                   [](const RigJoint& j) { return j.role == Role::hand && j.side == Side::right; });
+    ASSERT_NE(hand, rig.joints.end());
+    const int pickaxe = rig.add("pick", static_cast<int>(hand - rig.joints.begin()), hand->pivot, Role::other);
+    rig.joints.back().judged = false;
+    rig.add_block(pickaxe, {-0.75, -0.4, -0.02}, {-0.71, 1.4, 0.02});
+    rig.add_block(pickaxe, {-0.95, -0.4, -0.02}, {-0.51, -0.35, 0.02});
+    Memory memory;
+    const PlacedRig placed(rig, {});
+    const Character found = know_character(placed.input(), memory);
+    EXPECT_NEAR(found.ground, bare, 1e-6) << convention;
+    EXPECT_NEAR(dot(found.middle, found.up), bare, 1e-6) << convention;
+    EXPECT_NEAR(found.hip_height, 0.95, 0.01) << convention;
+    EXPECT_EQ(placed.faults(found), "") << convention;
+    for (const hf_inner::Chain& chain : found.chains) {
+      if (chain.role == Role::leg) {
+        EXPECT_NEAR(chain.low, 0, 1e-6) << convention;
+      }
+    }
+  }
+  Rig upside_down = make_biped("mixamo", {});
+  for (Vec3& p : upside_down.points) p.y = -p.y;
+  for (RigJoint& j : upside_down.joints) j.pivot.y = -j.pivot.y;
+  double low = 0;
+  for (const Vec3& p : upside_down.points) low = std::min(low, p.y);
+  Memory memory;
+  const PlacedRig placed(upside_down, {});
+  hf_inner::CharacterInput input = placed.input();
+  const double up[] = {0, 1, 0};
+  input.up = up;
+  const Character found = know_character(input, memory);
+  if (found.up.y > 0.9) {
+    EXPECT_NEAR(found.ground, low, 1e-6);
+  }
+}
+
+// The ends of a scarf, which hang on a knot beside the neck.
+TEST(Limbs, APairOnSomethingAsideDoesNotSayWhereTheNeckBegins) {
+  Rig rig = make_biped("none", {});
+  int neck = -1, chest = -1;
+  for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+    if (rig.joints[j].role == Role::neck) neck = static_cast<int>(j);
+    if (rig.joints[j].role == Role::spine) chest = static_cast<int>(j);
+  }
+  ASSERT_GE(neck, 0);
+  const double y = rig.joints[static_cast<std::size_t>(neck)].pivot.y + 0.05;
+  const int knot = rig.add("", chest, {0.12, y, 0.1}, Role::other);
+  rig.joints.back().judged = false;
+  rig.add_block(knot, {0.1, y - 0.02, 0.08}, {0.14, y + 0.02, 0.16});
+  for (const double s : {1.0, -1.0}) {
+    int end = knot;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 from{s * (0.1 + 0.15 * k), y - 0.05 * k, 0.12}, to{s * (0.25 + 0.15 * k), y - 0.05 - 0.05 * k, 0.12};
+      end = rig.add("", end, from, Role::other);
+      rig.joints.back().judged = false;
+      rig.add_box(end, from, to, 0.02);
+    }
+  }
+  Memory memory;
+  const PlacedRig placed(rig, {});
+  const Character found = know_character(placed.input(), memory);
+  EXPECT_EQ(found.roles[static_cast<std::size_t>(neck)], Role::neck) << placed.faults(found);
+}
+
 TEST(Chains, HoldEveryJointOnceFromRootToTip) {
   for (const std::string& convention : biped_conventions) {
     const Rig rig = make_biped(convention, {});
