@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "mesh/corner_tree.h"
 #include "mesh/face_correction.h"
 #include "mesh/face_cut.h"
 #include "mesh/face_operator.h"
@@ -168,6 +169,25 @@ TEST(FaceCut, a_dart_has_one_cut_and_a_bent_square_two) {
 }
 
 // Every ear of a comb is blocked by reflex corners until its neighbours are gone.
+TEST(CornerTree, tries_corners_on_the_sides_of_a_triangle_wherever_rounding_puts_them) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int round = 0; round < 20; ++round) {
+    const Vec3 from{any(random), any(random), any(random)}, normal{any(random), any(random), any(random)};
+    const Vec3 along = cross(normal, Vec3{1, 0, 0}), aside = cross(normal, along);
+    std::vector<Vec3> points;
+    const std::int32_t count = 100;  // a row of corners, and one beside it
+    for (std::int32_t i = 0; i < count; ++i) points.push_back(from + (i / (count - 1.0)) * along);
+    points.push_back(from + 0.5 * along + aside);
+    hf_inner::Memory memory;
+    hf_inner::CornerTree tree(memory);
+    tree.make(points, normal);
+    for (std::int32_t i = 0; i <= count; ++i) tree.put_in(i);
+    for (std::int32_t i = 0; i <= count; ++i)
+      EXPECT_EQ(tree.find(0, count - 1, count, [&](std::int32_t corner) { return corner == i; }), i);
+  }
+}
+
 TEST(FaceCut, cuts_combs_of_thousands_of_corners) {
   std::vector<Vec3> points;
   const int teeth = 1000;

@@ -123,6 +123,27 @@ TEST(FluxSurface, ClosesBordersTurnsTrianglesAndPartsFans) {
   }
 }
 
+TEST(FluxSurface, JoinsTheFlattestTrianglesOfAnEdgeHoweverFarTheyLean) {
+  hf_test::PlainMesh mesh = hf_test::grid(6, 5);
+  const std::uint32_t n = mesh.vertex_count();
+  // an edge along x with a triangle to each side, and one that stands on it; all lean far along the edge
+  mesh.positions.insert(mesh.positions.end(), {5, 0, 0, 5.1, 0, 0, 6, 0.2, 0, 6, -0.2, 0, 4, 0, 0.2});
+  mesh.triangles.insert(mesh.triangles.end(), {n, n + 1, n + 2, n + 1, n, n + 3, n, n + 1, n + 4});
+  const auto core = hf_test::make_core(mesh);
+  const FluxSurface s = FluxSurface::make(core->mesh, core->topology, *core->memory);
+  const auto place = [&](std::int32_t v) { return core->mesh.to_given(s.position[v]); };
+  int flat = 0, standing = 0;
+  for (std::int32_t h = 0; h < 3 * s.real_triangles; ++h) {
+    const Vec3 a = place(s.tail[h]), b = place(s.head(h)), apex = place(s.tail[FluxSurface::previous(h)]);
+    if (std::fabs(a.x + b.x - 10.1) > 1e-9 || std::fabs(a.x - b.x) > 0.1 + 1e-9) continue;
+    const bool stands = apex.z > 0.1;
+    EXPECT_EQ(s.is_real(s.twin[h]), !stands);
+    (stands ? standing : flat) += 1;
+  }
+  EXPECT_EQ(flat, 2);
+  EXPECT_EQ(standing, 1);
+}
+
 hf_test::PlainMesh moebius_band(std::uint32_t n) {
   hf_test::PlainMesh mesh;
   for (std::uint32_t i = 0; i < n; ++i) {
