@@ -9,10 +9,9 @@
 #include "deform/normals_avx2.h"
 
 namespace hf_inner {
-namespace {
 
-void add_border_normals(const NormalRows& rows, const std::int32_t* corners, std::int32_t count, std::int32_t first,
-                        std::int32_t last) noexcept {
+void add_border_normals_plain(const NormalRows& rows, const std::int32_t* corners, std::int32_t count,
+                              std::int32_t first, std::int32_t last) noexcept {
   for (std::int32_t i = 0; i < count; ++i) {
     const std::int32_t* corner = corners + 3 * static_cast<std::size_t>(i);
     const double* p[3];
@@ -32,8 +31,10 @@ void add_border_normals(const NormalRows& rows, const std::int32_t* corners, std
   }
 }
 
+namespace {
+
 void add_inner_normals(const NormalRows& rows, const std::int32_t* corners, std::int32_t count) noexcept {
-  add_border_normals(rows, corners, count, 0, std::numeric_limits<std::int32_t>::max());
+  add_border_normals_plain(rows, corners, count, 0, std::numeric_limits<std::int32_t>::max());
 }
 
 // Adds to the vertices [first, last) twice the area vectors of the faces around them.
@@ -91,7 +92,7 @@ void vertex_normals(const Mesh& mesh, const Rest& rest, const Vec3* positions, N
   static_assert(sizeof(Normal) == 3 * sizeof(float));
   const NormalRows rows{&positions->x, 1.0 / mesh.scale, sums->component, &normals->x};
   auto* add_inner = &add_inner_normals;
-  auto* add_border = &add_border_normals;
+  auto* add_border = &add_border_normals_plain;
 #ifdef HF_DEFORM_AVX2
   if (HF_PROCESSOR_HAS("avx2")) {
     add_inner = &add_inner_normals_avx2;

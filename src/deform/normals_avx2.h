@@ -13,7 +13,9 @@ struct NormalRows {
 };
 
 // Add the normals of `count` triangles, three corners each, to the sums of their corners. The border functions only add
-// to the vertices [first, last).
+// to the vertices [first, last). The plain ones run where there are no lanes.
+void add_border_normals_plain(const NormalRows& rows, const std::int32_t* corners, std::int32_t count,
+                              std::int32_t first, std::int32_t last) noexcept;
 void add_inner_normals_avx2(const NormalRows& rows, const std::int32_t* corners, std::int32_t count) noexcept;
 void add_border_normals_avx2(const NormalRows& rows, const std::int32_t* corners, std::int32_t count,
                              std::int32_t first, std::int32_t last) noexcept;

@@ -212,7 +212,8 @@ static void a_skin_follows_frames(void** state) {
 static void a_fitted_skin_does_not_sink_under_the_frames(void** state) {
   (void)state;
   hf_gltf_model still = strip(), model = swinging(still);
-  double frames[3 * 3 * VERTICES], times[3] = {0, 0.5, 1}, posed[3 * VERTICES];
+  double frames[3 * 3 * VERTICES + 3], times[3] = {0, 0.5, 1}, posed[3 * VERTICES];
+  for (uint32_t c = 0; c < 3; ++c) frames[3 * 3 * VERTICES + c] = -1e30; /* behind the frames: no ground */
   for (uint32_t i = 0; i < 3 * 3 * VERTICES; ++i) {
     const uint32_t vertex = i / 3 % VERTICES;
     frames[i] = i % 3 == 0 ? vertex % 2 : i % 3 == 1 ? 0.9 * (vertex / 2) : 0;

@@ -7,6 +7,7 @@
 
 #include "cases.h"
 #include "deform/blend_rows.h"
+#include "deform/normals_avx2.h"
 
 namespace {
 
@@ -48,6 +49,15 @@ TEST(Frame, NormalsAreThoseOfTheTrianglesRoundAVertexWhateverThePieces) {
     double off = 0;
     for (std::size_t v = 0; v < wanted.size(); ++v) off = std::max(off, norm(to_vec3(report.normals[v]) - wanted[v]));
     EXPECT_LT(off, 1e-6) << c.name;
+    // the loop of processors without lanes
+    const std::vector<Vec3> x = positions(report);
+    std::vector<float> sum(4 * x.size());
+    const NormalRows rows{&x[0].x, 1 / d.core->mesh.scale, sum.data(), nullptr};
+    add_border_normals_plain(rows, d.core->mesh.corners.data(), d.core->mesh.triangle_count(), 0, d.core->size());
+    for (std::size_t v = 0; v < x.size(); ++v) {
+      const Vec3 n{sum[4 * v], sum[4 * v + 1], sum[4 * v + 2]};
+      EXPECT_LT(norm((1 / norm(n)) * n - wanted[v]), 1e-5) << c.name << " " << v;
+    }
   }
 }
 
@@ -93,8 +103,8 @@ TEST(Frame, NormalsDoNotDependOnTheUnitOfTheMesh) {
 TEST(Frame, WeightsAreWholeStepsAndSumToOneExactly) {
   const Case c = cactus_bend();
   Dragged d = set_up(c, {});
-  add(*d.pose, {select(*d.core, [](Vec3 p) { return p.x > 0.55; }),
-                select(*d.core, [](Vec3 p) { return p.x < -0.5; })});
+  add(*d.pose,
+      {select(*d.core, [](Vec3 p) { return p.x > 0.55; }), select(*d.core, [](Vec3 p) { return p.x < -0.5; })});
   const ClusterWeights& w = *d.pose->weights();
   std::size_t shared = 0;
   for (std::int32_t v = 0; v < d.core->size(); ++v) {
@@ -126,9 +136,17 @@ void expect_same_blend(const Dragged& d) {
   for (std::size_t i = 0; i < packed.size(); ++i) ASSERT_EQ(packed[i], static_cast<float>((&x[0].x)[i]));
 #if defined(__x86_64__) && defined(__GNUC__)
   for (const bool blocks : {true, false}) {
-    const BlendRows rows{w.start.data(), w.cluster.data(), w.weight.data(), columns.data(), &mesh.positions.data()->x,
-                         {mesh.centre.x, mesh.centre.y, mesh.centre.z}, mesh.scale, &x[0].x,
-                         blocks ? w.block_start.data() : nullptr, w.block_cluster.data(), w.block_weight.data()};
+    const BlendRows rows{w.start.data(),
+                         w.cluster.data(),
+                         w.weight.data(),
+                         columns.data(),
+                         &mesh.positions.data()->x,
+                         {mesh.centre.x, mesh.centre.y, mesh.centre.z},
+                         mesh.scale,
+                         &x[0].x,
+                         blocks ? w.block_start.data() : nullptr,
+                         w.block_cluster.data(),
+                         w.block_weight.data()};
     if (!__builtin_cpu_supports("avx2")) continue;
     std::fill(x.begin(), x.end(), Vec3());
     blend_rows_avx2(rows, 0, d.core->size());
@@ -158,8 +176,8 @@ TEST(Frame, VerticesInAnyOrderAreBlendedOneByOne) {
 TEST(Frame, BlocksHoldTheWeightsOfTheirVertices) {
   Case c = cactus_bend();
   Dragged d = set_up(c, {});
-  add(*d.pose, {select(*d.core, [](Vec3 p) { return p.x > 0.55; }),
-                select(*d.core, [](Vec3 p) { return p.x < -0.5; })});
+  add(*d.pose,
+      {select(*d.core, [](Vec3 p) { return p.x > 0.55; }), select(*d.core, [](Vec3 p) { return p.x < -0.5; })});
   const ClusterWeights& w = *d.pose->weights();
   for (std::size_t b = 0; b + 1 < w.block_start.size(); ++b) {
     if (w.block_start[b] == w.block_start[b + 1]) continue;
