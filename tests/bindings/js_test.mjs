@@ -32,10 +32,11 @@ assert.ok(wrongCalls >= 100);
 // ---- the README names every class, and no class or method that is not there
 const readme = readFileSync(join(js, '../README.md'), 'utf8');
 const isClass = (name) => typeof hf[name] === 'function';
-const members = (name) => new Set([...Object.getOwnPropertyNames(hf[name]), ...chainOf(hf[name].prototype).flatMap(Object.getOwnPropertyNames)]);
-function chainOf(prototype) {
-  return prototype && prototype !== Object.prototype ? [prototype, ...chainOf(Object.getPrototypeOf(prototype))] : [];
-}
+/** An object and what it inherits from: statics of a class are inherited too. */
+const chainOf = (thing) =>
+  [null, Object.prototype, Function.prototype].includes(thing) ? [] : [thing, ...chainOf(Object.getPrototypeOf(thing))];
+const members = (name) =>
+  new Set([hf[name], hf[name].prototype].flatMap(chainOf).flatMap((thing) => Object.getOwnPropertyNames(thing)));
 const code = [...readme.matchAll(/`([^`\n]+)`/g)].map(([, text]) => text);
 const named = new Set(code.flatMap((text) => text.match(/\b[A-Z][a-z]\w*\b/g) ?? []));
 assert.deepEqual(Object.keys(hf).filter((name) => isClass(name) && !named.has(name)), [], 'classes that the README lacks');
