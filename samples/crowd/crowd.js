@@ -6,27 +6,42 @@ import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
+// what goes wrong from here on is said on the page (index.html)
+const said = document.getElementById('said');
 const query = new URLSearchParams(location.search);
+/** As many as fit a texture of WebGL 2 almost everywhere, a row for each. More take seconds a frame, and twice the memory for twice as many. */
+const MOST = 8192;
 const count = Number(query.get('count') ?? 1000);
+if (!Number.isInteger(count) || count < 1 || count > MOST)
+  throw new Error(`count is "${query.get('count')}"; it must be a whole number from 1 to ${MOST}.`);
+/** More Workers than these leave no core to the page and the GPU's driver. */
+const MOST_WORKERS = 4;
 const adapter = query.has('webgl') ? null : await navigator.gpu?.requestAdapter().catch(() => null);
 const { makeRenderer, makeMaterial } = await import(adapter ? './webgpu.js' : './webgl.js');
 
 // ---- the body, as hf takes it: the first mesh of a model
-const model = await new GLTFLoader().loadAsync(query.get('model') ?? 'creature.glb');
+const file = query.get('model') ?? 'creature.glb';
+const model = await new GLTFLoader().loadAsync(file).catch((error) => {
+  throw new Error(`${file} could not be read: ${error.message}`);
+});
 let body = null;
 model.scene.traverse((object) => (body ??= object.isMesh ? object.geometry : null));
-const positions = new Float32Array(body.attributes.position.array);
+if (!body) throw new Error(`${file} holds no mesh.`);
+const place = body.attributes.position;
+// also of attributes that are interleaved or packed
+const positions = Float32Array.from({ length: 3 * place.count }, (_, i) => place.getComponent(Math.floor(i / 3), i % 3));
+if (!body.index) body.setIndex(Array.from({ length: place.count }, (_, v) => v));
 const triangles = new Uint32Array(body.index.array);
 
 // ---- Workers: each makes the surface, and poses its share of the creatures
 const workers = Array.from(
-  { length: Math.min(count, 4, navigator.hardwareConcurrency) },
+  { length: Math.min(count, MOST_WORKERS, navigator.hardwareConcurrency || 1) },
   () => new Worker('worker.js', { type: 'module' }),
 );
 const answer = (worker, question) =>
   new Promise((done, failed) => {
     worker.onmessage = ({ data }) => (data.error ? failed(new Error(data.error)) : done(data));
-    worker.onerror = (event) => failed(new Error(event.message ?? 'a Worker did not start'));
+    worker.onerror = (event) => failed(new Error(event.message || 'a Worker did not start'));
     worker.postMessage(question);
   });
 const shareOf = (w) => Math.floor((w * count) / workers.length);
@@ -108,19 +123,26 @@ window.hfCrowd = {
 if (query.has('still')) {
   await window.hfCrowd.show(0);
 } else {
-  let [begun, drawn] = [performance.now(), 0];
-  const said = document.getElementById('said');
-  const again = async () => {
-    const milliseconds = await pose(performance.now() / 1000);
+  /** Pictures of which a rate is told: a second of them on most screens. */
+  const COUNTED = 60;
+  let [begun, drawn, solving] = [performance.now(), 0, false];
+  /** Asks for the next pose when the last one is there: a picture never waits for one. */
+  const solve = async (seconds) => {
+    if (solving) return;
+    solving = true;
+    const milliseconds = await pose(seconds);
     const rate = (1000 * drawn) / (performance.now() - begun);
     said.textContent = `${count} creatures of ${rows.vertexCount} vertices, ${name}: poses ${milliseconds.toFixed(0)} ms on ${workers.length} Workers, ${rate.toFixed(0)} pictures a second`;
-    again();
+    solving = false;
   };
-  again();
-  renderer.setAnimationLoop(() => {
-    if (++drawn % 60 === 0) [begun, drawn] = [performance.now(), 0];
+  // the browser asks for pictures, and for none of a page that is hidden: then nothing is solved either
+  const picture = (now) => {
+    solve(now / 1000);
+    if (++drawn % COUNTED === 0) [begun, drawn] = [performance.now(), 0];
     controls.update();
     renderer.render(scene, camera);
-  });
+    requestAnimationFrame(picture);
+  };
+  requestAnimationFrame(picture);
 }
 document.body.dataset.ready = name;

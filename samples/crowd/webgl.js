@@ -19,7 +19,9 @@ export async function makeRenderer() {
 }
 
 export async function makeMaterial({ rows, transforms, clusterCount, colours }) {
-  const shader = await (await fetch('shaders/hf_blend_textures.glsl')).text();
+  const answer = await fetch('shaders/hf_blend_textures.glsl');
+  if (!answer.ok) throw new Error(`hf_blend_textures.glsl could not be loaded (${answer.status}).`);
+  const shader = await answer.text();
   const entries = new Float32Array(4 * rows.entryCount); // gradients and weights
   for (let e = 0; e < rows.entryCount; ++e) {
     for (let k = 0; k < 3; ++k) entries[4 * e + k] = rows.gradients[3 * e + k];

@@ -19,7 +19,9 @@ export async function makeRenderer() {
 }
 
 export async function makeMaterial({ rows, transforms, clusterCount, colours }) {
-  const source = await (await fetch('shaders/hf_blend.wgsl')).text();
+  const answer = await fetch('shaders/hf_blend.wgsl');
+  if (!answer.ok) throw new Error(`hf_blend.wgsl could not be loaded (${answer.status}).`);
+  const source = await answer.text();
   const clusters = new Uint32Array((rows.entryCount + 1) >> 1); // two in a word
   new Uint16Array(clusters.buffer).set(rows.clusters);
   const buffers = {

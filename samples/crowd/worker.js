@@ -6,7 +6,9 @@ import factory from './hf_module.js';
 let poses, tips, first, size;
 
 async function start(message) {
-  const hf = await apiOf(factory, await (await fetch('hf.wasm')).arrayBuffer());
+  const answer = await fetch('hf.wasm');
+  if (!answer.ok) throw new Error(`hf.wasm could not be loaded (${answer.status}).`);
+  const hf = await apiOf(factory, await answer.arrayBuffer());
   const surface = new hf.Surface(message.positions, message.triangles);
   // fewer groups and bands than usual: a frame is cheaper, and a clone smaller
   const pose = new hf.Pose(surface, { groupCount: 60, bandCount: 5 });

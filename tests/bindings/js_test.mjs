@@ -29,6 +29,24 @@ const wrongCalls = scenes.flatMap((scene) => scene.steps).filter((step) => step.
 console.log(`${hf.backend}: ${scenes.length} scenes agree, ${wrongCalls} wrong calls answered`);
 assert.ok(wrongCalls >= 100);
 
+// ---- the README names every class, and no class or method that is not there
+const readme = readFileSync(join(js, '../README.md'), 'utf8');
+const isClass = (name) => typeof hf[name] === 'function';
+/** An object and what it inherits from: statics of a class are inherited too. */
+const chainOf = (thing) =>
+  [null, Object.prototype, Function.prototype].includes(thing) ? [] : [thing, ...chainOf(Object.getPrototypeOf(thing))];
+const members = (name) =>
+  new Set([hf[name], hf[name].prototype].flatMap(chainOf).flatMap((thing) => Object.getOwnPropertyNames(thing)));
+const code = [...readme.matchAll(/`([^`\n]+)`/g)].map(([, text]) => text);
+const named = new Set(code.flatMap((text) => text.match(/\b[A-Z][a-z]\w*\b/g) ?? []));
+assert.deepEqual(Object.keys(hf).filter((name) => isClass(name) && !named.has(name)), [], 'classes that the README lacks');
+const owners = Object.keys(hf).filter(isClass);
+for (const text of code)
+  for (const [, owner, member] of text.matchAll(/\b([A-Za-z]+)\.(\w+)/g)) {
+    const name = owners.find((one) => one.toLowerCase() === owner.toLowerCase());
+    if (name) assert.ok(members(name).has(member), `the README names ${owner}.${member}`);
+  }
+
 // ---- wrong arguments
 const { positions, triangles } = meshes.torus;
 const n = positions.length / 3;

@@ -18,6 +18,8 @@ export function skip(why) {
   process.exit(77);
 }
 
+/** A pose of the largest body comes to rest within so many looks at it, of so many milliseconds: one second in all. */
+const [LOOKS, LOOK_MS] = [100, 10];
 /** A busy machine may take so long to load a page or to find what is clicked. No goal is measured by it. */
 const WAIT_MS = 180000;
 
@@ -145,13 +147,13 @@ export class Studio {
   }
   /** Until nothing is on its way to the Worker, the pose rests, and the picture is drawn. */
   async settle() {
-    await this.page.evaluate(async () => {
-      for (let wait = 0; window.hfStudio.moving && wait < 100; ++wait)
-        await new Promise((done) => setTimeout(done, 10));
+    await this.page.evaluate(async ([looks, time]) => {
+      for (let wait = 0; window.hfStudio.moving && wait < looks; ++wait)
+        await new Promise((done) => setTimeout(done, time));
       await window.hfStudio.client.ask('memory');
       await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
       await window.hfStudio.client.ask('memory');
-    });
+    }, [LOOKS, LOOK_MS]);
     await this.page.waitForTimeout(30);
   }
   /** Until the session is written. */
@@ -225,7 +227,7 @@ export class Studio {
     if (!hold) await this.page.mouse.up();
     await this.settle();
   }
-  /** Pixels where a ray meets the body, on a grid: [x, y, vertex]. */
+  /** Pixels of a grid where a ray meets the body and a pointer meets the canvas: [x, y, vertex, position]. */
   spots(step = 24) {
     return this.page.evaluate((step) => {
       const { view, skin } = window.hfStudio;
@@ -243,6 +245,7 @@ export class Studio {
             )
           )
             continue;
+          if (document.elementFromPoint(cx, cy)?.id !== 'canvas') continue; // a button of the views, say, takes the finger
           const hit = skin.pick(view.ray(x, y));
           if (hit) found.push([cx, cy, hit.vertex, hit.position]);
         }

@@ -123,6 +123,32 @@ export default async function story(host) {
     await page.getByRole('button', { name: 'Take the horse' }).click();
     await page.waitForFunction(() => window.hfStudio.history.past.length === 0 && window.hfStudio.skin.bvh);
   });
+  await check('bones that the library refuses are not used, and the notes of the body say so', async () => {
+    const found = await page.evaluate(async () => {
+      const { client, body } = window.hfStudio;
+      const open = async (skeleton) => {
+        const { positions, triangles, fileNormals } = body;
+        const { notes, proposals } = await client.ask('open', { positions, triangles, fileNormals, skeleton });
+        return { notes, proposals: proposals.length };
+      };
+      const good = body.skeleton;
+      const found = {
+        good: await open(good),
+        weights: await open({ ...good, weights: good.weights.map(() => NaN) }),
+        rest: await open({ ...good, rest: good.rest.map(() => NaN) }),
+      };
+      await window.hfStudio.openSample('horse');
+      return found;
+    });
+    assert.deepEqual(found.good.notes, []);
+    const [links, handles] = [/^pieces are linked without the bones/, /^handles are proposed by shape/];
+    assert.equal(found.weights.notes.length, 2);
+    found.weights.notes.forEach((note, i) => assert.match(note, [links, handles][i]));
+    assert.equal(found.rest.notes.length, 1);
+    assert.match(found.rest.notes[0], handles);
+    for (const { proposals } of Object.values(found)) assert.ok(proposals > 4, JSON.stringify(found));
+    return found.weights.notes.join('; ');
+  });
   await check('without hf.wasm a card says so', async () => {
     const bare = await Studio.open(host, {
       wait: false,

@@ -189,6 +189,7 @@ export default async function story(host) {
     await studio.page.click('#tool-quads');
     await studio.page.waitForFunction(() => /could not be loaded/.test(document.getElementById('told').textContent));
     assert.equal(await studio.page.textContent('#sheet-name'), 'Pose');
+    assert.match(await studio.page.textContent('#matters'), /could not be loaded/);
     await studio.close();
   });
   await check('the horse can be pulled', async () => {

@@ -98,6 +98,13 @@ export default async function story(host) {
     assert.deepEqual([found.places, found.triangles, found.size], [8, 12, [6, 6, 6]]);
     assert.equal(readFileSync(path).length, 84 + 50 * 12);
   });
+  await check('stl: 0 and -0 are one place', async () => {
+    const facet = (...corners) => `facet normal 0 0 0\nouter loop\n${corners.map((p) => `vertex ${p}`).join('\n')}\nendloop\nendfacet\n`;
+    // two triangles with one edge, whose ends have a zero of either sign
+    const text = `solid two\n${facet('0 0 0', '1 0 0', '0 1 0')}${facet('1 -0 0', '1 1 -0', '-0 1 0')}endsolid two\n`;
+    await take('zeros.stl', text);
+    assert.equal(await page.evaluate(() => window.hfStudio.body.vertexCount), 4);
+  });
   await check('vrm: saved as vrm with another shape, and all else of its JSON is what it was', async () => {
     const before = vrm(readFileSync(join(folder, 'samples/biped.glb')));
     await take('biped.vrm', before);

@@ -17,6 +17,44 @@ const whole = () => {
   );
 };
 
+/**
+ * In the page: what the session keeps under a key. value: is written before; bytes: as its bytes. drop: the fields of what is there
+ * that are taken away.
+ */
+const kept = ({ key, value, bytes, drop = [] }) =>
+  new Promise((done, failed) => {
+    const request = indexedDB.open('hf-studio', 1);
+    request.onerror = () => failed(request.error);
+    request.onsuccess = () => {
+      const store = request.result.transaction('session', 'readwrite').objectStore('session');
+      if (bytes) value = { ...value, bytes: Uint8Array.from(bytes) };
+      if (value !== undefined) store.put(value, key);
+      const answer = store.get(key);
+      answer.onsuccess = () => {
+        const { result } = answer;
+        for (const field of drop) delete result[field];
+        if (drop.length) store.put(result, key);
+      };
+      store.transaction.oncomplete = () => (request.result.close(), done(JSON.parse(JSON.stringify(answer.result))));
+      store.transaction.onabort = () => failed(store.transaction.error);
+    };
+  });
+/** Pulls a free handle by a step, so that something is there to be kept. */
+const pull = () => {
+  const { state, tools, view } = window.hfStudio;
+  const offer = tools.pose.offers.find(({ id }) => !state.handles.some((other) => other.id === id));
+  return window.hfStudio.commit({ ...state, handles: [...state.handles, { ...offer, pinned: false, translation: [0, 0.1 * view.size, 0] }] }, 'pull');
+};
+/** A page with a session that is written, of a pulled horse. */
+async function withSession(host, more = {}) {
+  const studio = await Studio.open(host, { query: '', ...more });
+  await studio.page.click('#tour-skip');
+  await studio.page.evaluate(pull);
+  await studio.page.evaluate(() => window.hfStudio.session.changed());
+  await studio.written();
+  return studio;
+}
+
 export default async function story(host) {
   await check('a session is whole after a reload: sites, the source of a transfer, weights, quads, detail, the view', async () => {
     const studio = await Studio.open(host, { query: '' });
@@ -72,6 +110,130 @@ export default async function story(host) {
     assert.ok((await studio.marks()).length >= 12);
     await studio.tool('quads');
     assert.equal((await studio.facts()).quads, before.quads[0].toLocaleString('en'));
+    assert.deepEqual(studio.complaints, []);
+    await studio.close();
+  });
+
+  await check('what was set and is refused is not lost: a card says why, and nothing is written over it until it is given up', async () => {
+    const studio = await withSession(host);
+    const { page } = studio;
+    const settings = await page.evaluate(kept, { key: 'settings' });
+    const { handles } = settings.state;
+    settings.state.handles = [...handles, { ...handles[0], id: 'twice' }];
+    await page.evaluate(kept, { key: 'settings', value: settings });
+    for (let visit = 0; visit < 2; ++visit) {
+      await page.reload();
+      await studio.ready();
+      await page.waitForSelector('#card[open]');
+      assert.match(await page.textContent('#card'), /last session with horse.glb is not whole.*(overlap|belongs to handle)/);
+      if (!visit) await studio.picture('session_waits', { kept: false });
+      await page.click('#card button:text-is("Close")');
+      // the body is there, as it opens, and can be posed
+      assert.equal(await page.evaluate(() => window.hfStudio.history.state.handles.length), 5);
+      await page.evaluate(pull);
+      await page.evaluate(() => window.hfStudio.session.changed());
+      await page.waitForTimeout(600);
+      await studio.written();
+      assert.deepEqual(await page.evaluate(kept, { key: 'settings' }), settings);
+    }
+    await page.reload();
+    await page.waitForSelector('#card[open]');
+    await page.click('#card button:text-is("Give it up")');
+    await page.evaluate(pull);
+    await page.waitForTimeout(600);
+    await studio.written();
+    assert.equal((await page.evaluate(kept, { key: 'settings' })).state.handles.length, 6);
+    await page.reload();
+    await studio.ready();
+    await page.waitForFunction(() => window.hfStudio.state.handles.length === 6);
+    assert.equal(await page.locator('#card[open]').count(), 0);
+    assert.deepEqual(studio.complaints, []);
+    await studio.close();
+  });
+  await check('a kept body that does not open any more stays kept; given up, the sample in its place is', async () => {
+    const studio = await withSession(host);
+    const { page } = studio;
+    const name = async () => (await page.evaluate(kept, { key: 'body' })).name;
+    await page.evaluate(kept, { key: 'body', value: { name: 'mine.glb' }, bytes: [...Buffer.from('glTF, cut')] });
+    await page.reload();
+    await studio.ready();
+    await page.waitForSelector('#card[open]');
+    assert.match(await page.textContent('#card'), /last session with mine.glb is not whole/);
+    assert.equal(await page.evaluate(() => window.hfStudio.body.name), 'horse.glb');
+    assert.equal(await name(), 'mine.glb');
+    assert.ok(await page.evaluate(kept, { key: 'settings' }));
+    await page.click('#card button:text-is("Give it up")');
+    await studio.written();
+    assert.equal(await name(), 'horse.glb');
+    await studio.close();
+  });
+  await check('a tool whose part cannot be brought back is named, and the session stays', async () => {
+    const studio = await withSession(host);
+    const { page } = studio;
+    const settings = await page.evaluate(kept, { key: 'settings' });
+    settings.tools.transfer = { source: 'a walk that is gone.glb', pairs: null, dials: {}, clip: 0 };
+    await page.evaluate(kept, { key: 'settings', value: settings });
+    await page.reload();
+    await studio.ready();
+    await page.waitForSelector('#card[open]');
+    assert.match(await page.textContent('#card'), /transfer: a walk that is gone.glb is not here/);
+    await page.click('#card button:text-is("Close")');
+    assert.equal(await page.evaluate(() => window.hfStudio.history.state.handles.length), 6);
+    assert.deepEqual(await page.evaluate(kept, { key: 'settings' }), settings);
+    await studio.close();
+  });
+  for (const [what, error, said] of [['has no room', 'QuotaExceededError', /no room to keep/], ['keeps nothing', 'InvalidStateError', /keeps nothing/]])
+    await check(`a browser that ${what} says so in the sheet`, async () => {
+      const studio = await Studio.open(host, {
+        query: '',
+        before: (page) =>
+          page.addInitScript((error) => {
+            IDBObjectStore.prototype.put = () => {
+              throw new DOMException('of the test', error);
+            };
+          }, error),
+      });
+      await studio.page.waitForSelector('#matters');
+      assert.match(await studio.page.textContent('#matters'), said);
+      assert.deepEqual(studio.complaints, []);
+      await studio.close();
+    });
+  await check('quads that were on their way when the page was left are made for the strokes that came back', async () => {
+    const studio = await withSession(host);
+    const { page } = studio;
+    await studio.tool('quads');
+    await page.locator('#count').fill('9');
+    await page.click('#make');
+    await page.waitForFunction(() => window.hfStudio.tools.quads.result && !window.hfStudio.tools.quads.busy);
+    await studio.written();
+    const mesh = () => page.evaluate(() => window.hfStudio.tools.quads.result.mesh.positions.join());
+    await page.evaluate(async () => {
+      const app = window.hfStudio;
+      const places = [0, 8, 16, 24, 32].map((vertex) => app.cornerOf(vertex));
+      await app.commit({ ...app.state, strokes: [{ id: 'k1', places }] }, 'draw a stroke');
+    });
+    const still = () =>
+      page.waitForFunction(() => {
+        const { tools, history } = window.hfStudio;
+        return !tools.quads.following && tools.quads.relaxed && tools.quads.shows(history.state);
+      });
+    await still();
+    const stroked = await mesh();
+    await page.evaluate(() => window.hfStudio.session.changed());
+    await page.waitForTimeout(600);
+    await studio.written();
+    // as if the page had been left before the mesh of the stroke was there
+    await page.evaluate(kept, { key: 'quads', drop: ['strokes'] });
+    for (const agrees of [false, true]) {
+      await page.reload();
+      await studio.ready();
+      await page.waitForFunction(() => window.hfStudio.tools.quads?.result);
+      await still();
+      assert.equal(await mesh(), stroked);
+      // its Worker was started where it was made again
+      assert.equal(Boolean(await page.evaluate(() => window.hfStudio.tools.quads.line)), !agrees);
+      await studio.written();
+    }
     assert.deepEqual(studio.complaints, []);
     await studio.close();
   });

@@ -99,6 +99,94 @@ export default async function story(host) {
     assert.ok(moved > 0.02, `${moved}`);
     await page.keyboard.press('Control+z');
   });
+  await check('a drag beside a mark that the body hides turns the view', async () => {
+    await page.click('#view-side');
+    await studio.settle();
+    await page.waitForTimeout(300);
+    const hidden = (await studio.marks()).filter(({ classes }) => classes.includes('behind'));
+    const seen = (await studio.marks()).filter(({ classes }) => !classes.includes('behind'));
+    assert.ok(hidden.length, 'a foot on the other side');
+    const far = (mark, [x, y]) => Math.hypot(x - mark.x, y - mark.y);
+    const place = (await studio.spots(4)).find((spot) => hidden.some((mark) => far(mark, spot) < 40) && seen.every((mark) => far(mark, spot) > 46));
+    assert.ok(place, 'a place of the body that is near to hidden marks alone');
+    const { turn } = await now();
+    const steps = await page.evaluate(() => window.hfStudio.history.past.length);
+    await studio.drag(place[0], place[1], 40, -20);
+    assert.notEqual((await now()).turn, turn);
+    assert.equal(await page.evaluate(() => window.hfStudio.history.past.length), steps);
+    await page.click('#view-home');
+  });
+  await check('a second finger, or a pointer that the system takes, gives up what was pulled: no step, and the body goes back', async () => {
+    await page.click('#view-home');
+    await studio.settle();
+    const session = await page.context().newCDPSession(page);
+    const send = (type, ...points) => session.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const mark = await studio.mark('head');
+    const near = (await studio.spots(6)).find(([x, y]) => {
+      const away = Math.hypot(x - mark.x, y - mark.y);
+      return away > 26 && away < 40;
+    });
+    const rest = () => page.evaluate(() => [window.hfStudio.history.past.length, window.hfStudio.history.state.handles.length, Boolean(window.hfStudio.live)]);
+    const moved = () =>
+      page.evaluate(() => {
+        const { skin, body, view } = window.hfStudio;
+        return skin.positions.reduce((most, x, i) => Math.max(most, Math.abs(x - body.positions[i])), 0) / view.size;
+      });
+    const before = await rest();
+    // on the body beside the mark, and on the mark itself
+    for (const [x, y, end] of [[near[0], near[1], 'second'], [near[0], near[1], 'touchCancel'], [mark.x, mark.y, 'touchCancel']]) {
+      await page.click('#view-home'); // two fingers have turned it
+      await studio.settle();
+      await send('touchStart', [x, y]);
+      for (const k of [1, 2, 3, 4]) await send('touchMove', [x + 10 * k, y - 15 * k]);
+      await studio.settle();
+      assert.ok((await moved()) > 0.02, `${end}: the body follows`);
+      if (end === 'second') {
+        await send('touchStart', [x + 40, y - 60], beside);
+        await send('touchMove', [x + 45, y - 65], beside);
+        await send('touchEnd');
+      } else await send(end);
+      await studio.settle();
+      assert.deepEqual(await rest(), before, end);
+      assert.ok((await moved()) < 1e-6, `${end}: ${await moved()}`);
+    }
+    await session.detach();
+    assert.ok((await studio.mark('head')).classes.includes('offer'));
+    await page.click('#view-home');
+  });
+  await check('keys: AZERTY has digits with Shift, a slider keeps its own, and Alt is left to the browser', async () => {
+    /** What a key does: the tool, the direction, and whether the browser may act on it. */
+    const press = (init, at = 'body') =>
+      page.evaluate(
+        async ([init, at]) => {
+          const event = new KeyboardEvent('keydown', { bubbles: true, cancelable: true, ...init });
+          const free = document.querySelector(at).dispatchEvent(event);
+          await new Promise((done) => setTimeout(done, 50));
+          const { tool, view } = window.hfStudio;
+          return [tool.constructor.key, [view.turn, view.lift].map((x) => Math.round(100 * x) / 100).join(), free];
+        },
+        [init, at],
+      );
+    await page.click('#view-home');
+    const home = (await press({ key: 'x', code: 'KeyX' }))[1];
+    assert.deepEqual(await press({ key: 'é', code: 'Digit2' }), ['field', home, true]);
+    assert.deepEqual(await press({ key: '&', code: 'Digit1' }), ['pose', home, true]);
+    assert.deepEqual(await press({ key: '1', code: 'Digit1', shiftKey: true }), ['pose', '0,0', false]);
+    assert.deepEqual(await press({ key: 'Home', code: 'Home' }), ['pose', home, false]);
+    assert.deepEqual(await press({ key: '2', code: 'Digit2', shiftKey: true }), ['pose', home, true]);
+    // the number pad, with NumLock and without; it chooses no tools
+    assert.deepEqual(await press({ key: '3', code: 'Numpad3' }), ['pose', '1.57,0', false]);
+    assert.deepEqual(await press({ key: 'Home', code: 'Numpad7' }), ['pose', '0,1.57', false]);
+    assert.deepEqual(await press({ key: '2', code: 'Numpad2' }), ['pose', '0,1.57', true]);
+    // on a slider those of the number pad without NumLock move it
+    for (const [key, code] of [['Home', 'Numpad7'], ['End', 'Numpad1'], ['PageDown', 'Numpad3'], ['ArrowLeft', 'Numpad4'], ['Home', 'Home']])
+      assert.deepEqual(await press({ key, code }, '#radius'), ['pose', '0,1.57', true], code);
+    for (const more of [{ altKey: true }, { altKey: true, ctrlKey: true }, { modifierAltGraph: true }])
+      for (const [key, code] of [['f', 'KeyF'], ['Home', 'Home'], ['2', 'Digit2'], ['?', 'Slash']])
+        assert.deepEqual(await press({ key, code, ...more }), ['pose', '0,1.57', true], `${code} ${Object.keys(more)}`);
+    assert.equal(await page.locator('#card[open]').count(), 0);
+    await page.click('#view-home');
+  });
   await check('the next file is looked at like the first, wherever the view was', async () => {
     await lost();
     await page.selectOption('#sample', 'biped');

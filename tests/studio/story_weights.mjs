@@ -95,7 +95,7 @@ export default async function story(host) {
         }, [x, y]);
       const free = async (list) => {
         for (const spot of list) if ((await bone(spot)) < 0 && (await shares(spot[2])) < 0.1) return spot;
-        return list[0];
+        throw new Error(`none of ${list.length} places is free of the bone that is shown and of bones under it`);
       };
       const spot = await free((await studio.spots()).slice(10));
       const before = await shares(spot[2]);

@@ -19,6 +19,7 @@ const stories = [
   'broken',
   'access',
   'bodies',
+  'crowd',
   'smooth',
   'figures',
 ];

@@ -19,20 +19,24 @@ const WIDTH = 960 # of textures; a multiple of 3
 
 var surface = null
 var revision = -1
+var given = null # the mesh that was set, at rest
+var made = null # the mesh of rows that is drawn in its place
 var rest = []
 var transforms = ImageTexture.new()
 
-# Uploads the rows. Returns false with a warning that says why not.
+# Uploads the rows. Returns false with a warning that says why not. Another surface may be bound later: its revisions count anew.
 func bind(with, shader = null):
 	surface = with
-	rest = mesh.surface_get_arrays(0)
+	revision = -1
+	if mesh != made:
+		given = mesh
+	rest = given.surface_get_arrays(0)
 	if shader == null:
 		shader = Shader.new()
 		shader.code = SHADER # before a material has it
-	var made = ShaderMaterial.new()
-	made.shader = shader
-	material_override = made
-	custom_aabb = mesh.get_aabb().grow(mesh.get_aabb().size.length())
+	var material = ShaderMaterial.new()
+	material.shader = shader
+	material_override = material
 	return update()
 
 # Solves the pose and uploads its transforms.
@@ -49,6 +53,8 @@ func update(iterations = 0):
 	else:
 		transforms.set_image(image)
 	material_override.set_shader_parameter("hf_offset_share", info.offset_share)
+	var box = surface.blend_box() # else the engine culls by the mesh at rest
+	custom_aabb = AABB(box[0], box[1] - box[0])
 	return true
 
 func upload(info):
@@ -64,16 +70,17 @@ func upload(info):
 		offsets.append_array([offset.x, offset.y, offset.z])
 	arrays[Mesh.ARRAY_CUSTOM1] = offsets
 	var formats = Mesh.ARRAY_CUSTOM_RG_FLOAT << Mesh.ARRAY_FORMAT_CUSTOM0_SHIFT | Mesh.ARRAY_CUSTOM_RGB_FLOAT << Mesh.ARRAY_FORMAT_CUSTOM1_SHIFT
-	mesh = ArrayMesh.new()
-	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays, [], {}, formats)
-	var made = {
+	made = ArrayMesh.new()
+	made.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays, [], {}, formats)
+	mesh = made
+	var parameters = {
 		"hf_clusters": ImageTexture.create_from_image(image_of(PackedFloat32Array(Array(surface.blend_clusters())), 1)),
 		"hf_entries": ImageTexture.create_from_image(image_of(surface.blend_entries(), 4)),
 		"hf_transforms": transforms,
 		"hf_centre": surface.blend_centre()[0],
 	}
-	for name in made:
-		material_override.set_shader_parameter(name, made[name])
+	for name in parameters:
+		material_override.set_shader_parameter(name, parameters[name])
 
 # A list of floats as a picture, row by row.
 func image_of(list, channels):

@@ -76,6 +76,18 @@ Value blend_centre(Surface& s, const Arguments&) {
   return vectors(Doubles(info.centre, info.centre + 3));
 }
 
+// blend_box(): the lowest and the highest corner of a box that holds the last frame, in the frame of the mesh, for culling
+Value blend_box(Surface& s, const Arguments&) {
+  auto info = make<hf_blend_info>();
+  check(hf_pose_get_blend_info(pose_of(s), &info));
+  Doubles corners(6);
+  for (int k = 0; k < 3; ++k) {
+    corners[k] = info.centre[k] + info.low[k];
+    corners[3 + k] = info.centre[k] + info.high[k];
+  }
+  return vectors(corners);
+}
+
 // pose_solve(iteration_count = 0): a frame without vertices
 Value pose_solve(Surface& s, const Arguments& a) {
   check(hf_pose_solve(pose_of(s), whole(at(a, 0).number, "iteration_count"), 0, nullptr));
@@ -350,6 +362,7 @@ const std::vector<Entry>& pose_methods() {
       {"blend_normals", 0, 0, blend_vectors<&hf_blend_rows::normals>},
       {"blend_offsets", 0, 0, blend_vectors<&hf_blend_rows::offsets>},
       {"blend_centre", 0, 0, blend_centre},
+      {"blend_box", 0, 0, blend_box},
       {"blend_transforms", 0, 0, blend_transforms},
       {"pose_create", 0, 1, pose_create},
       {"pose_solve", 0, 1, pose_solve},

@@ -69,8 +69,16 @@ export class App {
   }
 
   // ---- the body
-  /** Opens a model; what was there stays when it cannot be opened. */
+  /** Opens a model; what was there stays when it cannot be opened, and a card says why. */
   async open(bytes, name) {
+    try {
+      await this.bring(bytes, name);
+    } catch (error) {
+      this.failed(`${name} was not opened`, error);
+    }
+  }
+  /** The same for who says by himself what went wrong. */
+  async bring(bytes, name) {
     say(`opening ${name}`, { stays: true });
     document.body.setAttribute('aria-busy', 'true');
     const begin = performance.now();
@@ -111,6 +119,7 @@ export class App {
       await shaped;
       this.figures.open = performance.now() - begin;
       await this.use(this.tool?.constructor.key ?? 'pose');
+      body.notes.push(...opened.notes);
       const { componentCount } = opened.report;
       const { pieceCount } = opened.linksInfo;
       const linked = pieceCount > componentCount ? `, ${pieceCount} pieces linked to ${componentCount}` : '';
@@ -123,7 +132,7 @@ export class App {
         (skin) => skin.dispose(),
         () => {},
       );
-      this.failed(`${name} was not opened`, error);
+      throw error;
     } finally {
       document.body.removeAttribute('aria-busy');
     }
@@ -174,6 +183,12 @@ export class App {
     this.live = null;
     await this.commit(state, name, null, true);
   }
+  /** A drag is given up: the picture is that of the state in which it began, which may be a moment between keys. */
+  giveUp(before = this.history.state) {
+    if (this.live && before !== this.history.state) this.preview(before);
+    else this.settle();
+    this.refresh();
+  }
   /** Leaves what is not a step: the picture is that of the last step. */
   settle() {
     if (!this.live) return;
@@ -210,7 +225,7 @@ export class App {
     say(`${way === 'undo' ? 'taken back' : 'done again'}: ${name}`);
     this.refresh();
   }
-  /** A state from outside: of a session that was kept. The history begins anew. */
+  /** A state from outside: of a session that was kept, or a link. The history begins anew. Throws, and changes nothing, when it is refused. */
   async take(state) {
     document.body.setAttribute('aria-busy', 'true');
     try {
@@ -220,21 +235,23 @@ export class App {
     }
   }
   async #take(state) {
-    const before = this.history.state;
+    const [before, ids] = [this.history.state, this.ids];
     const from = state.detail?.carry?.from;
     if (from) await this.#source(from).catch(() => {}); // the tool says that it is missing
-    this.history.reset({ ...empty, ...state });
-    // numbers of new marks go on after those that are there
-    this.timeline.arrive(this.state);
-    this.ids = Math.max(
-      0,
-      ...[...state.handles, ...state.sites, ...this.state.pins].map(({ id }) => Number(id.slice(1)) || 0),
-    );
     try {
+      this.history.reset({ ...empty, ...state });
+      this.timeline.arrive(this.state);
+      // numbers of new marks go on after those that are there
+      const { handles, sites, pins } = this.state;
+      this.ids = Math.max(0, ...[...handles, ...sites, ...pins].map(({ id }) => Number(id.slice(1)) || 0));
       await this.#apply(this.state, 'exact');
-    } catch {
+    } catch (error) {
       this.history.reset(before);
-      await this.#apply(this.state, 'exact');
+      this.timeline.arrive(before);
+      this.ids = ids;
+      await this.#apply(before, 'exact');
+      this.refresh();
+      throw error;
     }
     this.tools.pose.pulled = state.handles.some(({ pinned }) => !pinned);
     this.refresh();
@@ -334,13 +351,15 @@ export class App {
       try {
         await this.need(key);
       } catch {
-        return say('This tool could not be loaded. Load the page again when the network is there.');
+        return this.warn('This tool could not be loaded. Load the page again when the network is there.');
       }
       if (this.wanted !== key) return;
     }
     if (this.tool !== this.tools[key]) {
-      this.matters = '';
-      if (this.tool) say('');
+      if (this.tool) {
+        this.matters = '';
+        say('');
+      }
       if (this.skin) this.timeline.stop();
       this.tool?.leave?.();
     }

@@ -102,6 +102,13 @@ export class Bend {
     this.forget();
     this.app.panel();
   }
+  /** The turn of a ring is given up: the bone goes back. */
+  cancel() {
+    this.gizmo.cancel();
+    const { ringFrom } = this;
+    this.ringFrom = null;
+    if (ringFrom) this.#turn(Number(this.tool.shown), ringFrom, new this.kit.Quaternion());
+  }
   /** The slider turns about the direction of the view. */
   slide(degrees) {
     const { Quaternion, Vector3 } = this.kit;

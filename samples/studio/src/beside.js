@@ -1,6 +1,6 @@
 // A second body beside the open one: the source of a motion or of detail.
 
-/** Room between both, as part of their widths. */
+/** Room between both, as part of their widths: at 1 they touch, and each twentieth more draws both a twentieth smaller. */
 const GAP = 1.08;
 /**
  * Bodies whose sizes differ by more than this are shown at one size: a horse beside a scan of 150 units was a dot. Creatures

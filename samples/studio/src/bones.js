@@ -1,17 +1,35 @@
 // The bones in the picture of Weights: seen through the body, found under a pointer, moved by the test.
 
-/** A bone is as wide as this part of its length, and widest at this part of it. */
+/** A bone is as wide as this part of its length, and widest at this part of it: Blender's are 0.1 and 0.1. Wider ones hide the colours of the skin. */
 const [WIDE, WIDEST] = [0.09, 0.18];
 /** A bone longer than this part of the size of the body gets no wider: one from the ground to the hips is no leg. */
 const LONG = 0.15;
-/** The dot of a bone without a child, as part of the size of the body. */
+/** Half the length of a bone without a child, as part of the size of the body: half of it is lost in a hand, twice of it leaves the hand. */
 const DOT = 0.012;
-/** A pointer so many pixels from the line of a bone means the bone. */
+/** A pointer so many pixels from the line of a bone means the bone: fewer are missed by a hand, more take clicks that mean the skin beside it. */
 const REACH = 8;
+/** How bright the bones are that are not chosen: at 1 the chosen one is not seen, at 0 their colours are not. */
 const DIM = 0.45;
 /** An octahedron along x: ends, and corners around its widest place. */
 const CORNERS = [[0, 0, 0], [1, 0, 0], [WIDEST, WIDE, 0], [WIDEST, 0, WIDE], [WIDEST, -WIDE, 0], [WIDEST, 0, -WIDE]];
 const FACES = [2, 3, 4, 5].flatMap((a, i, around) => [a, around[(i + 1) % 4]].flatMap((v, k, [p, q]) => (k ? [1, p, q] : [0, q, p])));
+
+/** The vertex of a triangle that is nearest to each head: every vertex is looked at once. */
+function nearestVertices(rest, triangles, heads) {
+  const seen = new Uint8Array(rest.length / 3);
+  const least = new Float64Array(heads.length).fill(Infinity);
+  const nearest = new Uint32Array(heads.length);
+  for (const v of triangles) {
+    if (seen[v]) continue;
+    seen[v] = 1;
+    const [x, y, z] = [rest[3 * v], rest[3 * v + 1], rest[3 * v + 2]];
+    for (let i = 0; i < heads.length; ++i) {
+      const away = (heads[i].x - x) ** 2 + (heads[i].y - y) ** 2 + (heads[i].z - z) ** 2;
+      if (away < least[i]) [least[i], nearest[i]] = [away, v];
+    }
+  }
+  return nearest;
+}
 
 export class Bones {
   /** tool: { app, bones, colours, shown, bend } of the Weights tool. */
@@ -56,15 +74,7 @@ export class Bones {
     const { positions: rest, triangles } = app.body;
     if (this.of !== bones) {
       this.of = bones;
-      const awayOf = ({ x, y, z }, v) => (rest[3 * v] - x) ** 2 + (rest[3 * v + 1] - y) ** 2 + (rest[3 * v + 2] - z) ** 2;
-      this.nearest = heads.map((head) => {
-        let [least, nearest] = [Infinity, 0];
-        for (const v of triangles) {
-          const away = awayOf(head, v);
-          if (away < least) [least, nearest] = [away, v];
-        }
-        return nearest;
-      });
+      this.nearest = nearestVertices(rest, triangles, heads);
     }
     heads.forEach((head, i) => {
       const v = 3 * this.nearest[i];

@@ -15,7 +15,9 @@ const bufferOf = (bytes) => bytes.buffer.slice(bytes.byteOffset, bytes.byteOffse
 
 /** Corners that are the same in all numbers become one vertex: { first, corners }, the first corner of each vertex. */
 function welded(lists, count) {
-  const words = lists.map(({ array, size }) => ({ bits: new Uint32Array(Float32Array.from(array).buffer), size }));
+  // -0 and 0 are one place with two patterns of bits: a sum with 0 has one
+  const bitsOf = (array) => new Uint32Array(Float32Array.from(array, (x) => x + 0).buffer);
+  const words = lists.map(({ array, size }) => ({ bits: bitsOf(array), size }));
   const same = (a, b) =>
     words.every(({ bits, size }) => {
       for (let k = 0; k < size; ++k) if (bits[size * a + k] !== bits[size * b + k]) return false;

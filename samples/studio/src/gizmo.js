@@ -1,7 +1,10 @@
 // Three rings around the chosen handle: drag one to turn about its axis.
 import * as THREE from 'three';
 
-/** Radius of the rings and reach of a finger, in pixels; points that stand for a ring when it is looked for. */
+/**
+ * Radius of the rings, in pixels: outside of the mark of 44. Reach of a pointer: a ring is 3 pixels wide. Points that stand for a ring
+ * when it is looked for: one every 6 pixels, half of the reach.
+ */
 const [RING, REACH, POINTS] = [70, 11, 72];
 const colours = [0xd8452e, 0x3d9a3a, 0x2f6fd6];
 
@@ -84,6 +87,10 @@ export class Gizmo {
   }
   turn() {
     return new THREE.Quaternion().setFromAxisAngle(this.active.along, this.active.total);
+  }
+  /** The turn is given up; whoever is turned goes back by itself. */
+  cancel() {
+    this.active = null;
   }
   end() {
     if (!this.active) return;

@@ -1,6 +1,6 @@
 // Every act as a step: states are never changed, only replaced, so undo takes back exactly what was there.
 
-/** Steps kept; a state shares all that did not change, so they cost little. */
+/** Steps kept: hours of work. A state shares all that did not change, so they cost little. */
 const STEP_LIMIT = 500;
 /** Acts of one name within this many milliseconds are one step: nudges by a held key, a turned slider. */
 const JOIN_MS = 700;

@@ -1,5 +1,5 @@
 // Pointers on the canvas: a click goes to the tool; a drag turns the view, unless the tool takes it or it begins on the body
-// near a mark, which was meant; two fingers turn and pinch.
+// near a mark, which was meant; two fingers turn and pinch, and what one of them had begun to pull goes back.
 import { CLICK_PIXELS } from './view.js';
 
 const ZOOM = 0.0012; // of a wheel's step: a notch of 100 is 13 per cent
@@ -21,13 +21,16 @@ export function listen(app, canvas) {
     app.tool.dragStart?.(mark, from);
     return mark;
   };
-  const drop = ({ mark }) => app.tool.dragEnd?.(mark);
+  /** What a drag has begun is given up: nothing of it is a step. */
+  const giveUp = ({ taken, mark }) => {
+    if (taken) app.tool.strokeCancel?.();
+    if (mark) app.tool.dragCancel?.(mark);
+  };
   canvas.onpointerdown = (event) => {
     canvas.setPointerCapture(event.pointerId);
     app.hover(null);
     fingers.set(event.pointerId, here(event));
-    if (fingers.size === 2 && act?.taken) app.tool.strokeCancel?.();
-    if (fingers.size === 2 && act?.mark) drop(act);
+    if (fingers.size === 2 && act) giveUp(act);
     if (fingers.size === 1)
       act = { from: here(event), moved: false, taken: false, mark: null, button: event.button, shift: event.shiftKey };
     else act = { ...act, moved: true, taken: false, mark: null };
@@ -62,9 +65,11 @@ export function listen(app, canvas) {
     if (!fingers.delete(event.pointerId) || fingers.size) return;
     const done = act;
     act = null;
-    if (done?.taken) app.tool.strokeEnd?.();
-    else if (done?.mark) drop(done);
-    else if (done && !done.moved && done.button === 0 && event.type === 'pointerup') app.tool?.click?.(done.from);
+    if (!done) return;
+    if (event.type !== 'pointerup') giveUp(done);
+    else if (done.taken) app.tool.strokeEnd?.();
+    else if (done.mark) app.tool.dragEnd?.(done.mark);
+    else if (!done.moved && done.button === 0) app.tool?.click?.(done.from);
   };
   canvas.onpointerup = end;
   canvas.onpointercancel = end;

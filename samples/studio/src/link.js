@@ -79,12 +79,14 @@ export async function takeSettings(app, settings) {
     app.warn(`the link is for ${settings.name}: open it to see its settings`);
     return false;
   }
+  let refused = [];
   try {
-    await app.adopt(settings);
+    refused = await app.adopt(settings);
   } catch {
     app.warn('the link is damaged: its settings do not fit the body');
     return false;
   }
-  say(`as in the link: ${settings.name}`);
+  if (refused.length) app.warn(`not all of the link could be brought back; ${refused.join('; ')}`);
+  else say(`as in the link: ${settings.name}`);
   return true;
 }

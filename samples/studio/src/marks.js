@@ -2,13 +2,13 @@
 import { make } from './ui.js';
 import { CLICK_PIXELS } from './view.js';
 
-/** Marks behind the body are looked for when nothing has moved for so many milliseconds. */
+/** Marks behind the body are looked for when nothing has moved for so many milliseconds: sooner they are looked for between two moves of a hand. */
 const LOOK_BEHIND_MS = 150;
 /** Larger bodies keep the marks undimmed after a pose: the tree of boxes would take longer than 50 ms to follow. */
 const FOLLOWED_VERTICES = 30000;
-/** A drag that begins on the body so many pixels from the middle of a mark means the mark. */
+/** A drag that begins on the body so many pixels from the middle of a mark means the mark: twice the radius of what a finger hits. */
 const NEAR_PIXELS = 44;
-/** A place counts as behind when the surface is nearer to the eye by this part of the size of the body. */
+/** A place counts as behind when the surface is nearer to the eye by this part of the size of the body: handles stand inside, up to the radius of a leg under it. */
 const BEHIND = 0.03;
 
 export class Marks {
@@ -59,26 +59,34 @@ export class Marks {
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#lookBehind(), LOOK_BEHIND_MS);
   }
-  #lookBehind() {
-    const { view, skin } = this.app;
-    if (!skin?.bvh || (skin.stale && skin.body.vertexCount > FOLLOWED_VERTICES)) return;
-    for (const element of this.#buttons.values()) {
-      const { place } = element.mark;
-      const { x, y } = view.onScreen(place);
-      const hit = skin.pick(view.ray(x, y));
-      const away = Math.hypot(...place.map((p, k) => p - view.camera.position.getComponent(k)));
-      element.classList.toggle('behind', Boolean(hit && hit.distance < away - BEHIND * view.size));
-    }
+  /** Whether the body can be asked at once for what it hides. */
+  #canLook() {
+    const { skin } = this.app;
+    return Boolean(skin?.bvh) && !(skin.stale && skin.body.vertexCount > FOLLOWED_VERTICES);
   }
-  /** The mark nearest to a pixel of the stage, if one is near. */
+  #lookBehind() {
+    if (!this.#canLook()) return;
+    for (const element of this.#buttons.values())
+      element.classList.toggle('behind', this.#isBehind(element.mark));
+  }
+  /** Whether the body lies before a mark. */
+  #isBehind({ place }) {
+    const { view, skin } = this.app;
+    const { x, y } = view.onScreen(place);
+    const hit = skin.pick(view.ray(x, y));
+    const away = Math.hypot(...place.map((p, k) => p - view.camera.position.getComponent(k)));
+    return Boolean(hit && hit.distance < away - BEHIND * view.size);
+  }
+  /** The mark nearest to a pixel of the stage, if one is near that the body does not hide: nobody means what is not seen. */
   near([x, y]) {
-    let [least, nearest] = [NEAR_PIXELS, null];
+    const found = [];
     for (const { mark, disabled } of this.#buttons.values()) {
       const at = this.app.view.onScreen(mark.place);
       const away = Math.hypot(at.x - x, at.y - y);
-      if (!disabled && at.front && away < least) [least, nearest] = [away, mark];
+      if (!disabled && at.front && away < NEAR_PIXELS) found.push({ away, mark });
     }
-    return nearest;
+    const inOrder = found.sort((a, b) => a.away - b.away);
+    return (this.#canLook() ? inOrder.find(({ mark }) => !this.#isBehind(mark)) : inOrder[0])?.mark ?? null;
   }
   focus(id) {
     this.#buttons.get(id)?.focus({ preventScroll: true });
@@ -111,8 +119,10 @@ export class Marks {
       if (!from || event.pointerId !== from.pointer) return;
       const { dragging } = from;
       from = null;
-      if (dragging) this.app.tool.dragEnd?.(element.mark);
-      else if (event.type === 'pointerup') this.app.tool.choose?.(element.mark);
+      const taken = event.type === 'pointerup';
+      // a pointer that the system took has let nothing go
+      if (dragging) taken ? this.app.tool.dragEnd?.(element.mark) : this.app.tool.dragCancel?.(element.mark);
+      else if (taken) this.app.tool.choose?.(element.mark);
     };
     element.onpointerup = end;
     element.onpointercancel = end;

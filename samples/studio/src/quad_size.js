@@ -2,13 +2,13 @@
 
 /** Bounds of the number to start with. Twice as many quads take twice as long. */
 const [FEWEST, MOST] = [1500, 3000];
-/** Places where the thickness is measured, equally spread over the area. */
+/** Places where the thickness is measured, equally spread over the area: THIN of them are 8. Twice as many rays take twice as long. */
 const PLACES = 400;
-/** A part is thin when so much of the area is thinner: fingers, ears, a tail. */
+/** A part is thin when so much of the area is thinner: fingers, ears, a tail. Less is one ray, more is a leg. */
 const THIN = 0.02;
-/** Quads around a thin part. */
+/** Quads around a thin part: with 4 it is a spike of square section, with 12 a body has four times as many quads. */
 const AROUND = 6;
-/** A ray into the body starts so far under the surface, as part of its size. */
+/** A ray into the body starts so far under the surface, as part of its size: above single precision, far below an ear. */
 const UNDER = 1e-4;
 
 /** The normal of a triangle, as long as twice its area, and that length. */

@@ -1,7 +1,11 @@
-// The session survives a reload: the file and all that was set are kept in the browser (IndexedDB), nowhere else.
+// The session survives a reload: the file and all that was set are kept in the browser (IndexedDB), nowhere else. What could not
+// be brought back stays in the store until the user gives it up.
 
-/** What was set is written after so many milliseconds. */
+/** What was set is written so many milliseconds later: a drag is one write, and who closes the page at once loses one act. */
 const QUIET_MS = 300;
+
+const NO_ROOM = 'This browser has no room to keep the session: a reload will not bring it back.';
+const NOTHING_KEPT = 'This browser keeps nothing of the session: a reload will not bring it back.';
 
 function store(mode, act) {
   return new Promise((resolve, reject) => {
@@ -9,13 +13,21 @@ function store(mode, act) {
     request.onupgradeneeded = () => request.result.createObjectStore('session');
     request.onerror = () => reject(request.error);
     request.onsuccess = () => {
-      const change = request.result.transaction('session', mode);
-      const answer = act(change.objectStore('session'));
-      change.oncomplete = () => {
+      let change = null;
+      const closed = (then) => {
         request.result.close();
-        resolve(answer?.result);
+        then();
       };
-      change.onabort = () => reject(change.error);
+      try {
+        change = request.result.transaction('session', mode);
+        const answer = act(change.objectStore('session'));
+        change.oncomplete = () => closed(() => resolve(answer?.result));
+        change.onabort = () => closed(() => reject(change.error));
+      } catch (error) {
+        if (!change) return closed(() => reject(error));
+        change.onabort = () => closed(() => reject(error)); // what was there stays
+        change.abort();
+      }
     };
   });
 }
@@ -31,7 +43,9 @@ export class Session {
   #timer = 0;
   #writing = 0;
   #last = ''; // what is written
-  #able = true; // false in windows that keep nothing, and while a session is read back
+  #reading = false; // a session is read back
+  #failed = false; // the browser has no room, or keeps nothing: until the next file
+  #waiting = null; // what this visit would have kept, while a session waits that could not be brought back
   constructor(app) {
     app.session = this;
     this.app = app;
@@ -41,13 +55,19 @@ export class Session {
   }
   /** A file was opened: it replaces all that was kept. */
   opened(bytes, name) {
-    if (!this.#able) return;
+    if (this.#reading) return;
     this.#last = '';
-    this.#try(() => store('readwrite', (kept) => (kept.clear(), kept.put({ bytes, name }, 'body'))));
+    this.#failed = false;
+    if (this.#waiting) this.#waiting = new Map([['body', { bytes, name }]]);
+    else this.#try(() => store('readwrite', (kept) => (kept.clear(), kept.put({ bytes, name }, 'body'))));
   }
   /** Beside the body: the source of a transfer or of detail ({ bytes, name }), a quad mesh. */
   keep(key, value) {
-    if (this.#able) this.#try(() => store('readwrite', (kept) => kept.put(value, key)));
+    if (this.#waiting) this.#waiting.set(key, value);
+    else if (this.#able) this.#try(() => store('readwrite', (kept) => kept.put(value, key)));
+  }
+  get #able() {
+    return !this.#reading && !this.#failed && !this.#waiting;
   }
   kept(key) {
     return store('readonly', (kept) => kept.get(key)).catch(() => null);
@@ -73,29 +93,61 @@ export class Session {
     ++this.#writing;
     try {
       await act();
-    } catch {
-      // no room, or a window that keeps nothing: the studio works without
-      this.#able = false;
+    } catch (error) {
+      // the studio works without, and says so once for a file
+      if (!this.#failed) this.app.warn(`${error?.name === 'QuotaExceededError' ? NO_ROOM : NOTHING_KEPT} Save what you want to keep.`);
+      this.#failed = true;
     } finally {
       --this.#writing;
     }
   }
-  /** Opens what was kept, as it was left; false if there is nothing. */
+  /** Opens what was kept, as it was left; false if nothing could be opened. */
   async restore() {
     const { app } = this;
+    const [body, settings] = await both().catch(() => []); // the first file that is kept says what is wrong
+    if (!body) return false;
+    this.#reading = true;
     try {
-      const [body, settings] = await both();
-      if (!body) return false;
-      this.#able = false;
-      await app.open(body.bytes, body.name);
-      if (app.body?.name !== body.name) return false;
-      if (settings?.vertexCount === app.body.vertexCount)
-        await app.adopt(settings).catch(() => app.warn('Not all of the last session could be brought back.'));
-      return true;
-    } catch {
-      return false;
+      await app.bring(body.bytes, body.name);
+      if (settings && settings.vertexCount !== app.body.vertexCount)
+        throw new Error(`${body.name} has ${app.body.vertexCount} vertices now; what was set is for ${settings.vertexCount}.`);
+      const refused = settings ? await app.adopt(settings) : [];
+      if (refused.length) throw new Error(refused.join('; '));
+    } catch (error) {
+      this.#wait(body.name, error);
     } finally {
-      this.#able = true;
+      this.#reading = false;
     }
+    return Boolean(app.skin);
+  }
+  /** The store stays as it was left: another version of the studio, or a host that answers again, may bring it back. */
+  #wait(name, error) {
+    this.#waiting = new Map();
+    const { card, make } = this.app.ui;
+    card(
+      `The last session with ${name} is not whole`,
+      [
+        make('p', {}, error.message),
+        make('p', {}, 'It stays in this browser as you left it, and meanwhile nothing of this visit is kept.'),
+      ],
+      [
+        ['Try again', () => location.reload(), true],
+        ['Give it up', () => this.#giveUp()],
+        ['Close', null],
+      ],
+    );
+  }
+  /** This visit is kept from now on. */
+  #giveUp() {
+    const mine = this.#waiting;
+    this.#waiting = null;
+    this.#last = '';
+    this.#try(() =>
+      store('readwrite', (kept) => {
+        if (mine.has('body')) kept.clear();
+        for (const [key, value] of mine) kept.put(value, key);
+      }),
+    );
+    this.changed();
   }
 }

@@ -15,8 +15,12 @@ export function settingsOf(app) {
   };
 }
 
-/** Brings the body that is open to settings of it. */
+/**
+ * Brings the body that is open to settings of it. Answers with the tools that did not take theirs, each with the reason: they are
+ * as from the start. Throws when the state itself is refused.
+ */
 export async function adoptSettings(app, settings) {
+  const refused = [];
   await app.take(settings.state);
   const { timeline, view } = app;
   [view.turn, view.lift] = settings.view;
@@ -24,12 +28,15 @@ export async function adoptSettings(app, settings) {
     timeline.clip = timeline.clips[settings.clip] ?? null;
     timeline.draw();
   }
-  // what a tool does not take it has as from the start
-  for (const [key, own] of Object.entries(settings.tools ?? {}))
-    await app
-      .need(key)
-      .then((one) => one.adopt?.(own))
-      .catch(() => {});
+  for (const [key, own] of Object.entries(settings.tools ?? {})) {
+    if (!app.tools[key] && !app.later[key]) continue; // of another version of the studio
+    try {
+      const tool = await app.need(key);
+      await tool.adopt?.(own);
+    } catch (error) {
+      refused.push(`${key}: ${error.message}`);
+    }
+  }
   if (app.tools[settings.tool] || app.later[settings.tool]) await app.use(settings.tool);
   app.frame();
   if (settings.eye) {
@@ -38,4 +45,5 @@ export async function adoptSettings(app, settings) {
     view.target.fromArray(settings.eye, 1);
   }
   app.refresh();
+  return refused;
 }

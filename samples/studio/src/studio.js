@@ -27,7 +27,7 @@ import { FieldTool } from './tools/field.js';
 import { PoseTool } from './tools/pose.js';
 import { Session } from './session.js';
 import { $, button, card, choice, facts, make, ms, say, slider, touched, whole } from './ui.js';
-import { viewButtons, viewKey } from './views.js';
+import { toolKey, viewButtons, viewKey } from './views.js';
 
 /** Tools that the first picture does not need. Their modules import nothing, so that each is one request: the kit has it all. */
 const kit = { $, button, choice, facts, make, middleOf, mirrorChoice, ms, say, slider, touched, whole };
@@ -116,8 +116,10 @@ async function start() {
     openFile(event.dataTransfer.files[0]);
   });
   addEventListener('keydown', (event) => {
-    if ($('card').open || event.defaultPrevented) return;
+    if ($('card').open || event.defaultPrevented || !event.key) return;
     const key = event.key.toLowerCase();
+    // Alt and a key are the browser's (its menus, its tabs, its first page); AltGr writes a letter, and is Ctrl and Alt to Windows
+    if (event.altKey || event.getModifierState('AltGraph')) return;
     if (event.ctrlKey || event.metaKey) {
       const acts = {
         z: () => app.step(event.shiftKey ? 'redo' : 'undo'),
@@ -132,7 +134,7 @@ async function start() {
     else if (key === '?') help(app);
     else if (viewKey(app, event)) event.preventDefault();
     else if (key === 'k' && app.skin && app.tool === app.tools.pose && app.state.handles.length) app.timeline.setKey();
-    else if (/^[1-6]$/.test(key)) $('rail').children[Number(key) - 1]?.click();
+    else if (toolKey(event) !== null) $('rail').children[toolKey(event)]?.click();
   });
   const params = new URLSearchParams(location.search);
   // ?fresh: nothing of an earlier visit; ?sample=bull: that creature

@@ -6,7 +6,7 @@ import { normalGroups, normalSums, smoothNormals } from './normals.js';
 import { blended, keyNear, withKey } from './keys.js';
 import { $, button, choice, make } from './ui.js';
 
-/** Seconds of a timeline without a clip. */
+/** Seconds of a timeline without a clip: of a step or a nod. Keys cannot be set beyond. */
 const KEY_SECONDS = 2;
 
 /** The value of a sampler at a time: steps, lines (quaternions along the arc), or cubic splines. */

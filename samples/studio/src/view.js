@@ -2,18 +2,18 @@
 import * as THREE from 'three';
 import { Skin } from './skin_view.js';
 
-/** A click moves less than this many pixels; more is a drag. */
+/** A click moves less than this many pixels; more is a drag. Half of it makes drags of clicks, twice of it is seen as a jump of what is dragged. */
 export const CLICK_PIXELS = 5;
-/** Room around a framed body: handles at its ends stay in the picture. */
+/** Room around a framed body: handles at its ends stay in the picture. It is 33 pixels of 400 on each side; each tenth more draws the body a tenth smaller. */
 const MARGIN = 1.2;
-/** Radians of turning for each pixel of a drag. */
+/** Radians of turning for each pixel of a drag: a drag over 400 turns the body about. */
 const TURN = 0.008;
-/** How a body is first looked at: from its front and its side, a little from above. */
+/** How a body is first looked at, in radians: from its front and its side, so that no limb hides another, and a little from above. */
 const HOME = { turn: 0.75, lift: 0.18 };
 /** Where the body is looked at from. Straight down, the picture has no up: the top keeps a hair away from it. */
 const STEEPEST = Math.PI / 2 - 1e-3;
 const SIDES = { home: HOME, front: { turn: 0, lift: 0 }, side: { turn: Math.PI / 2, lift: 0 }, top: { turn: 0, lift: STEEPEST } };
-/** The eye keeps so far above the floor, as part of the size of the body: its shadow is seen from above. */
+/** The eye keeps so far above the floor, as part of the size of the body: its shadow is seen from above, and feet still from the side. */
 const ABOVE_FLOOR = 0.002;
 
 export class View {

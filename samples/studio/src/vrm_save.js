@@ -1,30 +1,51 @@
 // A vrm file with another shape: its JSON and its data stay as they are, and places and normals are added at their end. So all
 // that names nodes, meshes and pictures by number (the map of the humanoid, expressions, springs) stays true.
 
+// words of the format glb 2 (Khronos): "glTF", its version, the kinds of chunks, and the component type of floats
+const [MAGIC, VERSION] = [0x46546c67, 2];
 const JSON_CHUNK = 0x4e4f534a;
 const BINARY_CHUNK = 0x004e4942;
 const FLOAT = 5126;
+/** Bytes of the file's head, and of the head of a chunk. */
+const [HEAD, CHUNK_HEAD] = [12, 8];
+const SPACE = 0x20;
+/** Chunks and accessors begin at multiples of four bytes. */
 const padded = (length) => (length + 3) & ~3;
+
+const unwritten = (message) => Object.assign(new Error(message), { advice: 'Save it as glb.' });
 
 /** { json, binary } of the bytes of a glb file. */
 function chunksOf(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const found = {};
-  for (let at = 12; at + 8 <= bytes.length; at += 8 + view.getUint32(at, true))
-    found[view.getUint32(at + 4, true)] ??= bytes.subarray(at + 8, at + 8 + view.getUint32(at, true));
-  return { json: JSON.parse(new TextDecoder().decode(found[JSON_CHUNK])), binary: found[BINARY_CHUNK] ?? new Uint8Array(0) };
+  for (let at = HEAD; at + CHUNK_HEAD <= bytes.length; ) {
+    const [length, kind] = [view.getUint32(at, true), view.getUint32(at + 4, true)];
+    found[kind] ??= bytes.subarray(at + CHUNK_HEAD, at + CHUNK_HEAD + length);
+    at += CHUNK_HEAD + length;
+  }
+  if (!found[JSON_CHUNK]) throw unwritten('The file is glTF as text, which is not written as vrm.');
+  const json = JSON.parse(new TextDecoder().decode(found[JSON_CHUNK]));
+  // what is added goes to the end of the binary part, which is the first buffer without an address
+  if (json.buffers?.[0] && (json.buffers[0].uri || !found[BINARY_CHUNK]))
+    throw unwritten('The file keeps its data outside of its binary part, where the studio cannot add to it.');
+  json.buffers ??= [];
+  json.buffers[0] ??= {};
+  for (const list of ['bufferViews', 'accessors']) json[list] ??= [];
+  return { json, binary: found[BINARY_CHUNK] ?? new Uint8Array(0) };
 }
 
 function glbOf(json, pieces, length) {
   const text = new TextEncoder().encode(JSON.stringify(json));
-  const bytes = new Uint8Array(20 + padded(text.length) + 8 + length);
+  const first = HEAD + CHUNK_HEAD;
+  let at = first + padded(text.length);
+  const bytes = new Uint8Array(at + CHUNK_HEAD + length);
   const view = new DataView(bytes.buffer);
-  [0x46546c67, 2, bytes.length, padded(text.length), JSON_CHUNK].forEach((word, i) => view.setUint32(4 * i, word, true));
-  bytes.fill(0x20, 20, 20 + padded(text.length)).set(text, 20);
-  let at = 20 + padded(text.length);
+  const words = [MAGIC, VERSION, bytes.length, padded(text.length), JSON_CHUNK];
+  words.forEach((word, i) => view.setUint32(4 * i, word, true));
+  bytes.fill(SPACE, first, at).set(text, first);
   view.setUint32(at, length, true);
   view.setUint32(at + 4, BINARY_CHUNK, true);
-  at += 8;
+  at += CHUNK_HEAD;
   for (const piece of pieces) {
     bytes.set(piece, at);
     at += padded(piece.length);
@@ -66,7 +87,7 @@ export function shapedVrm(app, { localNormals, localsOf }) {
     const mesh = part.node.getMesh();
     const primitive = json.meshes[meshOf(part.node, meshes.indexOf(mesh))].primitives[mesh.listPrimitives().indexOf(part.primitive)];
     if (primitive.extensions?.KHR_draco_mesh_compression)
-      throw Object.assign(new Error('The file is compressed by Draco, which the studio cannot write.'), { advice: 'Save it as glb.' });
+      throw unwritten('The file is compressed by Draco, which the studio cannot write.');
     const places = Float32Array.from(locals.subarray(3 * part.first, 3 * (part.first + part.count)));
     primitive.attributes = { ...primitive.attributes, POSITION: add(places, boundsOf(places)) };
     if ('NORMAL' in primitive.attributes) primitive.attributes.NORMAL = add(localNormals(part, shape.normals), {});

@@ -4,7 +4,7 @@ import createHf from 'hf-glue';
 import { apiOf } from '../../../bindings/js/src/wasm.js';
 import { readMesh } from './mesh_files.js';
 import { normalGroups, normalSums, smoothNormals } from './normals.js';
-import { proposalsOf, surfaceOf } from './worker_open.js';
+import { proposalsOf, sentenceOf, surfaceOf } from './worker_open.js';
 import { poseOf } from './worker_pose.js';
 import { fieldOf } from './worker_field.js';
 import { awayOf, detailOf } from './worker_detail.js';
@@ -72,10 +72,11 @@ const tasks = {
   async open({ positions, triangles, fileNormals, skeleton }) {
     const [hf, threads] = await ready(positions.length / 3);
     const begin = performance.now();
-    const surface = surfaceOf(hf, { positions, triangles, skeleton }, threads);
+    const notes = [];
+    const surface = surfaceOf(hf, { positions, triangles, skeleton }, threads, notes);
     const sums = normalSums(triangles, normalGroups(positions, fileNormals));
     const next = { hf, threads, surface, positions, triangles, sums, normals: new Float32Array(positions.length) };
-    const { proposals, regions } = proposalsOf(hf, surface, { positions, triangles, skeleton });
+    const { proposals, regions } = proposalsOf(hf, surface, { positions, triangles, skeleton }, notes);
     closeBody();
     body = Object.assign(next, { proposals, regions });
     body.pose = poseOf(body);
@@ -83,7 +84,8 @@ const tasks = {
     body.detail = detailOf(body);
     smoothNormals(positions, sums, body.normals);
     const report = surface.report;
-    const answer = { proposals, report, linksInfo: surface.linksInfo, normals: body.normals.slice(), components: surface.components() };
+    const [linksInfo, components] = [surface.linksInfo, surface.components()];
+    const answer = { proposals, report, linksInfo, notes, normals: body.normals.slice(), components };
     answer.openMs = performance.now() - begin;
     return [answer, [answer.normals.buffer, answer.components.buffer]];
   },
@@ -235,12 +237,8 @@ self.onmessage = ({ data: { id, task, args } }) => {
       self.postMessage({ id, answer }, buffers);
       asked = performance.now();
     } catch (error) {
-      // the library's own sentence, without the name of the function and the code
-      const { codeName = null, index = null, functionName = '', advice } = error;
-      const message = codeName
-        ? error.message.replace(`${functionName}: `, '').replace(` (${codeName})`, '')
-        : error.message;
-      self.postMessage({ id, error: { message, codeName, index, advice } });
+      const { codeName = null, index = null, advice } = error;
+      self.postMessage({ id, error: { message: sentenceOf(error), codeName, index, advice } });
     }
   });
 };

@@ -2,7 +2,7 @@
 import { roughness } from '../roughness.js';
 import { lookAtBoth, openBeside, takeRow } from '../beside.js';
 
-/** Points of a lasso are at least so many pixels apart; a lasso of fewer points is no region. */
+/** Points of a lasso are at least so many pixels apart: what lies between is joined along the surface; a lasso of fewer points encloses nothing. */
 const [STEP_PIXELS, LEAST_POINTS] = [8, 5];
 /** Colours of a region: inside, its rim, and the rest. */
 const [INSIDE, RIM, REST] = [[0.93, 0.62, 0.33], [0.35, 0.2, 0.12], 0.78];
@@ -58,8 +58,11 @@ export const tool = (kit) => {
     }
     async adopt({ mapped, source }) {
       this.mapped = mapped;
-      const bytes = source && !this.source && (await this.app.bytesOf(source, 'source'));
-      if (bytes) await this.bring(bytes, source);
+      if (source && !this.source) {
+        const bytes = await this.app.bytesOf(source, 'source');
+        if (!bytes) throw new Error(`${source} is not here`);
+        await this.bring(bytes, source);
+      }
       if (this.app.tool === this) this.enter();
     }
     enter() {

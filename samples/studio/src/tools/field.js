@@ -1,7 +1,7 @@
 // Field: sites with values; drag one and the field follows.
 import { button, facts, make, ms, slider, touched, whole } from '../ui.js';
 
-/** A key moves a site by this many pixels along the surface. */
+/** A key moves a site by this many pixels along the surface: half of its dot, so that it is seen and can be aimed. */
 const NUDGE_PIXELS = 12;
 
 export class FieldTool {
@@ -111,6 +111,9 @@ export class FieldTool {
   }
   dragEnd(mark) {
     return mark.offer ? this.choose(mark) : this.app.commitPreview('move a site');
+  }
+  dragCancel() {
+    this.app.giveUp();
   }
   key(mark, event) {
     const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };

@@ -13,13 +13,13 @@ const roles = [
   ...['eye', 'antenna', 'fin'],
 ];
 const sides = ['', 'left ', 'right '];
-/** Gaps between pieces below this part of the box are not said: a newcomer does not see them. */
+/** Gaps between pieces below this part of the box are not said: 3 pixels of a body that fills the picture. */
 const GAP_SAID = 0.005;
-/** A key moves a handle by this part of the size of the body, and turns it by so many radians. */
+/** A key moves a handle by this part of the size of the body, 12 pixels, and turns it by ten degrees; with Shift it moves a quarter. */
 const [NUDGE, TURN_STEP] = [0.02, Math.PI / 18];
 /** Radius of a handle that a click makes, as part of the size of the body: of a leg's width on our own creatures. */
 const RADIUS = 0.035;
-/** Corners of the circle that shows a radius. */
+/** Corners of the circle that shows a radius: each is shorter than 6 pixels. */
 const POINTS = 72;
 
 const rest = { rotation: [0, 0, 0, 1], translation: [0, 0, 0], free: false };
@@ -236,9 +236,11 @@ export class PoseTool {
     this.app.timeline.still();
     const begin = this.handles.find((handle) => handle.id === id);
     const offer = begin ? null : this.offers.find((other) => other.id === id);
+    const { pulled, chosen } = this;
     this.pulled = true;
     this.chosen = id;
     this.from = {
+      was: { pulled, chosen },
       added: begin ? [] : this.added([offer]),
       place: begin ? this.placeOf(begin) : this.app.skin.at({ corners: [offer.vertex], barycentrics: [1] }),
       before: this.app.state,
@@ -271,6 +273,13 @@ export class PoseTool {
       this.dragged(...from.last);
     }
     return this.app.commitPreview('move a handle');
+  }
+  /** A drag that is given up: a second finger came, or the system took the pointer. */
+  dragCancel() {
+    const { was, before } = this.from;
+    Object.assign(this, was);
+    this.from = null;
+    this.app.giveUp(before);
   }
   key({ id }, event) {
     if (event.key.startsWith('Arrow')) this.app.timeline.still();
@@ -332,8 +341,9 @@ export class PoseTool {
   /** The gizmo turned the chosen handle by a quaternion from where the drag began. */
   turned(by, done) {
     const handle = this.present();
-    this.turnFrom ??= this.standing(handle.id);
-    this.app.preview({ ...this.app.state, handles: this.mirror.moved(this.turnFrom, handle.id, [0, 0, 0], by) });
+    this.turnFrom ??= { handles: this.standing(handle.id), before: this.app.state };
+    const handles = this.mirror.moved(this.turnFrom.handles, handle.id, [0, 0, 0], by);
+    this.app.preview({ ...this.app.state, handles });
     if (done) {
       this.turnFrom = null;
       this.app.commitPreview('turn a handle');
@@ -349,7 +359,10 @@ export class PoseTool {
     this.gizmo.end();
   }
   strokeCancel() {
-    this.gizmo.end();
+    this.gizmo.cancel();
+    const { before } = this.turnFrom ?? {};
+    this.turnFrom = null;
+    this.app.giveUp(before);
   }
   remove(handle) {
     this.chosen = null;

@@ -14,7 +14,7 @@ const LEAST_PLACES = 3;
 const INK = 0xd8452e;
 /** Colours of the dots of poles, by the number of quads that meet there. */
 const DOTS = { 3: '#1f78b4', 5: '#7b3fa0' };
-/** An arrow key moves a pole by so many pixels. */
+/** An arrow key moves a pole by so many pixels: less than a quad, which it would jump over. */
 const NUDGE_PIXELS = 8;
 
 /** Two digits: 'about 2,000' says what is known before. */
@@ -41,11 +41,11 @@ export const tool = (kit) => {
       app.view.extras.add(this.ink);
     }
     opened() {
+      this.result = null; // of another body: it is not kept
       this.cancel();
       this.#end();
       this.edge = null;
       this.area = areaOf(this.app.body);
-      this.result = null;
       this.chosen = null;
       this.shown = {};
       this.relaxed = true;
@@ -58,13 +58,21 @@ export const tool = (kit) => {
     }
     async adopt({ edge, crease, mirror }) {
       Object.assign(this, { edge, crease, mirror });
-      const result = await this.app.session?.kept('quads');
-      if (!result) return;
+      const kept = await this.app.session?.kept('quads');
+      if (!kept) return;
       const { strokes, poles } = this.app.state;
+      const { result, ...made } = kept;
+      const same = JSON.stringify([made.strokes, made.poles]) === JSON.stringify([strokes, poles]);
       this.result = result;
-      this.shown = { strokes, poles };
+      this.shown = same ? { strokes, poles } : made;
       this.#draw();
       if (this.app.tool === this) this.dress();
+      // the mesh was on its way when the page was left: it is made again, as after an undo
+      if (!same) this.#follow(true);
+    }
+    /** What is shown, with the strokes and poles that it was made of. */
+    #keep() {
+      this.app.session?.keep('quads', { result: this.result, ...this.shown });
     }
     enter() {
       this.dress();
@@ -152,8 +160,10 @@ export const tool = (kit) => {
         this.#preview({ strokes: [...pen.before, { id: pen.id, places: pen.places }] });
     }
     strokeCancel() {
-      this.app.settle();
-      this.refresh();
+      this.app.giveUp();
+    }
+    dragCancel() {
+      this.strokeCancel();
     }
     strokeEnd() {
       return this.app.commitPreview('draw a stroke');
@@ -270,7 +280,7 @@ export const tool = (kit) => {
       this.shown = { strokes, poles };
       this.relaxed = relaxed;
       this.error = null;
-      if (relaxed) app.session?.keep('quads', result);
+      if (relaxed) this.#keep();
       this.#draw();
       return result;
     }
@@ -335,6 +345,7 @@ export const tool = (kit) => {
       this.#end();
       this.busy = null;
       this.relaxed = true; // the first form stays, where there is one
+      if (this.result) this.#keep();
       if (this.app.tool === this) this.app.refresh();
     }
     #clear() {

@@ -3,11 +3,14 @@ import { lookAtBoth, openBeside, takeRow } from '../beside.js';
 
 /** Frames a second of the saved walk: of animation files. */
 const FRAME_RATE = 30;
-/** Gaps between pieces below this part of the box are not said: a newcomer does not see them. */
+/** Gaps between pieces below this part of the box are not said: 3 pixels of a body that fills the picture. */
 const GAP_SAID = 0.005;
-/** Hues of neighbouring pairs are this part of the circle apart. */
+/** Hues of neighbouring pairs are this part of the circle apart: the golden ratio keeps all apart, however many there are. */
 const HUE_STEP = 0.61803398875;
-/** What is turned without a new preparation: name, neutral, least and most value, and the part of the body that it needs. */
+/**
+ * What is turned without a new preparation: name, neutral, least and most value, and the part of the body that it needs. The library
+ * takes a stride of 0.1 to 4, say: a slider of wider bounds is harder to set.
+ */
 const DIALS = [
   ['stride', 'Stride', 1, 0.5, 2, null],
   ['hipHeightShare', 'Hip height', 0, -0.3, 0.3, null],
@@ -49,15 +52,16 @@ export const tool = (kit) => {
       return source ? { source: source.body.name, pairs, dials, clip: source.body.clips.indexOf(clip) } : {};
     }
     async adopt({ sample, source = sample && `${sample}.glb`, pairs, dials = {}, clip = 0 }) {
-      const bytes = source && (await this.app.bytesOf(source, 'transfer'));
-      if (!bytes) return;
-      await this.open(bytes, source, false);
-      if (!this.source) return;
+      if (!source) return;
+      const bytes = await this.app.bytesOf(source, 'transfer');
+      if (!bytes) throw new Error(`${source} is not here`);
+      await this.#bring(bytes, source);
       this.clip = this.source.body.clips[clip] ?? this.clip;
-      if (pairs) await this.set(pairs);
+      const taken = !pairs || (await this.set(pairs));
       await this.app.client.ask('transferDials', { dials });
       this.dials = dials;
       if (this.app.tool !== this) this.leave();
+      if (!taken) throw new Error('its pairs were refused');
     }
     enter() {
       this.app.skin.wear('own');
@@ -121,6 +125,11 @@ export const tool = (kit) => {
         this.pairs.map((other, i) => (i === pair ? { ...other, [side]: { ...other[side], position: place } } : other)),
       );
     }
+    dragCancel() {
+      this.moved = null;
+      this.pairs = this.good;
+      this.app.marksLayer.update();
+    }
     drag({ id, pair }, [x, y]) {
       const side = id.startsWith('a') ? 'source' : 'target';
       const { pick } = side === 'source' ? this.source : { pick: (ray) => this.app.skin.pick(ray) };
@@ -142,47 +151,52 @@ export const tool = (kit) => {
         this.gap = 0;
         app.matters = '';
         say('');
+        return true;
       } catch (error) {
         this.pairs = this.good;
         app.warn(`pairs: ${error.message}`);
+        return false;
+      } finally {
+        app.refresh();
       }
-      app.refresh();
     }
-    /** Takes a source. plays: at once, unless less motion is wished. */
-    async open(bytes, name, plays = true) {
+    /** Reads a source and makes it known to the Worker; its pairs are proposed. */
+    async #bring(bytes, name) {
+      const { app } = this;
+      const body = await readModel(bytes, name, (data) => app.client.ask('read', { bytes: data, name }));
+      const clip = body.clips.find((other) => lengthOf(other) > 0);
+      if (!clip)
+        throw Object.assign(new Error(`${name} has no clip to play.`), { advice: 'Take a file with an animation.' });
+      this.#drop();
+      const { positions, triangles } = body;
+      const [of, target] = [body, app.body].map(({ document }) => writeGlb(document));
+      const glb = { source: await of, target: await target };
+      const pairs = await app.client.ask('transferOpen', { positions, triangles, glb });
+      const beside = await openBeside(kit, app, body);
+      const { skin } = beside;
+      this.source = {
+        ...beside,
+        posed: new Float32Array(positions.length),
+        locals: localsOf(body, positions),
+      };
+      app.client.ask('sourceTree').then(
+        (tree) => this.source?.skin === skin && skin.useTree(tree),
+        () => {},
+      );
+      this.clip = clip;
+      this.pairs = this.good = pairs;
+      this.time = 0;
+      this.#rest();
+      this.look();
+      app.session?.keep('transfer', { bytes, name });
+      if (pairs.length) await this.set(pairs);
+    }
+    /** Takes a source and plays its clip at once, unless less motion is wished. */
+    async open(bytes, name) {
       const { app } = this;
       try {
-        const body = await readModel(bytes, name, (data) => app.client.ask('read', { bytes: data, name }));
-        const clip = body.clips.find((other) => lengthOf(other) > 0);
-        if (!clip)
-          return app.failed(
-            `${name} was not taken`,
-            Object.assign(new Error(`${name} has no clip to play.`), { advice: 'Take a file with an animation.' }),
-          );
-        this.#drop();
-        const { positions, triangles } = body;
-        const [of, target] = [body, app.body].map(({ document }) => writeGlb(document));
-        const glb = { source: await of, target: await target };
-        const pairs = await app.client.ask('transferOpen', { positions, triangles, glb });
-        const beside = await openBeside(kit, app, body);
-        const { skin } = beside;
-        this.source = {
-          ...beside,
-          posed: new Float32Array(positions.length),
-          locals: localsOf(body, positions),
-        };
-        app.client.ask('sourceTree').then(
-          (tree) => this.source?.skin === skin && skin.useTree(tree),
-          () => {},
-        );
-        this.clip = clip;
-        this.pairs = this.good = pairs;
-        this.time = 0;
-        this.#rest();
-        this.look();
-        app.session?.keep('transfer', { bytes, name });
-        if (pairs.length) await this.set(pairs);
-        if (plays && this.info && app.tool === this && !matchMedia('(prefers-reduced-motion: reduce)').matches)
+        await this.#bring(bytes, name);
+        if (this.info && app.tool === this && !matchMedia('(prefers-reduced-motion: reduce)').matches)
           return this.play();
       } catch (error) {
         app.failed(`${name} was not taken`, error);

@@ -75,9 +75,10 @@ export const tool = (kit) => {
     async adopt({ of, influenceCount, shown, computed }) {
       Object.assign(this, { of, influenceCount });
       this.clear();
-      if (computed) await this.compute();
+      const done = !computed || (await this.compute());
       if (this.app.tool === this) this.look(shown);
       else this.shown = shown;
+      if (!done) throw new Error(this.error);
     }
     enter() {
       this.dress();
@@ -164,7 +165,7 @@ export const tool = (kit) => {
       this.bend.gizmo.end();
     }
     strokeCancel() {
-      this.bend.gizmo.end();
+      this.bend.cancel();
     }
     unpin() {
       const gone = new Set(this.pins.map(({ id }) => id));
