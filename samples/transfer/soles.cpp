@@ -231,7 +231,10 @@ std::vector<Fastening> fastenings_of(const StandingBody& body, const std::vector
   const auto place = [&](size_t v) { return mesh.positions[v]; };
   struct Box {
     glm::dvec3 low{1e300}, high{-1e300};
-    void add(const glm::dvec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
+    void add(const glm::dvec3& p) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
     bool has(const glm::dvec3& p, double slack) const { return p == glm::clamp(p, low - slack, high + slack); }
   };
   Box around;

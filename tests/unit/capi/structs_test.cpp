@@ -42,15 +42,14 @@ using Structs =
          hf_edit_desc, hf_sites_info, hf_solve_info, hf_preview_info, hf_certificate, hf_solver_statistics,
          hf_pose_desc, hf_pose_info, hf_handles_desc, hf_handle_info, hf_deform_info, hf_deform_desc, hf_skin_info,
          hf_blend_info, hf_blend_rows, hf_blend_influences, hf_direction_desc, hf_direction_statistics, hf_isolines,
-         hf_critical_info,
-         hf_geodesics_desc, hf_extremities_desc, hf_handle_proposals_desc, hf_region_desc, hf_curve_desc,
-         hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_pose_statistics, hf_transfer_statistics,
-         hf_morph_desc, hf_detail_desc, hf_quads_desc, hf_quads_info, hf_quads_mesh, hf_streamlines, hf_transfer_desc,
-         hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame, hf_graph_desc, hf_links_desc, hf_gaps_info,
-         hf_joints_desc, hf_pins_desc, hf_weights_out, hf_weights_info, hf_weights_statistics,
-         hf_weights_mirror_statistics, hf_weights_transfer_desc, hf_weights_transfer_info, hf_weights_mirror_desc,
-         hf_weights_mirror_info, hf_path, hf_transfer_dials, hf_skin_desc, hf_skeleton_desc, hf_skeleton_info,
-         hf_retarget_desc, hf_retarget_info>;
+         hf_critical_info, hf_geodesics_desc, hf_extremities_desc, hf_handle_proposals_desc, hf_region_desc,
+         hf_curve_desc, hf_region_edit_desc, hf_region_info, hf_region_statistics, hf_pose_statistics,
+         hf_transfer_statistics, hf_morph_desc, hf_detail_desc, hf_quads_desc, hf_quads_info, hf_quads_mesh,
+         hf_streamlines, hf_transfer_desc, hf_pairs_desc, hf_pair_info, hf_transfer_info, hf_transfer_frame,
+         hf_graph_desc, hf_links_desc, hf_surface_edit_desc, hf_gaps_info, hf_joints_desc, hf_pins_desc, hf_weights_out,
+         hf_weights_info, hf_weights_statistics, hf_weights_mirror_statistics, hf_weights_transfer_desc,
+         hf_weights_transfer_info, hf_weights_mirror_desc, hf_weights_mirror_info, hf_path, hf_transfer_dials,
+         hf_skin_desc, hf_skeleton_desc, hf_skeleton_info, hf_retarget_desc, hf_retarget_info>;
 
 // All bytes a caller owns: the struct in front, its own memory behind.
 constexpr std::size_t room = 1024;
