@@ -154,6 +154,21 @@ TEST_F(FactorTest, several_components_and_single_unknowns_are_solved) {
   expect_factor_of(b.build(memory), hf_inner::Ordering::nested_dissection);
 }
 
+TEST_F(FactorTest, commute_time_is_the_sum_of_the_diagonal_over_the_last_pivot) {
+  for (const std::int32_t n : {1, 2, 7, 40}) {  // complete graphs: one supernode
+    Assembly a(n);
+    for (std::int32_t i = 0; i < n; ++i) {
+      for (std::int32_t j = i + 1; j < n; ++j) a.add_edge(i, j, 1.0);
+    }
+    const double ground = 0.5, mean = 2.5;
+    a.add(0, 0, ground);
+    const auto factor = make(a.build(memory), hf_inner::Ordering::natural);
+    const double last = factor->order()[n - 1] == 0 ? ground : 1 / (2.0 / n + 1 / ground);  // conductance to the ground
+    const std::vector<std::int32_t> component(static_cast<std::size_t>(n), 0);
+    EXPECT_NEAR(factor->commute_time(component, {&mean, 1}) * last / (n * mean), 1, 1e-12) << n;
+  }
+}
+
 TEST_F(FactorTest, empty_matrix_is_a_factor_of_size_zero) {
   hf_inner::SymmetricMatrix a(memory);
   a.column_start.push_back(0);

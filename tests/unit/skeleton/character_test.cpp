@@ -60,6 +60,36 @@ INSTANTIATE_TEST_SUITE_P(Conventions, Biped, testing::ValuesIn(biped_conventions
   return name;
 });
 
+// A rest pose in mid-stride has no plane of symmetry. The pose of binding has one.
+TEST(Doubt, ABodyThatRestsInAStrideIsMirroredAsItWasBound) {
+  Rig rig = make_biped("mixamo", {});
+  for (std::size_t j = 0; j < rig.joints.size(); ++j) rig.joints[j].name = "bone" + std::to_string(j);
+  std::vector<double> binds;
+  const PlacedRig bound(rig, {});
+  for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+    const Vec3 p = rig.joints[j].pivot;
+    binds.insert(binds.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -p.x, -p.y, -p.z, 1});
+  }
+  Rig striding = rig;
+  for (std::size_t j = 0; j < rig.joints.size(); ++j) {
+    const RigJoint& joint = rig.joints[j];
+    const int parent = joint.parent;
+    if (joint.side == Side::middle || parent < 0 || rig.joints[static_cast<std::size_t>(parent)].side != Side::middle)
+      continue;
+    striding.turn(static_cast<int>(j), {1, 0, 0}, joint.side == Side::left ? -50 : 50);
+    striding.turn(static_cast<int>(j), {0, 0, 1}, joint.side == Side::left ? 40 : 10);
+  }
+  const PlacedRig placed(striding, {});
+  Memory memory;
+  auto input = placed.input();
+  const Character alone = know_character(input, memory);
+  EXPECT_EQ(why(alone).find("pose of binding"), std::string::npos) << why(alone);
+  input.inverse_binds = binds.data();
+  const Character found = know_character(input, memory);
+  EXPECT_NE(why(found).find("pose of binding"), std::string::npos) << why(found);
+  EXPECT_GT(std::fabs(found.left.x), 0.9) << why(found);
+}
+
 // Names whose left is the viewer's: each joint bears the name of its mate.
 TEST(Doubt, SidesOfTheViewerAreOverruledByTheShapeAndSaidSo) {
   Rig rig = make_biped("mixamo", {});

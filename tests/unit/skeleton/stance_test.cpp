@@ -5,6 +5,7 @@
 
 #include "gltf/clip_binding.h"
 #include "gltf/pose_numbers.h"
+#include "gltf/skeleton_body.h"
 #include "gltf/skeleton_pair.h"
 #include "rig_blocks.h"
 #include "rig_model.h"
@@ -183,6 +184,28 @@ TEST(Stance, APairSaysThatOneRestsInAStride) {
   EXPECT_EQ(hf_gltf::SkeletonPair({a, mesh_a}, {a, mesh_a}).unevenness(), 0);
   EXPECT_GT(hf_gltf::SkeletonPair({a, mesh_a}, {b, mesh_b}).unevenness(), 0.5);
   EXPECT_GT(hf_gltf::SkeletonPair({b, mesh_b}, {a, mesh_a}).unevenness(), 0.5);
+}
+
+TEST(Stance, ABodyIsAsUnevenAsItsArmsAndLegs) {
+  hf_inner::Memory memory;
+  hf_inner::Character c(memory);
+  c.left = {1, 0, 0};
+  c.height = 2;
+  const auto add_pair = [&](Role role, hf_inner::Vec3 left, hf_inner::Vec3 right) {
+    const auto first = static_cast<std::int32_t>(c.roles.size());
+    for (const auto& [mate, origin] : {std::pair{first + 1, left}, std::pair{first, right}}) {
+      c.roles.push_back(role);
+      c.mates.push_back(mate);
+      hf_inner::RestFrame frame;
+      frame.origin = origin;
+      c.frames.push_back(frame);
+    }
+  };
+  add_pair(Role::head, {0.1, 2, 0}, {-0.1, 1, 0});  // ears, which say nothing
+  for (const Role role : {Role::leg, Role::arm, Role::hand, Role::foot}) {
+    add_pair(role, {0.2, 1, 0}, {-0.2, 1, 0.4});  // 0.4 apart once mirrored, a fifth of the height
+    EXPECT_NEAR(hf_gltf::unevenness(c), 0.2, 1e-12);
+  }
 }
 
 TEST(Stance, AClipThatBeginsEvenlyStandsForAPoseThatIsNot) {
