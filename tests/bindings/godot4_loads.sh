@@ -5,7 +5,7 @@ set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 case "$("$1" -dumpmachine)" in *linux*) ;; *) echo "skipped: not Linux"; exit 77 ;; esac
 rm -rf "$3/addons"
-CXX=$1 CXXFLAGS='-O1 -Wall -Wextra -Wpedantic -Werror' "$root/bindings/godot/build4.sh" "$2" "$3"
+CXX=$1 CXXFLAGS='-O0 -Wall -Wextra -Wpedantic -Werror' "$root/bindings/godot/build4.sh" "$2" "$3"
 library=$(echo "$3"/addons/hf/*.so)
 symbol=$(sed -n 's/^entry_symbol = "\(.*\)"$/\1/p' "$3/addons/hf/hf.gdextension")
 exports=$(nm -D --defined-only "$library" | awk '{ print $3 }')

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <Eigen/Core>
 
 #include "assets/creature.h"
@@ -569,8 +570,11 @@ TEST(FieldQuads, chords_beside_hubs_leave_valid_meshes_too) {
     const Table<std::uint8_t> features = find_features(surface, HUGE_VAL, memory);
     std::int32_t removed[2] = {0, 0};
     // With a limit of 3 most vertices are hubs, so that what the whole walk refuses is refused without it as well.
+    // The quick form leaves out what lies between.
+    const bool full = std::getenv("HF_FULL_TESTS") != nullptr;
     for (const std::int32_t hub : {3, 5, 8, 1000000}) {
       for (const std::int32_t share : {2, 8, 64}) {
+        if (!full && (hub == 5 || share == 2)) continue;
         QuadComplex quads = split_triangles(surface, features, all, memory);
         const std::int32_t count = collapse_chords(quads, quads.quad_count() / share, 0, memory, hub);
         expect_valid(*core, quads.mesh(memory), name);
