@@ -169,6 +169,26 @@ TEST_F(FactorTest, commute_time_is_the_sum_of_the_diagonal_over_the_last_pivot) 
   }
 }
 
+TEST_F(FactorTest, unknowns_with_the_same_neighbours_are_ordered_as_one) {
+  for (const std::int32_t side : {8, 20}) {
+    double single = 0;
+    for (const std::int32_t copies : {1, 2, 3}) {  // of each vertex of a grid, all joined
+      Assembly a(side * side * copies);
+      for (std::int32_t v = 0; v < side * side; ++v) {
+        for (const std::int32_t u : {v, v % side + 1 < side ? v + 1 : -1, v + side < side * side ? v + side : -1}) {
+          for (std::int32_t i = 0; u >= 0 && i < copies; ++i) {
+            for (std::int32_t j = u == v ? i + 1 : 0; j < copies; ++j) a.add_edge(v * copies + i, u * copies + j, 1.0);
+          }
+        }
+      }
+      a.add(0, 0, 1.0);
+      const double entries = make(a.build(memory))->statistics().entries;
+      if (copies == 1) single = entries - side * side;
+      EXPECT_EQ(entries, single * copies * copies + side * side * copies * (copies + 1) / 2) << side << " " << copies;
+    }
+  }
+}
+
 TEST_F(FactorTest, empty_matrix_is_a_factor_of_size_zero) {
   hf_inner::SymmetricMatrix a(memory);
   a.column_start.push_back(0);
