@@ -39,7 +39,7 @@ double band_weight(double u, std::int32_t band, std::int32_t bands) noexcept {
 
 void weigh_by_bands(std::int32_t width, std::int32_t bands, Span<const double> field, std::int32_t* joint,
                     float* weight, Memory& memory) {
-  Vector<Candidate> candidates(at(2 * width), &memory);
+  Vector<ClusterWeight> candidates(at(2 * width), &memory);
   Poller poller;
   for (std::size_t v = 0; v < field.size() / at(width); ++v) {
     poller.due();

@@ -87,7 +87,7 @@ void weigh_by_distance(double kernel_width, const Vector<NearestCentres>& neares
   for (std::size_t v = 0; v < nearest.size(); ++v) {
     poller.due();
     const NearestCentres& near = nearest[v];
-    Candidate candidates[blend_count];
+    ClusterWeight candidates[blend_count];
     std::int32_t count = 0;
     // A vertex belongs to the clusters of the four nearest centres. The weight at the fifth is subtracted from theirs,
     // so that weights stay continuous where the four change.
@@ -247,8 +247,8 @@ void close_row(std::size_t begin, double trace, SourceKernels& out) {
   out.start.push_back(static_cast<std::int32_t>(out.slope.size()));
 }
 
-void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* joint, float* weight) noexcept {
-  std::sort(candidates, candidates + count, [](const Candidate& a, const Candidate& b) {
+void write_weights(ClusterWeight* candidates, std::int32_t count, std::int32_t* joint, float* weight) noexcept {
+  std::sort(candidates, candidates + count, [](const ClusterWeight& a, const ClusterWeight& b) {
     return a.weight != b.weight ? a.weight > b.weight : a.cluster < b.cluster;
   });
   count = std::min(count, blend_count);

@@ -79,10 +79,10 @@ SourceWeights weigh_source(const Clusters& clusters, double kernel_width, Span<c
 
 // Writes the four (or fewer) largest weights of one vertex, taken from `count` candidates. They are multiples of 2^-24
 // with sum exactly 1. The candidates end up sorted.
-struct Candidate {
+struct ClusterWeight {
   std::int32_t cluster = 0;
   double weight = 0;
 };
-void write_weights(Candidate* candidates, std::int32_t count, std::int32_t* joint, float* weight) noexcept;
+void write_weights(ClusterWeight* candidates, std::int32_t count, std::int32_t* joint, float* weight) noexcept;
 
 }  // namespace hf_inner

@@ -185,7 +185,7 @@ TEST(TransferRules, TheSkinReplaysTheFrameAndItsWeightsSumToExactlyOne) {
 
 TEST(TransferRules, WeightsOfAVertexAreRoundedToAnExactSum) {
   for (int trial = 0; trial < 1000; ++trial) {
-    hf_inner::Candidate candidates[6];
+    hf_inner::ClusterWeight candidates[6];
     const int count = 1 + trial % 6;
     for (int i = 0; i < count; ++i) {
       candidates[i].cluster = i;
