@@ -24,10 +24,12 @@ struct SiteCost {
     return 2 * d * factor_.path_entries / path_rate + 2 * d * (k + d / 2) * factor_.path_rows / gram_rate +
            (cube(k + d) - cube(k)) / 3 / cholesky_rate;
   }
-  // Cost of an edited factor of k changed rows (edited_factor.h): paths, products of paths, and two dense factors of
-  // k^3 / 3 and a product of k^3 / 3 operations, without fast kernels.
-  double edit_ns(double k) const noexcept {
-    return 2 * k * factor_.path_entries / path_rate + k * k * factor_.path_rows / gram_rate + 2 * cube(k) / signed_rate;
+  // Cost of an edited factor of changed rows, on the rim and inside (edited_factor.h): the rim's paths and their
+  // products; two factors and an inverse of the inside, three products of it with the rim, and two factors of the rim,
+  // without fast kernels.
+  double edit_ns(double rim, double inside) const noexcept {
+    const double dense = cube(inside) + 3 * inside * inside * rim + 2 * inside * rim * rim + cube(rim);
+    return 2 * rim * factor_.path_entries / path_rate + rim * rim * factor_.path_rows / gram_rate + dense / signed_rate;
   }
   // Cost of factorising again the rows [first, k) of a dense system with signs of both kinds.
   double signed_ns(double first, double k) const noexcept { return (cube(k) - cube(first)) / 3 / signed_rate; }

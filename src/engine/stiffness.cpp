@@ -41,25 +41,34 @@ bool write_row(const SymmetricMatrix& plain, Index v, StiffnessOf&& of, double* 
   return changed;
 }
 
-// The vertices whose rows differ, ascending: those of another stiffness and their neighbours. plain: the operator.
-Vector<Index> changed_rows(const SymmetricMatrix& plain, const Core& from, const Core& to) {
+// The difference of the two operators: the rows that differ, and those of them that lie inside. Ground vertices count
+// as the rim, because the factorised matrix has more at them than the operator.
+MatrixChange changed_rows(const SymmetricMatrix& plain, const Core& from, const Core& to) {
   Memory& memory = *from.memory;
-  Vector<Index> rows(&memory);
+  MatrixChange change(memory);
+  Vector<Index>& rows = change.unknown;
   for (Index v = 0; v < plain.size(); ++v) {
     if (at_vertex(to, v) == at_vertex(from, v)) continue;
     for (Index i = plain.column_start[at(v)]; i < plain.column_start[at(v) + 1]; ++i) rows.push_back(plain.row[at(i)]);
   }
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  return rows;
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    const Index v = rows[p];
+    if (from.ground[at(from.mesh.component[at(v)])] == v) continue;
+    bool inside = true;
+    for (Index i = plain.column_start[at(v)]; inside && i < plain.column_start[at(v) + 1]; ++i)
+      inside = std::binary_search(rows.begin(), rows.end(), plain.row[at(i)]);
+    if (inside) change.inside.push_back(static_cast<Index>(p));
+  }
+  return change;
 }
 
-// The difference of the two operators on these rows.
-MatrixChange difference(const SymmetricMatrix& plain, const Core& from, const Core& to, Vector<Index> rows) {
+// Fills in the entries of the change, and those of the rows inside.
+void fill_entries(const SymmetricMatrix& plain, const Core& from, const Core& to, MatrixChange& change) {
   Memory& memory = *from.memory;
-  MatrixChange change(memory);
-  change.unknown = std::move(rows);
   Vector<double> before(&memory), after(&memory);
+  auto inside = change.inside.begin();
   for (std::size_t p = 0; p < change.unknown.size(); ++p) {
     const Index v = change.unknown[p];
     const std::size_t begin = at(plain.column_start[at(v)]), count = at(plain.column_start[at(v) + 1]) - begin;
@@ -69,14 +78,17 @@ MatrixChange difference(const SymmetricMatrix& plain, const Core& from, const Co
         plain, v, [&](Index u) { return at_vertex(from, u); }, before.data());
     write_row(
         plain, v, [&](Index u) { return at_vertex(to, u); }, after.data());
+    const bool is_inside = inside != change.inside.end() && at(*inside) == p;
+    if (is_inside) ++inside;
     for (std::size_t i = 0; i < count; ++i) {
-      if (after[i] == before[i]) continue;
+      if (after[i] == before[i] && !is_inside) continue;
       const auto there = std::lower_bound(change.unknown.begin(), change.unknown.end(), plain.row[begin + i]);
       const Index column = static_cast<Index>(there - change.unknown.begin());
-      change.entries.push_back({static_cast<Index>(p), column, after[i] - before[i]});
+      const Index row = static_cast<Index>(p);
+      if (is_inside) change.inside_entries.push_back({row, column, before[i]});
+      if (after[i] != before[i]) change.entries.push_back({row, column, after[i] - before[i]});
     }
   }
-  return change;
 }
 
 // A core of another kind of field, made with the ordering of `from`.
@@ -141,10 +153,11 @@ std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, std::sha
   const std::shared_ptr<const Core> near = from->factored ? from->factored : from;
   Memory& memory = *from->memory;
   const std::shared_ptr<Core> made = edited_copy(plain, std::move(stiffness));
-  Vector<Index> rows = changed_rows(plain->laplacian, *near, *made);
+  MatrixChange change = changed_rows(plain->laplacian, *near, *made);
   const SiteCost cost(near->factor->statistics());
-  if (cost.edit_ns(static_cast<double>(rows.size())) < most * cost.rebase_ns(0)) {
-    const MatrixChange change = difference(plain->laplacian, *near, *made, std::move(rows));
+  const double inside = static_cast<double>(change.inside.size());
+  if (cost.edit_ns(static_cast<double>(change.unknown.size()) - inside, inside) < most * cost.rebase_ns(0)) {
+    fill_entries(plain->laplacian, *near, *made, change);
     made->factor = edit_factor(near->factor, change, memory, *from->jobs);
     made->factored = near;
     made->is_long = made->is_long || made->factor->statistics().rounding > largest_rounding;

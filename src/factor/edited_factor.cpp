@@ -15,23 +15,38 @@ constexpr Index tile = PathGroup::capacity;
 struct Lower {
   Lower(std::size_t k, Memory& memory) : size(k), value(k * k, 0.0, &memory) {}
   double& at(std::size_t i, std::size_t j) noexcept { return value[j * size + i]; }
+  double at(std::size_t i, std::size_t j) const noexcept { return value[j * size + i]; }
   const double* column(std::size_t j) const noexcept { return value.data() + j * size; }
   double* column(std::size_t j) noexcept { return value.data() + j * size; }
 
   // Replaces a symmetric matrix by its Cholesky factor. Returns -1, or the first row without a positive pivot.
   Index factorise() noexcept {
-    for (std::size_t j = 0; j < size; ++j) {
-      double* const own = column(j);
-      if (!(own[j] > 0)) return static_cast<Index>(j);
-      const double scale = 1 / std::sqrt(own[j]);
-      for (std::size_t i = j; i < size; ++i) own[i] *= scale;
-      for (std::size_t c = j + 1; c < size; ++c) {
-        const double factor = own[c];
+    constexpr std::size_t step =
+        4;  // columns that the others are updated with at once, so they are read a fourth as often
+    for (std::size_t begin = 0; begin < size; begin += step) {
+      const std::size_t end = std::min(size, begin + step);
+      for (std::size_t j = begin; j < end; ++j) {
+        double* const own = column(j);
+        for (std::size_t c = begin; c < j; ++c) subtract(column(c)[j], column(c), own, j);
+        if (!(own[j] > 0)) return static_cast<Index>(j);
+        const double scale = 1 / std::sqrt(own[j]);
+        for (std::size_t i = j; i < size; ++i) own[i] *= scale;
+      }
+      for (std::size_t c = end; c < size; ++c) {
         double* const other = column(c);
-        for (std::size_t i = c; i < size; ++i) other[i] -= factor * own[i];
+        if (end - begin < step) {
+          for (std::size_t j = begin; j < end; ++j) subtract(column(j)[c], column(j), other, c);
+          continue;
+        }
+        const double *const x0 = column(begin), *const x1 = x0 + size, *const x2 = x1 + size, *const x3 = x2 + size;
+        const double f0 = x0[c], f1 = x1[c], f2 = x2[c], f3 = x3[c];
+        for (std::size_t i = c; i < size; ++i) other[i] -= (f0 * x0[i] + f1 * x1[i]) + (f2 * x2[i] + f3 * x3[i]);
       }
     }
     return -1;
+  }
+  void subtract(double factor, const double* from, double* out, std::size_t begin) const noexcept {
+    for (std::size_t i = begin; i < size; ++i) out[i] -= factor * from[i];
   }
   // x <- M^-1 x and x <- M'^-1 x, with x[row * m + q].
   void solve(double* x, std::size_t m) const noexcept {
@@ -51,6 +66,20 @@ struct Lower {
       }
       for (std::size_t q = 0; q < m; ++q) x[j * m + q] /= own[j];
     }
+  }
+
+  // Entry (i, i) of (M M')^-1. scratch: `size` numbers.
+  double inverse_at(std::size_t i, double* scratch) const noexcept {
+    std::fill(scratch + i, scratch + size, 0.0);
+    scratch[i] = 1;
+    double squares = 0;
+    for (std::size_t j = i; j < size; ++j) {
+      const double* const own = column(j);
+      const double y = scratch[j] / own[j];
+      squares += y * y;
+      for (std::size_t r = j + 1; r < size; ++r) scratch[r] -= own[r] * y;
+    }
+    return squares;
   }
 
   std::size_t size;
@@ -79,16 +108,26 @@ class EditedPaths final : public PathGroup {
 
 class EditedFactor final : public Factor {
  public:
-  EditedFactor(std::shared_ptr<const Factor> base, std::size_t k, Memory& memory)
+  EditedFactor(std::shared_ptr<const Factor> base, std::size_t rim, std::size_t inside, SparseVectors rows,
+               Memory& memory)
       : base_(std::move(base)),
         memory_(memory),
-        k_(k),
+        rim_(rim),
+        inside_(inside),
+        k_(rim + inside),
         statistics_(base_->statistics()),
         paths_(&memory),
-        place_(k, &memory),
-        gram_(k * k, 0.0, &memory),
-        inner_(k, memory),
-        outer_(k, memory) {}
+        place_(rim, &memory),
+        rows_(std::move(rows)),
+        unknown_(&memory),
+        gram_(rim * rim, 0.0, &memory),
+        entries_(&memory),
+        rim_before_(rim, memory),
+        rim_after_(rim, memory),
+        inside_before_(inside, memory),
+        inside_after_(inside, memory),
+        coupling_(&memory),
+        ratio_(k_, 0.0, &memory) {}
 
   void prepare(const MatrixChange& change, JobRunner& jobs);
 
@@ -114,7 +153,7 @@ class EditedFactor final : public Factor {
   }
   void clear_at(Span<const Index> unknowns, double* z, Index channels) const override {
     base_->clear_at(unknowns, z, channels);
-    for (const auto& group : paths_) base_->clear(*group, channels, z);
+    clear_own(channels, z);
   }
   std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
                                          Memory& memory, JobRunner& jobs) const override {
@@ -123,35 +162,50 @@ class EditedFactor final : public Factor {
   void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
                    Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<Index> out_group,
                    Span<Index> out_column) const override;
+  bool rows_of(Span<const Index>, SparseVectors&) const override { return false; }
   void gram(const PathGroup& a, const PathGroup& b, double* gram, Index ld) const override;
   void combine(const PathGroup& group, const double* lambda, Index channels, double* z) const override;
   void clear(const PathGroup& group, Index channels, double* z) const override {
     base_->clear(of(group).base(), channels, z);
-    for (const auto& own : paths_) base_->clear(*own, channels, z);
+    clear_own(channels, z);
   }
   void project(const PathGroup& group, const double* z, Index channels, double* out) const override;
 
  private:
   static const EditedPaths& of(const PathGroup& group) noexcept { return static_cast<const EditedPaths&>(group); }
-  // out[i * channels + q] = y_i' z for the paths y_i of R.
+  void form_rim(Span<const Index> unknowns, JobRunner& jobs);
+  void form_change(const MatrixChange& change, const Vector<std::size_t>& number);
+  // out[i * channels + q] = v_i' z.
   void project_own(const double* z, Index channels, double* out) const;
-  // z += Y x.
+  // z += V x.
   void combine_own(const double* x, Index channels, double* z) const;
+  // Sets z to 0 on every row that V touches.
+  void clear_own(Index channels, double* z) const;
   // Replaces x by W x, or by W' x.
   void apply(double* x, std::size_t m, bool transposed) const;
   void add_change(double* z, Index channels, bool transposed) const;
 
   std::shared_ptr<const Factor> base_;
   Memory& memory_;
-  std::size_t k_;
+  std::size_t rim_, inside_, k_;  // columns of V: first those of the rim, then those of the inside
   FactorStatistics statistics_;
-  Vector<std::shared_ptr<const PathGroup>> paths_;  // of R
+  Vector<std::shared_ptr<const PathGroup>> paths_;  // of the rim
   struct Place {
     Index group, column;
   };
-  Vector<Place> place_;  // by position in R
-  Vector<double> gram_;  // C, both triangles
-  Lower inner_, outer_;  // H and L
+  Vector<Place> place_;    // by column of V
+  SparseVectors rows_;     // of G, of the inside
+  Vector<Index> unknown_;  // the inside in the caller's numbering, ascending
+  Vector<double> gram_;    // C of the rim, both triangles
+  struct Entry {
+    std::size_t row, column;
+    double value;
+  };
+  Vector<Entry> entries_;               // C of the inside: entries of A, counted in the inside
+  Lower rim_before_, rim_after_;        // H and L of the rim
+  Lower inside_before_, inside_after_;  // H of the inside, and H L: the factors of A and A' there
+  Vector<double> coupling_;             // [inside][rim] L between the two, transposed
+  Vector<double> ratio_;                // by column of V: D_ii (A^-1)_ii
 };
 
 void EditedFactor::project_own(const double* z, Index channels, double* out) const {
@@ -159,26 +213,74 @@ void EditedFactor::project_own(const double* z, Index channels, double* out) con
   Vector<double> products(paths_.size() * at(tile) * m, &memory_);
   for (std::size_t g = 0; g < paths_.size(); ++g)
     base_->project(*paths_[g], z, channels, products.data() + g * at(tile) * m);
-  for (std::size_t i = 0; i < k_; ++i)
+  for (std::size_t i = 0; i < rim_; ++i)
     std::copy_n(&products[(at(place_[i].group) * at(tile) + at(place_[i].column)) * m], m, out + i * m);
+  out += rim_ * m;
+  std::fill_n(out, inside_ * m, 0.0);
+  for (std::size_t i = 0; i < inside_; ++i, out += m) {
+    for (Index e = rows_.start[i]; e < rows_.start[i + 1]; ++e) {
+      const double value = rows_.value[at(e)];
+      const double* const from = z + at(rows_.row[at(e)]) * m;
+      for (std::size_t q = 0; q < m; ++q) out[q] += value * from[q];
+    }
+  }
 }
 
 void EditedFactor::combine_own(const double* x, Index channels, double* z) const {
   const std::size_t m = at(channels);
   Vector<double> factors(paths_.size() * at(tile) * m, 0.0, &memory_);
-  for (std::size_t i = 0; i < k_; ++i)
+  for (std::size_t i = 0; i < rim_; ++i)
     std::copy_n(x + i * m, m, &factors[(at(place_[i].group) * at(tile) + at(place_[i].column)) * m]);
   for (std::size_t g = 0; g < paths_.size(); ++g)
     base_->combine(*paths_[g], factors.data() + g * at(tile) * m, channels, z);
+  x += rim_ * m;
+  for (std::size_t i = 0; i < inside_; ++i, x += m) {
+    for (Index e = rows_.start[i]; e < rows_.start[i + 1]; ++e) {
+      const double value = rows_.value[at(e)];
+      double* const to = z + at(rows_.row[at(e)]) * m;
+      for (std::size_t q = 0; q < m; ++q) to[q] += value * x[q];
+    }
+  }
 }
 
-// W = H'^-1 (L^-1 - I) H^-1.
+void EditedFactor::clear_own(Index channels, double* z) const {
+  for (const auto& group : paths_) base_->clear(*group, channels, z);
+  for (const Index row : rows_.row) std::fill_n(z + at(row) * at(channels), channels, 0.0);
+}
+
+// W = H'^-1 (L^-1 - I) H^-1. For the inside L^-1 H^-1 is the inverse of the factor of A'.
 void EditedFactor::apply(double* x, std::size_t m, bool transposed) const {
-  inner_.solve(x, m);
-  Vector<double> before(x, x + k_ * m, &memory_);
-  transposed ? outer_.solve_transposed(x, m) : outer_.solve(x, m);
-  for (std::size_t i = 0; i < k_ * m; ++i) x[i] -= before[i];
-  inner_.solve_transposed(x, m);
+  double* const inside = x + rim_ * m;
+  Vector<double> y(x, x + k_ * m, &memory_);
+  double* const y_inside = y.data() + rim_ * m;
+  const auto each = [&](auto&& take) {
+    for (std::size_t i = 0; i < inside_; ++i) {
+      for (std::size_t a = 0; a < rim_; ++a) take(coupling_[i * rim_ + a], y_inside + i * m, y.data() + a * m);
+    }
+  };
+  inside_before_.solve(inside, m);
+  rim_before_.solve(x, m);
+  std::copy_n(x, rim_ * m, y.data());
+  if (transposed) {
+    rim_after_.solve_transposed(y.data(), m);
+    std::copy_n(inside, inside_ * m, y_inside);
+    each([&](double value, double* of_inside, const double* of_rim) {
+      for (std::size_t q = 0; q < m; ++q) of_inside[q] -= value * of_rim[q];
+    });
+    inside_after_.solve_transposed(y_inside, m);
+    inside_before_.solve_transposed(inside, m);
+    for (std::size_t i = 0; i < inside_ * m; ++i) inside[i] = y_inside[i] - inside[i];
+  } else {
+    inside_after_.solve(y_inside, m);
+    each([&](double value, const double* of_inside, double* of_rim) {
+      for (std::size_t q = 0; q < m; ++q) of_rim[q] -= value * of_inside[q];
+    });
+    rim_after_.solve(y.data(), m);
+    for (std::size_t i = 0; i < inside_ * m; ++i) inside[i] = y_inside[i] - inside[i];
+    inside_before_.solve_transposed(inside, m);
+  }
+  for (std::size_t i = 0; i < rim_ * m; ++i) x[i] = y[i] - x[i];
+  rim_before_.solve_transposed(x, m);
 }
 
 void EditedFactor::add_change(double* z, Index channels, bool transposed) const {
@@ -188,19 +290,18 @@ void EditedFactor::add_change(double* z, Index channels, bool transposed) const 
   combine_own(x.data(), channels, z);
 }
 
-void EditedFactor::prepare(const MatrixChange& change, JobRunner& jobs) {
-  Vector<Index> start(k_ + 1, &memory_), group(k_, &memory_), column(k_, &memory_);
-  for (std::size_t i = 0; i <= k_; ++i) start[i] = static_cast<Index>(i);
-  const Vector<double> ones(k_, 1.0, &memory_);
-  base_->solve_paths({start, change.unknown, ones}, memory_, jobs, paths_, group, column);
+// The rim's paths, and their products: C of the rim.
+void EditedFactor::form_rim(Span<const Index> unknowns, JobRunner& jobs) {
+  Vector<Index> start(rim_ + 1, &memory_), group(rim_, &memory_), column(rim_, &memory_);
+  for (std::size_t i = 0; i <= rim_; ++i) start[i] = static_cast<Index>(i);
+  const Vector<double> ones(rim_, 1.0, &memory_);
+  base_->solve_paths({start, unknowns, ones}, memory_, jobs, paths_, group, column);
   Vector<Index> row_at(paths_.size() * at(tile), -1, &memory_);
-  for (std::size_t i = 0; i < k_; ++i) {
+  for (std::size_t i = 0; i < rim_; ++i) {
     place_[i] = {group[i], column[i]};
     row_at[at(group[i] * tile + column[i])] = static_cast<Index>(i);
   }
-  // C, one pair of groups at a time
-  const std::size_t groups = paths_.size();
-  jobs.for_each(static_cast<std::uint32_t>(groups), [&](std::uint32_t a) {
+  jobs.for_each(static_cast<std::uint32_t>(paths_.size()), [&](std::uint32_t a) {
     double products[tile * tile];
     for (std::size_t b = 0; b <= a; ++b) {
       base_->gram(*paths_[a], *paths_[b], products, tile);
@@ -208,50 +309,119 @@ void EditedFactor::prepare(const MatrixChange& change, JobRunner& jobs) {
         for (Index j = 0; j < paths_[b]->count(); ++j) {
           const Index row = row_at[a * at(tile) + at(i)], other = row_at[b * at(tile) + at(j)];
           if (row < 0 || other < 0) continue;
-          gram_[at(row) * k_ + at(other)] = products[i * tile + j];
-          gram_[at(other) * k_ + at(row)] = products[i * tile + j];
+          gram_[at(row) * rim_ + at(other)] = products[i * tile + j];
+          gram_[at(other) * rim_ + at(row)] = products[i * tile + j];
         }
       }
     }
   });
+}
+
+// L by blocks, the inside first. With X = A_ri A_ii^-1 (r: the rim, i: the inside) the rim's rows of F = H' B^-1 are
+// H' [I, -X]. Then I + F D F' has, with the factor H_after of A'_ii,
+//
+//     L_ii = H^-1 H_after,   L_ri = (F D)_i H_after'^-1,   L_rr L_rr' = I + F D F' - L_ri L_ri'
+//
+// So a soft inside beside a stiff one keeps its digits, which a factorisation of I + F D F' as it is would lose. H'
+// comes before D, which takes differences of neighbours. number: a column of V by position in `unknown`.
+void EditedFactor::form_change(const MatrixChange& change, const Vector<std::size_t>& number) {
+  Vector<double> x(inside_ * rim_, 0.0, &memory_);  // X'
+  for (const MatrixChange::Entry& entry : change.inside_entries) {
+    const std::size_t row = number[at(entry.row)], column = number[at(entry.column)];
+    if (row >= rim_ && column < rim_) x[(row - rim_) * rim_ + column] = entry.value;
+  }
+  inside_before_.solve(x.data(), rim_);
+  inside_before_.solve_transposed(x.data(), rim_);
   poll();
-  for (std::size_t j = 0; j < k_; ++j) std::copy_n(&gram_[j * k_ + j], k_ - j, inner_.column(j) + j);
-  Index failed = inner_.factorise();
-  if (failed >= 0)
-    fail(HF_ERROR_NOT_POSITIVE_DEFINITE, static_cast<std::uint32_t>(change.unknown[at(failed)]),
-         "the edited matrix lost its digits at unknown %d", change.unknown[at(failed)]);
-  poll();
-  // I + H' (D H), with H lower triangular: column j of D H needs column j of H alone
-  Vector<double> product(k_, &memory_);
-  for (std::size_t j = 0; j < k_; ++j) {
-    std::fill(product.begin(), product.end(), 0.0);
-    const double* const h = inner_.column(j);
-    for (const MatrixChange::Entry& entry : change.entries) {
-      if (at(entry.column) >= j) product[at(entry.row)] += entry.value * h[entry.column];
-    }
-    for (std::size_t i = j; i < k_; ++i) {
-      const double* const left = inner_.column(i);
-      double sum[4] = {0, 0, 0, 0};
-      std::size_t r = i;
-      for (; r + 4 <= k_; r += 4) {
-        for (std::size_t lane = 0; lane < 4; ++lane) sum[lane] += left[r + lane] * product[r + lane];
-      }
-      for (; r < k_; ++r) sum[0] += left[r] * product[r];
-      outer_.at(i, j) = (sum[0] + sum[1]) + (sum[2] + sum[3]) + (i == j ? 1.0 : 0.0);
+  Vector<double> f(k_ * rim_, 0.0, &memory_),
+      product(k_ * rim_, 0.0, &memory_);  // the rim's rows of F and F D, by column
+  for (std::size_t c = 0; c < rim_; ++c) {
+    for (std::size_t a = 0; a <= c; ++a) f[c * rim_ + a] = rim_before_.at(c, a);
+  }
+  for (std::size_t i = 0; i < inside_; ++i) {
+    for (std::size_t a = 0; a < rim_; ++a) {
+      double sum = 0;
+      for (std::size_t b = a; b < rim_; ++b) sum += rim_before_.at(b, a) * x[i * rim_ + b];
+      f[(rim_ + i) * rim_ + a] = -sum;
     }
   }
+  for (const MatrixChange::Entry& entry : change.entries) {
+    const double* const row = &f[number[at(entry.row)] * rim_];
+    double* const out = &product[number[at(entry.column)] * rim_];
+    for (std::size_t a = 0; a < rim_; ++a) out[a] += entry.value * row[a];
+  }
   poll();
-  failed = outer_.factorise();
-  if (failed >= 0)
-    fail(HF_ERROR_NOT_POSITIVE_DEFINITE, static_cast<std::uint32_t>(change.unknown[at(failed)]),
-         "the edited matrix is not positive definite at unknown %d", change.unknown[at(failed)]);
+  coupling_.assign(product.begin() + static_cast<std::ptrdiff_t>(rim_ * rim_), product.end());
+  inside_after_.solve(coupling_.data(), rim_);
+  // the lower triangle += factor * (left right')
+  const auto add = [this](double factor, const double* left, const double* right) {
+    for (std::size_t b = 0; b < rim_; ++b) {
+      double* const out = rim_after_.column(b);
+      const double scaled = factor * right[b];
+      for (std::size_t a = b; a < rim_; ++a) out[a] += scaled * left[a];
+    }
+  };
+  for (std::size_t c = 0; c < k_; ++c) add(1, &product[c * rim_], &f[c * rim_]);
+  for (std::size_t i = 0; i < inside_; ++i) add(-1, &coupling_[i * rim_], &coupling_[i * rim_]);
+  for (std::size_t a = 0; a < rim_; ++a) rim_after_.at(a, a) += 1;
+  // what the change of each unknown is to A^-1 there: F'F of the rim's rows, and A_ii^-1
+  Vector<double> column(inside_, &memory_);
   for (const MatrixChange::Entry& entry : change.entries) {
     if (entry.row != entry.column) continue;
-    const double ratio = std::fabs(entry.value) * gram_[at(entry.row) * (k_ + 1)];
-    statistics_.rounding = std::max(statistics_.rounding, 0x1p-52 * ratio);
+    const std::size_t c = number[at(entry.row)];
+    double inverse = c < rim_ ? 0.0 : inside_before_.inverse_at(c - rim_, column.data());
+    for (std::size_t a = 0; a < rim_; ++a) inverse += f[c * rim_ + a] * f[c * rim_ + a];
+    ratio_[c] = std::fabs(entry.value) * inverse;
+  }
+}
+
+void EditedFactor::prepare(const MatrixChange& change, JobRunner& jobs) {
+  Vector<std::size_t> number(k_, k_, &memory_);
+  Vector<Index> unknown(k_, &memory_);  // by column of V
+  for (std::size_t i = 0; i < inside_; ++i) number[at(change.inside[i])] = rim_ + i;
+  std::size_t next = 0;
+  for (std::size_t p = 0; p < k_; ++p) {
+    if (number[p] == k_) number[p] = next++;
+    unknown[number[p]] = change.unknown[p];
+  }
+  unknown_.assign(unknown.begin() + static_cast<std::ptrdiff_t>(rim_), unknown.end());
+  const auto require = [&](Index failed, std::size_t first, const char* what) {
+    if (failed < 0) return;
+    const Index v = unknown[first + at(failed)];
+    fail(HF_ERROR_NOT_POSITIVE_DEFINITE, static_cast<std::uint32_t>(v), what, v);
+  };
+  constexpr const char* lost = "the edited matrix lost its digits at unknown %d";
+  form_rim({unknown.data(), rim_}, jobs);
+  poll();
+  for (std::size_t j = 0; j < rim_; ++j) std::copy_n(&gram_[j * rim_ + j], rim_ - j, rim_before_.column(j) + j);
+  require(rim_before_.factorise(), 0, lost);
+  const auto add_inside = [&](const Vector<MatrixChange::Entry>& entries, Lower& out) {
+    for (const MatrixChange::Entry& entry : entries) {
+      const std::size_t row = number[at(entry.row)], column = number[at(entry.column)];
+      if (row >= rim_ && column >= rim_) out.at(row - rim_, column - rim_) += entry.value;
+    }
+  };
+  add_inside(change.inside_entries, inside_before_);
+  add_inside(change.inside_entries, inside_after_);
+  add_inside(change.entries, inside_after_);
+  for (const MatrixChange::Entry& entry : change.inside_entries) {
+    const std::size_t row = number[at(entry.row)], column = number[at(entry.column)];
+    if (row >= rim_ && column >= rim_) entries_.push_back({row - rim_, column - rim_, entry.value});
+  }
+  constexpr const char* indefinite = "the edited matrix is not positive definite at unknown %d";
+  require(inside_before_.factorise(), rim_, lost);
+  require(inside_after_.factorise(), rim_, indefinite);
+  form_change(change, number);
+  poll();
+  require(rim_after_.factorise(), 0, indefinite);
+  for (std::size_t c = 0; c < k_; ++c) {
+    const double l =
+        c < rim_ ? rim_after_.at(c, c) : inside_after_.at(c - rim_, c - rim_) / inside_before_.at(c - rim_, c - rim_);
+    statistics_.rounding = std::max(statistics_.rounding, 0x1p-52 * ratio_[c] / std::min(1.0, l * l));
   }
   for (const auto& own : paths_) statistics_.bytes += own->bytes();
-  statistics_.bytes += 24.0 * static_cast<double>(k_ * k_);
+  statistics_.bytes += 12.0 * static_cast<double>(rows_.value.size()) +
+                       8.0 * static_cast<double>(3 * rim_ * rim_ + 2 * inside_ * inside_ + inside_ * rim_);
 }
 
 void EditedFactor::solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
@@ -263,9 +433,9 @@ void EditedFactor::solve_paths(const SparseColumns& columns, Memory& memory, Job
   for (std::size_t g = first; g < out_groups.size(); ++g) {
     const auto group = make_shared_in<EditedPaths>(memory, out_groups[g], memory);
     const std::size_t m = at(group->count());
-    group->product.resize(k_ * m);
+    group->product.assign(k_ * m, 0.0);
     Vector<std::size_t> row(paths_.size() * at(tile), k_, &memory);
-    for (std::size_t i = 0; i < k_; ++i) row[at(place_[i].group * tile + place_[i].column)] = i;
+    for (std::size_t i = 0; i < rim_; ++i) row[at(place_[i].group * tile + place_[i].column)] = i;
     for (std::size_t own = 0; own < paths_.size(); ++own) {
       base_->gram(*paths_[own], group->base(), products, tile);
       for (Index i = 0; i < paths_[own]->count(); ++i) {
@@ -273,15 +443,25 @@ void EditedFactor::solve_paths(const SparseColumns& columns, Memory& memory, Job
         if (place < k_) std::copy_n(products + i * tile, m, &group->product[place * m]);
       }
     }
+    for (std::size_t i = 0; i < out_group.size(); ++i) {
+      if (at(out_group[i]) != g) continue;
+      for (Index e = columns.start[i]; e < columns.start[i + 1]; ++e) {
+        const auto there = std::lower_bound(unknown_.begin(), unknown_.end(), columns.row[at(e)]);
+        if (there == unknown_.end() || *there != columns.row[at(e)]) continue;
+        const std::size_t row = rim_ + static_cast<std::size_t>(there - unknown_.begin());
+        group->product[row * m + at(out_column[i])] += columns.value[at(e)];
+      }
+    }
     group->added.assign(group->product.begin(), group->product.end());
     apply(group->added.data(), m, false);
     group->whole.assign(group->product.begin(), group->product.end());
-    for (std::size_t i = 0; i < k_; ++i) {
-      for (std::size_t j = 0; j < k_; ++j) {
-        const double c = gram_[i * k_ + j];
-        for (std::size_t q = 0; q < m; ++q) group->whole[i * m + q] += c * group->added[j * m + q];
-      }
+    const auto add = [&](std::size_t i, std::size_t j, double c) {
+      for (std::size_t q = 0; q < m; ++q) group->whole[i * m + q] += c * group->added[j * m + q];
+    };
+    for (std::size_t i = 0; i < rim_; ++i) {
+      for (std::size_t j = 0; j < rim_; ++j) add(i, j, gram_[i * rim_ + j]);
     }
+    for (const Entry& entry : entries_) add(rim_ + entry.row, rim_ + entry.column, entry.value);
     out_groups[g] = group;
   }
 }
@@ -331,7 +511,12 @@ void EditedFactor::project(const PathGroup& group, const double* z, Index channe
 std::shared_ptr<const Factor> edit_factor(std::shared_ptr<const Factor> base, const MatrixChange& change,
                                           Memory& memory, JobRunner& jobs) {
   if (change.unknown.empty()) return base;
-  const auto made = make_shared_in<EditedFactor>(memory, std::move(base), change.unknown.size(), memory);
+  SparseVectors rows(memory);
+  Vector<Index> inside(&memory);
+  for (const Index p : change.inside) inside.push_back(change.unknown[at(p)]);
+  const bool whole_rim = inside.empty() || !base->rows_of(inside, rows);
+  const std::size_t count = whole_rim ? 0 : inside.size(), rim = change.unknown.size() - count;
+  const auto made = make_shared_in<EditedFactor>(memory, std::move(base), rim, count, std::move(rows), memory);
   made->prepare(change, jobs);
   return made;
 }

@@ -60,6 +60,13 @@ struct SparseColumns {
 // never changes, and clones share it.
 class PathGroup;
 
+// Sparse vectors in factor order. Vector i has the entries [start[i], start[i+1]).
+struct SparseVectors {
+  explicit SparseVectors(Memory& memory) : start(&memory), row(&memory), value(&memory) {}
+  Vector<std::int32_t> start, row;
+  Vector<double> value;
+};
+
 class Factor {
  public:
   // Orders, analyses and factorises. Throws HF_ERROR_NOT_POSITIVE_DEFINITE when a pivot fails (index: the column in the
@@ -113,6 +120,10 @@ class Factor {
   virtual void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
                            Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<std::int32_t> out_group,
                            Span<std::int32_t> out_column) const = 0;
+
+  // Writes the rows of G that belong to these unknowns (caller's numbering). Row j as a column is G^-1 P A e_j. Returns
+  // false, and writes nothing, if the factor has no sparse rows. Cost: the entries of the rows.
+  virtual bool rows_of(Span<const std::int32_t> unknowns, SparseVectors& out) const = 0;
 
   // Computes products of elimination paths: gram[i * ld + j] = y_i(a)' y_j(b) for i < a.count() and j < b.count().
   virtual void gram(const PathGroup& a, const PathGroup& b, double* gram, std::int32_t ld) const = 0;

@@ -60,6 +60,7 @@ class SupernodalFactor final : public Factor {
   void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
                    Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<std::int32_t> out_group,
                    Span<std::int32_t> out_column) const override;
+  bool rows_of(Span<const std::int32_t> unknowns, SparseVectors& out) const override;
   void gram(const PathGroup& a, const PathGroup& b, double* gram, std::int32_t ld) const override;
   void combine(const PathGroup& group, const double* lambda, std::int32_t channels, double* z) const override;
   void clear(const PathGroup& group, std::int32_t channels, double* z) const override;

@@ -18,8 +18,9 @@ using hf_inner::PathGroup;
 
 class EditedFactorTest : public testing::Test {
  protected:
-  // A grid whose edges inside a window, and one link from corner to corner, have other weights.
-  void make(double inside, double link) {
+  // A grid whose edges inside a window, and one link from corner to corner, have other weights. With `know` the rows of
+  // the matrix inside the change are given. right: of the right half of the window, 0: as the left.
+  void make(double inside, double link, bool know = true, double right = 0) {
     const Index nx = 23, ny = 17;
     const hf_inner::SymmetricMatrix matrix = hf_test::grid_laplacian(memory, nx, ny);
     const std::vector<float> points = hf_test::grid_points(nx, ny);
@@ -40,11 +41,13 @@ class EditedFactorTest : public testing::Test {
     for (Index y = 5; y < 11; ++y) {
       for (Index x = 4; x < 14; ++x) {
         const Index v = y * nx + x;
-        add(v, v + 1, (inside - 1) * -exact(v, v + 1));
-        add(v, v + nx, (inside - 1) * -exact(v, v + nx));
+        const double factor = x < 9 || right == 0 ? inside : right;
+        add(v, v + 1, (factor - 1) * -exact(v, v + 1));
+        add(v, v + nx, (factor - 1) * -exact(v, v + nx));
       }
     }
     if (link > 0) add(0, n - 1, link);
+    const Eigen::MatrixXd before = exact;
     exact += delta;
     change.unknown.clear();
     change.entries.clear();
@@ -57,6 +60,17 @@ class EditedFactorTest : public testing::Test {
     for (const Index v : change.unknown) {
       for (const Index u : change.unknown) {
         if (delta(v, u) != 0) change.entries.push_back({place[at(v)], place[at(u)], delta(v, u)});
+      }
+    }
+    change.inside.clear();
+    change.inside_entries.clear();
+    for (Index v = 0; know && v < n; ++v) {
+      bool is_inside = place[at(v)] >= 0;
+      for (Index u = 0; u < n; ++u) is_inside &= before(u, v) == 0 || place[at(u)] >= 0;
+      if (!is_inside) continue;
+      change.inside.push_back(place[at(v)]);
+      for (Index u = 0; u < n; ++u) {
+        if (before(u, v) != 0) change.inside_entries.push_back({place[at(v)], place[at(u)], before(u, v)});
       }
     }
   }
@@ -73,12 +87,23 @@ class EditedFactorTest : public testing::Test {
   Index n = 0;
 };
 
+// The errors are about what the factor tells of its rounding, and below 1e-12 where that is less.
 TEST_F(EditedFactorTest, SweepsSolveTheEditedMatrix) {
-  for (const double inside : {1e-4, 0.3, 5.0, 1e4}) {
-    make(inside, 2.5);
+  const double cases[][2] = {{1e-4, 0}, {0.3, 0},    {5.0, 0},
+                             {1e4, 0},  {1e4, 1e-4}, {1e-4, 1e4}};  // the last beside each other
+  for (const auto& one : cases) {
+    make(one[0], 2.5, one[0] != 5.0, one[1]);
     const auto factor = hf_inner::edit_factor(base, change, memory, two);
     for (const Index m : {1, 3, 8}) {
-      const Eigen::MatrixXd right = random(m), solution = exact.ldlt().solve(right);
+      // the error of the reference is removed by steps with residuals in long double
+      using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+      const Eigen::MatrixXd right = random(m);
+      const Eigen::LDLT<Eigen::MatrixXd> dense(exact);
+      Eigen::MatrixXd solution = dense.solve(right);
+      for (int step = 0; step < 4; ++step) {
+        const Long residual = right.cast<long double>() - exact.cast<long double>() * solution.cast<long double>();
+        solution += dense.solve(residual.cast<double>());
+      }
       std::vector<double> x(at(n * m)), scratch(x.size());
       for (Index v = 0; v < n; ++v) {
         for (Index q = 0; q < m; ++q) x[at(v * m + q)] = right(v, q);
@@ -88,7 +113,8 @@ TEST_F(EditedFactorTest, SweepsSolveTheEditedMatrix) {
       for (Index v = 0; v < n; ++v) {
         for (Index q = 0; q < m; ++q) worst = std::max(worst, std::fabs(x[at(v * m + q)] - solution(v, q)));
       }
-      EXPECT_LT(worst / solution.cwiseAbs().maxCoeff(), 1e-11) << inside << " " << m;
+      const double error = worst / solution.cwiseAbs().maxCoeff();
+      EXPECT_LT(error, std::max(1e-12, 4 * factor->statistics().rounding)) << one[0] << " " << one[1] << " " << m;
     }
   }
 }
@@ -96,6 +122,7 @@ TEST_F(EditedFactorTest, SweepsSolveTheEditedMatrix) {
 // Products of paths are entries of the inverse: w_i' A'^-1 w_j. Sums of paths go back to fields.
 TEST_F(EditedFactorTest, PathsAreThoseOfTheEditedMatrix) {
   make(40, 3);
+  ASSERT_GT(change.inside.size(), 40u);
   const auto factor = hf_inner::edit_factor(base, change, memory, two);
   const Eigen::MatrixXd inverse = exact.inverse();
   const Index k = 70;  // more than two groups
@@ -150,9 +177,28 @@ TEST_F(EditedFactorTest, PathsAreThoseOfTheEditedMatrix) {
   for (const double left : part) ASSERT_EQ(left, 0.0);
 }
 
+// Row j of G as a column is G^-1 P A e_j, and its square is A_jj. Wide and narrow supernodes are stored differently.
+TEST_F(EditedFactorTest, RowsOfTheFactorAreSweepsOfColumns) {
+  make(1, 0);
+  std::vector<Index> all(at(n));
+  for (Index v = 0; v < n; ++v) all[at(v)] = v;
+  hf_inner::SparseVectors rows(memory);
+  ASSERT_TRUE(base->rows_of({all.data(), all.size()}, rows));
+  ASSERT_EQ(rows.start.size(), at(n) + 1);
+  for (Index v = 0; v < n; ++v) {
+    std::vector<double> z(at(n));
+    for (Index u = 0; u < n; ++u) z[at(base->position()[at(u)])] = exact(u, v);
+    base->forward(z.data(), 1, two);
+    for (Index e = rows.start[at(v)]; e < rows.start[at(v) + 1]; ++e) z[at(rows.row[at(e)])] -= rows.value[at(e)];
+    for (const double left : z) ASSERT_NEAR(left, 0, 1e-13) << v;
+  }
+}
+
 TEST_F(EditedFactorTest, AMatrixThatIsNotPositiveDefiniteIsRefused) {
   make(1, 0);
   change.unknown = hf_inner::Vector<Index>({5, 6}, &memory);
+  change.inside.clear();
+  change.inside_entries.clear();
   const double weight = -exact(5, 6) * 50;  // more than the rest of the grid carries between the two
   change.entries = hf_inner::Vector<MatrixChange::Entry>(
       {{0, 0, -weight}, {1, 1, -weight}, {0, 1, weight}, {1, 0, weight}}, &memory);
