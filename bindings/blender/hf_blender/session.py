@@ -24,6 +24,7 @@ ORDERING_LIMIT = 300000  # vertices; above it nested dissection, the library's d
 
 IDENTITY = np.eye(4)
 STIFF = "hf_stiff"  # of a mesh object: the vertex group that is painted, and the stiffness where its weight is 1
+LEAST, MOST = 1e-4, 1e4  # the range of hf_surface_edit_desc.stiffness
 # Keeping lengths takes so many steps of as-rigid-as-possible on the whole surface, from the smooth pose on: the least
 # that hf_deform_desc gives for it. More make bends sharper. 50,000 vertices take 0.15 s more on two threads of a slow EPYC.
 LENGTH_STEPS = 8
@@ -133,9 +134,11 @@ class Session:
         """Takes the stiffness that is painted on the mesh: s to the power of the weight. Nothing is factorised again for a
         stroke of some hundred vertices, and the handles stay."""
         name, most = obj.get(STIFF + "_group"), obj.get(STIFF, 1.0)
+        if lost_group(obj):
+            return  # renamed or removed: the panel says so, and nothing changes until then
         stiffness = np.ones(len(self.rest))
-        if name and name in obj.vertex_groups:  # a group that is gone was 1 everywhere
-            stiffness = most ** mesh_data.group_weights(obj, name)
+        if name:  # the least number of a Blender property, in single precision, is a little below the least of hf
+            stiffness = np.clip(most ** mesh_data.group_weights(obj, name), LEAST, MOST)
         if np.array_equal(stiffness, self.stiffness):
             return
         edited = self.surface.edit(stiffness=stiffness)
@@ -229,6 +232,12 @@ class Session:
         if write and (moved or not np.array_equal(mesh_data.positions_of(obj.data), self.posed)):
             mesh_data.keep_pose(obj.data, self.rest, self.posed)
         figures["update_ms"] = 1e3 * (time.perf_counter() - begin)
+
+
+def lost_group(obj):
+    """The name of the painted group, if the mesh has no such group any more; else ""."""
+    name = obj.get(STIFF + "_group", "")
+    return name if name and name not in obj.vertex_groups else ""
 
 
 def forget_removed():
@@ -346,7 +355,12 @@ def stiffen(obj, group, most):
     session = session_of(obj)
     before = {name: obj.get(name) for name in (STIFF, STIFF + "_group")}
     if group:
-        mesh_data.group_weights(obj, group)  # it is there
+        weights = mesh_data.group_weights(obj, group)
+        if not weights.any():
+            raise hf.EmptyError(f"the weights of {group} are 0; paint it in Weight Paint first")
+        if most != 1 and np.ptp(weights) == 0:
+            raise hf.InvalidArgumentError(f"{group} is painted alike on the whole mesh, so no part bends less than another; "
+                "paint a part")
         obj[STIFF], obj[STIFF + "_group"] = most, group
     else:
         obj.pop(STIFF, None)
