@@ -411,9 +411,24 @@ for step, most in ((bpy.ops.ed.undo, 1e4), (bpy.ops.ed.redo, 0.5), (bpy.ops.ed.u
     bpy.ops.hf.update()
     assert body["hf_stiff"] == most and most in held().stiffness, (step, most, np.unique(held().stiffness))
 
+# ---- with Live off the next Update takes the undo, also after the mesh was looked at meanwhile
+bpy.context.scene.hf_live = False
+bpy.ops.ed.undo_push(message="stiff, not live")
+assert bpy.ops.hf.stiffness(group="belt", most=0.5) == {"FINISHED"}
+bpy.ops.ed.undo_push(message="soft, not live")
+bpy.ops.ed.undo()
+body = bpy.data.objects["tube"]
+active(body)
+body.data.update_tag()
+bpy.context.view_layer.update()
+bpy.ops.hf.update()
+assert body["hf_stiff"] == 1e4 and held().stiffness.max() == 1e4, np.unique(held().stiffness)
+bpy.context.scene.hf_live = True
+
 # ---- a group that is renamed or removed: the panel says what to do, and the pose stays until then, also after undo
 assert panels.stiffness_line(body) == [("Stiffness 10000 where belt is painted", "NONE")]
 body.vertex_groups["belt"].name = "strap"
+bpy.context.view_layer.update()
 session.look_again()  # as after an undo of something else
 bpy.ops.hf.update()
 assert held().stiffness.max() == 1e4

@@ -108,6 +108,7 @@ class Session:
             raise hf.ConflictError(f"all vertices of {obj.name} are new, as after a remesh")
         self.rest, self.faces = mesh_data.edited_rest(mesh), faces_of(mesh)
         self.editing = False  # the mesh is or was in Edit Mode or undone, and has not been looked at since
+        self.repainted = False  # an undo may have changed the stiffness, which has not been read since
         self.surface = make_surface(self.rest, faces_of(mesh), window_manager, meanwhile, link_pieces=True)
         self.light = self.surface.pieces()[1]
         self.info = hf.DeformInfo()
@@ -262,8 +263,11 @@ def session_of(obj, window_manager=None, bind=True, meanwhile=None):
             sessions.pop(key).close()
             found = None
         else:
-            found.stiffen(obj)
+            found.repainted = True
     if found:
+        if found.repainted and obj.mode != "EDIT":
+            found.repainted = False
+            found.stiffen(obj)
         if meanwhile:
             meanwhile()
         return found
@@ -286,7 +290,7 @@ def look_again():
     """After an undo every mesh may be another: the next use compares it with what was bound."""
     unbound.clear()
     for found in sessions.values():
-        found.editing = True
+        found.editing = found.repainted = True
 
 
 def forget_all():
