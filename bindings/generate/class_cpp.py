@@ -95,11 +95,11 @@ class Steps:
         struct = named(self.w.api["structs"], type)
         return [f"auto {safe(var)} = make<{type}>();"] + [f"{safe(var)}.{f} = {self.number(named(struct['fields'], f), self.given(f))};" for f in fields]
 
-    def do_desc(self, var, struct, names):
+    def do_desc(self, var, struct, names, prefix):
         ahead = "".join(f", {safe(n)}" for n in self.w.ahead(struct))
         const = "" if struct.filled else "const "
         who = self.w.options_argument(self.plan) if self.w.fields_of(struct) else f"{self.w.options_name(struct)}()"
-        return [f'{const}{struct.name} {var} = {who}.fill(c, ""{ahead});']
+        return [f'{const}{struct.name} {var} = {who}.fill(c, "{prefix}"{ahead});']
 
     def do_record(self, var, type, fields, dims):
         return [f"{type} {safe(var)}{{}};"] + [f"if ({safe(n)}) std::copy({safe(n)}->begin(), {safe(n)}->end(), {safe(var)}.{f['name']});" for f, n in fields]

@@ -50,10 +50,12 @@ class Spoken:
 
 
 class Steps:
-    """Steps of steps.py as lines of C#. inner: inside a desc of its own class; into: where the array to fill comes from."""
+    """Steps of steps.py as lines of C#. inner: inside a desc of its own class; into: where the array to fill comes from.
+    listed: a desc whose counts have a prefix."""
 
     def __init__(self, writer, inner=None, into=None):
         self.w, self.inner, self.into, self.blocks = writer, inner, into, 0
+        self.listed, self.prefix = None, ""
 
     def lines(self, op, values):
         return getattr(self, "do_" + op)(**values)
@@ -62,8 +64,10 @@ class Steps:
         return upper(name) if self.inner else lower(name)
 
     def dims(self, dims):
-        counted = {f["name"] for f in self.inner.counts} if self.inner else set()
-        return ", ".join(f'prefix + "{d}"' if symbols([d]) & counted else f'"{d}"' for d in dims)
+        desc = self.inner or self.listed
+        counted = {f["name"] for f in desc.counts} if desc else set()
+        prefix = 'prefix + "' if self.inner else f'"{self.prefix}'
+        return ", ".join(f'{prefix}{d}"' if symbols([d]) & counted else f'"{d}"' for d in dims)
 
     def number(self, item, name):
         if item["role"] == "flag":
@@ -97,10 +101,11 @@ class Steps:
             return [f"var {name} = ({type}*)c.New(sizeof({type}));"] + [f"{name}->{s};" for s in sets]
         return [f"var {name}Struct = new {type} {{ {', '.join(sets)} }};", f"{type}* {name} = &{name}Struct;"]
 
-    def do_desc(self, var, struct, names):
-        lines = []
+    def do_desc(self, var, struct, names, prefix):
+        lines, self.listed, self.prefix = [], struct if prefix else None, prefix
         for op, values in desc_steps(self.w.api, struct, self.w.sizes):
             lines += self.lines(op, values)
+        self.listed, self.prefix = None, ""
         return lines
 
     def do_record(self, var, type, fields, dims):
@@ -135,8 +140,8 @@ class Steps:
             given = self.given(f["name"])
             lines.append(f'if ({given} != null) {name}->{f["name"]} = {given}.Fill(c, "{f["name"]}.");')
         for f in struct.counts:
-            prefix = "prefix + " if self.inner else ""
-            lines.append(f'{name}->{f["name"]} = (uint)c.Count({prefix}"{f["name"]}", {least(f)});')
+            prefix = 'prefix + "' if self.inner else f'"{self.prefix}'
+            lines.append(f'{name}->{f["name"]} = (uint)c.Count({prefix}{f["name"]}", {least(f)});')
         return lines
 
     def field_ragged(self, var, counts, field):

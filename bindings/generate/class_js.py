@@ -68,9 +68,9 @@ class Steps:
         options = ", ".join(name if js(name) == name else f"{name}: {js(name)}" for name in fields)
         return [f"const {js(var)} = c.struct('{type}', {{ {options} }});".replace("{  }", "{}")]
 
-    def do_desc(self, var, struct, names):
+    def do_desc(self, var, struct, names, prefix):
         given = names[0][3:] if len(names) == 1 and names[0].startswith("...") else f"{{ {', '.join(names)} }}"
-        return [f"const {var} = {js(struct.name[3:])}(c, '', {given});"]
+        return [f"const {var} = {js(struct.name[3:])}(c, '{prefix}', {given});"]
 
     def do_record(self, var, type, fields, dims):
         return [f"const {js(var)} = c.struct('{type}', {{}});"] + [line for f, name in fields for line in self.field_fixed(js(var), f, js(name))]

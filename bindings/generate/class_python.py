@@ -81,8 +81,9 @@ class Steps:
         options = ", ".join(f"'{name}': {safe(name)}" for name in fields)
         return [f"{safe(var)} = c.struct(_raw.{type}, {{{options}}})"]
 
-    def do_desc(self, var, struct, names):
-        return [f"{var} = _{struct.name[3:]}(c{''.join(f', {safe(n)}={safe(n)}' for n in names)})"]
+    def do_desc(self, var, struct, names, prefix):
+        ahead = f", '{prefix}'" if prefix else ""
+        return [f"{var} = _{struct.name[3:]}(c{ahead}{''.join(f', {safe(n)}={safe(n)}' for n in names)})"]
 
     def do_record(self, var, type, fields, dims):
         return [f"{var} = _raw.{type}()"] + [f"c.fixed({var}.{f['name']}, '{name}', {safe(name)})" for f, name in fields]

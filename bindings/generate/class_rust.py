@@ -98,11 +98,11 @@ class Steps:
         sets = [f"{raw_safe(f)}: {self.number(named(struct['fields'], f), self.given(f))}, " for f in fields]
         return [f"let mut {safe(var)} = raw::{type} {{ {''.join(sets)}..Default::default() }};"]
 
-    def do_desc(self, var, struct, names):
+    def do_desc(self, var, struct, names, prefix):
         ahead = "".join(f", {self.w.ahead_value(struct, n)}" for n in self.w.ahead(struct))
         mutable = "mut " * bool(struct.filled)
         who = self.w.options_argument(self.plan) if self.w.fields_of(struct) else f"{self.w.options_name(struct)} {{}}"
-        return [f'let {mutable}desc = {who}.fill(&mut c, ""{ahead})?;']
+        return [f'let {mutable}desc = {who}.fill(&mut c, "{prefix}"{ahead})?;']
 
     def do_record(self, var, type, fields, dims):
         return [f"let mut {safe(var)} = raw::{type}::default();"] + [

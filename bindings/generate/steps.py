@@ -76,7 +76,10 @@ class Planner:
             struct = self.structs[p["type"]]
             for f, first in struct.asked():
                 self.field(struct, f, first)
-            self.do("desc", var="desc", struct=struct, names=[f["name"] for f, _ in struct.asked()])
+            kept = OBJECT_COUNTS | set(m.function["object_counts"]) if m.own else set()
+            # a count of the list, not of the object; without a dot, so that what is made does not keep it
+            prefix = "list_" if kept & {f["name"] for f in struct.counts} else ""
+            self.do("desc", var="desc", struct=struct, names=[f["name"] for f, _ in struct.asked()], prefix=prefix)
             self.values[name], self.desc = ("ref", "desc"), struct
         elif p in m.records or (p["role"] == "array" and named(self.api["structs"], p["type"])):
             many = "s" if p["role"] == "array" else ""

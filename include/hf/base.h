@@ -137,7 +137,8 @@ typedef struct hf_array_out {
 } hf_array_out;
 
 /* HF_ARRAY and HF_ARRAY_OUT view packed rows: desc.positions = HF_ARRAY(xyz, vertex_count). They take the type from the
- * pointer: float, double, uint32_t or uint16_t. If rows are not packed, set the stride afterwards. */
+ * pointer: float, double, uint32_t or uint16_t. With float rows[100][3], pass a pointer to the first number: rows[0].
+ * If rows are not packed, set the stride afterwards. */
 #define HF_TYPE_OF(numbers)                   \
   (sizeof(*(numbers)) == 4   ? HF_TYPE_PLAIN  \
    : sizeof(*(numbers)) == 8 ? HF_TYPE_DOUBLE \

@@ -1063,7 +1063,7 @@ class Surface {
   // HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE.
   Surface edit(const SurfaceEdit& options = {}) const {
     Call c(counts_);
-    const hf_surface_edit_desc desc = options.fill(c, "");
+    const hf_surface_edit_desc desc = options.fill(c, "list_");
     hf_surface raw = nullptr;
     check(hf_surface_edit(get(), &desc, &raw));
     return Surface(raw, c.counts({"vertex_count"}));

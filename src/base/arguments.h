@@ -85,7 +85,8 @@ std::size_t check_array(const Array& array, std::int32_t other, std::size_t widt
     const char* const allowed = other == HF_TYPE_DOUBLE   ? "0 for float or HF_TYPE_DOUBLE"
                                 : other == HF_TYPE_UINT16 ? "0 for uint32_t or HF_TYPE_UINT16"
                                                           : "0 for uint32_t";
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s.type is %d; it must be %s", name, array.type, allowed);
+    const char* const hint = array.type == -1 ? " (HF_ARRAY needs a pointer to numbers, such as rows[0])" : "";
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%s.type is %d; it must be %s%s", name, array.type, allowed, hint);
   }
   const std::size_t number = array.type == HF_TYPE_DOUBLE ? 8 : array.type == HF_TYPE_UINT16 ? 2 : 4;
   const std::size_t row = width * number;

@@ -125,8 +125,12 @@ static void outputs_agree(Write write, const void* object, uint32_t width) {
   bad = HF_ARRAY_OUT(doubles, COUNT);
   bad.type = HF_TYPE_UINT16;
   assert_code(HF_ERROR_INVALID_ARGUMENT, write(&bad, object));
-  bad.type = -1;
+  double(*pairs)[2] = (double(*)[2])doubles; /* rows in place of numbers have the size of no number */
+  bad = HF_ARRAY_OUT(pairs, COUNT);
+  assert_int_equal(bad.type, -1);
   assert_code(HF_ERROR_INVALID_ARGUMENT, write(&bad, object));
+  assert_ok(hf_error_get_detail(&detail));
+  assert_non_null(strstr(detail.message, "HF_ARRAY needs a pointer to numbers, such as rows[0]"));
   bad.type = HF_TYPE_DOUBLE;
   bad.stride = 8 * width - 1;
   assert_code(HF_ERROR_TOO_SMALL, write(&bad, object));

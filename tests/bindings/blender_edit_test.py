@@ -378,5 +378,95 @@ assert bpy.ops.hf.stiffness(clear=True) == {"FINISHED"} and "hf_stiff" not in bo
 settle()
 np.testing.assert_allclose(now(), before, atol=0.02)
 
+# ---- what cannot change the pose is refused; the least stiffness is taken
+def refused(text, **options):
+    try:
+        bpy.ops.hf.stiffness(**options)
+    except RuntimeError as error:
+        assert text in str(error), error
+        return
+    raise AssertionError(f"taken: {options}")
+
+
+bare = body.vertex_groups.new(name="bare")
+refused("the weights of bare are 0; paint it", group="bare")
+bare.add(list(range(len(rest))), 0.0, "REPLACE")
+refused("the weights of bare are 0; paint it", group="bare")
+bare.add(list(range(len(rest))), 1.0, "REPLACE")
+refused("bare is painted alike on the whole mesh", group="bare")
+assert "hf_stiff" not in body and held().stiffness.max() == 1
+assert bpy.ops.hf.stiffness(group="belt", most=1e-4) == {"FINISHED"} and held().stiffness.min() == 1e-4
+painted.add(list(range(20 * AROUND, 28 * AROUND)), 0.5, "REPLACE")
+assert bpy.ops.hf.stiffness(group="belt") == {"FINISHED"}
+np.testing.assert_allclose(np.unique(held().stiffness), [1, 100, 1e4], rtol=1e-6)
+
+# ---- undo and redo of the button
+bpy.ops.ed.undo_push(message="stiff")
+assert bpy.ops.hf.stiffness(group="belt", most=0.5) == {"FINISHED"}
+bpy.ops.ed.undo_push(message="soft")
+for step, most in ((bpy.ops.ed.undo, 1e4), (bpy.ops.ed.redo, 0.5), (bpy.ops.ed.undo, 1e4)):
+    step()
+    body = bpy.data.objects["tube"]
+    active(body)
+    bpy.ops.hf.update()
+    assert body["hf_stiff"] == most and most in held().stiffness, (step, most, np.unique(held().stiffness))
+
+# ---- with Live off the next Update takes the undo, also after the mesh was looked at meanwhile
+bpy.context.scene.hf_live = False
+bpy.ops.ed.undo_push(message="stiff, not live")
+assert bpy.ops.hf.stiffness(group="belt", most=0.5) == {"FINISHED"}
+bpy.ops.ed.undo_push(message="soft, not live")
+bpy.ops.ed.undo()
+body = bpy.data.objects["tube"]
+active(body)
+body.data.update_tag()
+bpy.context.view_layer.update()
+bpy.ops.hf.update()
+assert body["hf_stiff"] == 1e4 and held().stiffness.max() == 1e4, np.unique(held().stiffness)
+bpy.context.scene.hf_live = True
+
+# ---- a group that is renamed or removed: the panel says what to do, and the pose stays until then, also after undo
+assert panels.stiffness_line(body) == [("Stiffness 10000 where belt is painted", "NONE")]
+body.vertex_groups["belt"].name = "strap"
+bpy.context.view_layer.update()
+session.look_again()  # as after an undo of something else
+bpy.ops.hf.update()
+assert held().stiffness.max() == 1e4
+(line, icon), = panels.stiffness_line(body)
+assert line.startswith("The vertex group belt is gone: ") and icon == "ERROR"
+assert bpy.ops.hf.stiffness(group="strap") == {"FINISHED"} and panels.stiffness_line(body)[0][1] == "NONE"
+body.vertex_groups.remove(body.vertex_groups["strap"])
+assert panels.stiffness_line(body)[0][1] == "ERROR"
+session.forget_all()  # as after opening the file again: there is no group to read
+bpy.ops.hf.update()
+assert held().stiffness.max() == 1 and panels.stiffness_line(body)[0][1] == "ERROR"
+assert bpy.ops.hf.stiffness(clear=True) == {"FINISHED"} and not panels.stiffness_line(body)
+
+# ---- Edit Mode: painted vertices keep their stiffness, vertices between them get it, and the button works there
+belt = body.vertex_groups.new(name="belt")
+belt.add(list(range(13 * AROUND, 28 * AROUND)), 1.0, "REPLACE")
+assert bpy.ops.hf.stiffness(group="belt") == {"FINISHED"}
+def cut_end(shape):
+    bmesh.ops.delete(shape, geom=[v for v in shape.verts if v.index < AROUND], context="VERTS")
+edit(cut_end)
+assert len(held().rest) == len(rest) - AROUND and np.sum(held().stiffness == 1e4) == 15 * AROUND
+edit(lambda shape: bmesh.ops.subdivide_edges(shape, edges=shape.edges[:], cuts=1, use_grid_fill=True))
+assert np.sum(held().stiffness == 1e4) > 55 * AROUND
+bpy.ops.object.mode_set(mode="EDIT")
+assert bpy.ops.hf.stiffness(group="belt", most=100) == {"FINISHED"} and body.mode == "EDIT"
+assert held().stiffness.max() == 100
+bpy.ops.object.mode_set(mode="OBJECT")
+
+# ---- a copy with its empties has the stiffness too; an object that shares the mesh is refused
+twin = next(o for o in copy(body, *(o for o in handles().values() if o["hf_key"] == body["hf_key"])) if o.type == "MESH")
+active(twin)
+bpy.ops.hf.update()
+assert twin["hf_key"] != body["hf_key"] and session.session_of(twin, bind=False).stiffness.max() == 100
+linked = body.copy()
+bpy.context.scene.collection.objects.link(linked)
+bpy.context.view_layer.update()
+active(linked)
+refused("shares its mesh with tube", group="belt")
+
 bpy.ops.preferences.addon_disable(module="hf_blender")
 print("blender edit: all right")

@@ -133,24 +133,23 @@ for h in (0.5, 1.0, 1.5, 1.8):
     assert abs(ring[round(4 - h, 3)] - other_ring[h]) < 0.02, (h, ring[round(4 - h, 3)], other_ring[h])
 assert "paired by name" in arm_mesh["hf_weights_note"]
 
-# the armature alone: all meshes that it moves get their weights
-for mesh in (arm_mesh, sleeve):
-    mesh.vertex_groups.clear()
-active(skeleton)
-assert bpy.ops.hf.weights_from_bones() == {"FINISHED"}
-for mesh in (arm_mesh, sleeve):
-    np.testing.assert_allclose(sum(table(mesh).values()), 1, atol=1e-4)
+def weights_of_all_meshes():
+    """With the armature alone selected, all meshes that it moves get their weights."""
+    for mesh in (arm_mesh, sleeve):
+        mesh.vertex_groups.clear()
+    active(skeleton)
+    assert bpy.ops.hf.weights_from_bones() == {"FINISHED"}
+    for mesh in (arm_mesh, sleeve):
+        np.testing.assert_allclose(sum(table(mesh).values()), 1, atol=1e-4)
+
+
+weights_of_all_meshes()
 
 # a mesh that cannot have weights is named, and the others get theirs
 hollow = bpy.data.objects.new("hollow", bpy.data.meshes.new("hollow"))
 bpy.context.scene.collection.objects.link(hollow)
 hollow.parent = skeleton
-for mesh in (arm_mesh, sleeve):
-    mesh.vertex_groups.clear()
-active(skeleton)
-assert bpy.ops.hf.weights_from_bones() == {"FINISHED"}
-for mesh in (arm_mesh, sleeve):
-    np.testing.assert_allclose(sum(table(mesh).values()), 1, atol=1e-4)
+weights_of_all_meshes()
 assert not hollow.vertex_groups
 active(hollow)
 skeleton.select_set(True)

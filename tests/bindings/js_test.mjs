@@ -157,6 +157,17 @@ for (const wrongArray of [bytes, new BigInt64Array(3), new BigUint64Array(3), [1
 for (const wrongOut of [bytes, new BigInt64Array(n), new Float32Array(n + 1)])
   assert.throws(() => solver.solve(wrongOut), /out/);
 
+// ---- a list of vertices is edited on a mesh of more: its length is not the surface's vertexCount
+if (surface.edit) {
+  const edited = surface.edit({ vertices: [3, 4, 5], stiffness: [1e4, 1e4, 1e4] });
+  assert.deepEqual([...edited.stiffness()].flatMap((s, v) => (s === 1 ? [] : [v])), [3, 4, 5]);
+  assert.ok(edited.edit({ vertices: [2, 3, 4, 5], stiffness: [1, 1, 1, 1] }).stiffness().every((s) => s === 1));
+  const moved = new hf.Solver(edited);
+  moved.addSites([0, 150], [0, 1]);
+  assert.equal(moved.solve().length, n);
+  assert.throws(() => surface.edit({ vertices: [3, 4], stiffness: [2] }), /stiffness/);
+}
+
 // ---- objects are cloned or refuse to be copied, sent and written, by name
 region.edit({ addVertices: [0, 1, 2, 12, 13, 14] });
 for (const thing of [

@@ -496,6 +496,26 @@ class Given(unittest.TestCase):
         with self.assertRaisesRegex(hf.InvalidArgumentError, "links must be records"):
             self.surface.relink(mode=hf.LinkMode.LIST, links=[[0, 1]])
 
+    def test_a_list_of_vertices_is_edited_on_a_mesh_of_more(self):
+        """The desc counts its list as the surface counts its vertices: both are vertex_count."""
+        solver = hf.Solver(self.surface)
+        solver.add_sites([0, 150], [0, 1])
+        before = solver.solve()
+        belt = [3, 4, 5]
+        edited = self.surface.edit(belt, [1e4, 1e4, 1e4])
+        np.testing.assert_array_equal(np.flatnonzero(edited.stiffness() != 1), belt)
+        np.testing.assert_array_equal(self.surface.edit(belt, 1e4).stiffness(), edited.stiffness())
+        solver.move_to(edited)
+        self.assertEqual(len(solver.solve()), len(self.points))
+        self.assertGreater(np.abs(solver.solve() - before).max(), 1e-3)
+        whole = self.surface.edit(stiffness=np.full(len(self.points), 2.0))
+        np.testing.assert_array_equal(whole.stiffness(), 2)
+        np.testing.assert_array_equal(whole.edit(belt, [1, 1, 1]).stiffness()[[2, 3]], [2, 1])
+        with self.assertRaises(hf.InvalidArgumentError):
+            self.surface.edit(stiffness=[2.0, 2.0])
+        with self.assertRaisesRegex(hf.InvalidArgumentError, r"stiffness must have the shape \(3\), not \(2,\)"):
+            self.surface.edit(belt, [1, 2])
+
     def test_structs_and_arrays_are_filled_when_given(self):
         gaps, opened = hf.GapsInfo(), self.points.copy()
         opened[len(opened) // 2:, 2] += 1

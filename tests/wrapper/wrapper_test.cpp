@@ -60,6 +60,28 @@ TEST(Wrapper, saves_and_loads_a_factor_and_previews_with_it) {
   loaded.release_preview();
 }
 
+TEST(Wrapper, edits_a_list_of_vertices) {
+  const Strip strip(8);
+  const hf::Surface surface(strip.positions, strip.triangles);
+  hf::Solver solver(surface);
+  solver.add_sites({0, 1, 16, 17}, {0, 0, 1, 1});
+  hf::SurfaceEdit stroke;
+  stroke.vertices = {4, 5};
+  stroke.stiffness = {1e4, 1e4};
+  const hf::Surface edited = surface.edit(stroke);
+  std::vector<double> expected(18, 1.0);
+  expected[4] = expected[5] = 1e4;
+  EXPECT_EQ(edited.stiffness(), expected);
+  stroke.vertices = {4, 5, 6};
+  stroke.stiffness = {1, 1, 1};
+  EXPECT_EQ(edited.edit(stroke).stiffness(), std::vector<double>(18, 1.0));
+  solver.move_to(edited);
+  EXPECT_EQ(solver.solve().size(), 18u);
+  EXPECT_LT(solver.solve()[4], 0.23f);  // 0.25 before: the field changes less where the surface is stiff
+  stroke.stiffness = {1};
+  EXPECT_THROW(surface.edit(stroke), std::invalid_argument);
+}
+
 TEST(Wrapper, solves_on_a_graph_and_says_what_needs_triangles) {
   hf::GraphOptions graph;
   graph.vertex_count = 4;

@@ -218,7 +218,7 @@ class HF_OT_stiffness(bpy.types.Operator):
     after more strokes"""
     bl_idname, bl_label, bl_options = "hf.stiffness", "Stiffness from group", {"REGISTER", "UNDO"}
     group: bpy.props.StringProperty(name="Vertex group", description="Empty: the active one")
-    most: bpy.props.FloatProperty(name="Stiffness", default=1e4, min=1e-4, max=1e4,
+    most: bpy.props.FloatProperty(name="Stiffness", default=1e4, min=session.LEAST, max=session.MOST,
         description="Where the weight is 1. 10,000: rigid; 1: as it is; 0.02: takes up the bending around it")
     clear: bpy.props.BoolProperty(name="Clear", description="All vertices as they were, without a painted group")
 

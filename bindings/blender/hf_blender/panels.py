@@ -38,6 +38,14 @@ def remarks_on(obj, found):
     return [why] if why else found.remarks if found else []
 
 
+def stiffness_line(obj):
+    """[(sentence, icon)] on the painted group of a mesh; [] if there is none."""
+    name = obj.get(session.STIFF + "_group")
+    if session.lost_group(obj):
+        return [(f"The vertex group {name} is gone: give a group this name, press Stiffness from group, or choose Clear.", "ERROR")]
+    return [(f"Stiffness {obj[session.STIFF]:g} where {name} is painted", "NONE")] if name else []
+
+
 def quads_step(made, active):
     """The same for quads that were made."""
     if not made.hf_quads.follow:
@@ -108,9 +116,8 @@ class HF_PT_pose(Tool, bpy.types.Panel):
         super().draw(context)
         self.layout.prop(context.scene, "hf_live")
         self.layout.prop(context.scene, "hf_lengths")
-        painted = mesh_of(context).get(session.STIFF + "_group")
-        if painted:
-            say(self.layout, context, f"Stiffness {mesh_of(context)[session.STIFF]:g} where {painted} is painted")
+        for sentence, icon in stiffness_line(mesh_of(context)):
+            say(self.layout, context, sentence, icon)
         carrier = operators.active_carrier(context)
         if carrier is not None and not carrier["hf_layer"]:
             column = self.layout.column(align=True)

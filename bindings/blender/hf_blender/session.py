@@ -24,6 +24,7 @@ ORDERING_LIMIT = 300000  # vertices; above it nested dissection, the library's d
 
 IDENTITY = np.eye(4)
 STIFF = "hf_stiff"  # of a mesh object: the vertex group that is painted, and the stiffness where its weight is 1
+LEAST, MOST = 1e-4, 1e4  # the range of hf_surface_edit_desc.stiffness
 # Keeping lengths takes so many steps of as-rigid-as-possible on the whole surface, from the smooth pose on: the least
 # that hf_deform_desc gives for it. More make bends sharper. 50,000 vertices take 0.15 s more on two threads of a slow EPYC.
 LENGTH_STEPS = 8
@@ -107,6 +108,7 @@ class Session:
             raise hf.ConflictError(f"all vertices of {obj.name} are new, as after a remesh")
         self.rest, self.faces = mesh_data.edited_rest(mesh), faces_of(mesh)
         self.editing = False  # the mesh is or was in Edit Mode or undone, and has not been looked at since
+        self.repainted = False  # an undo may have changed the stiffness, which has not been read since
         self.surface = make_surface(self.rest, faces_of(mesh), window_manager, meanwhile, link_pieces=True)
         self.light = self.surface.pieces()[1]
         self.info = hf.DeformInfo()
@@ -133,9 +135,11 @@ class Session:
         """Takes the stiffness that is painted on the mesh: s to the power of the weight. Nothing is factorised again for a
         stroke of some hundred vertices, and the handles stay."""
         name, most = obj.get(STIFF + "_group"), obj.get(STIFF, 1.0)
+        if lost_group(obj):
+            return  # renamed or removed: the panel says so, and nothing changes until then
         stiffness = np.ones(len(self.rest))
-        if name and name in obj.vertex_groups:  # a group that is gone was 1 everywhere
-            stiffness = most ** mesh_data.group_weights(obj, name)
+        if name:  # the least number of a Blender property, in single precision, is a little below the least of hf
+            stiffness = np.clip(most ** mesh_data.group_weights(obj, name), LEAST, MOST)
         if np.array_equal(stiffness, self.stiffness):
             return
         edited = self.surface.edit(stiffness=stiffness)
@@ -231,6 +235,12 @@ class Session:
         figures["update_ms"] = 1e3 * (time.perf_counter() - begin)
 
 
+def lost_group(obj):
+    """The name of the painted group, if the mesh has no such group any more; else ""."""
+    name = obj.get(STIFF + "_group", "")
+    return name if name and name not in obj.vertex_groups else ""
+
+
 def forget_removed():
     """Drops what was kept for removed objects. If undo brings one back, its next use binds it again."""
     there = {obj.get("hf_key") for obj in bpy.data.objects if obj.type == "MESH"}
@@ -253,8 +263,11 @@ def session_of(obj, window_manager=None, bind=True, meanwhile=None):
             sessions.pop(key).close()
             found = None
         else:
-            found.stiffen(obj)
+            found.repainted = True
     if found:
+        if found.repainted and obj.mode != "EDIT":
+            found.repainted = False
+            found.stiffen(obj)
         if meanwhile:
             meanwhile()
         return found
@@ -277,7 +290,7 @@ def look_again():
     """After an undo every mesh may be another: the next use compares it with what was bound."""
     unbound.clear()
     for found in sessions.values():
-        found.editing = True
+        found.editing = found.repainted = True
 
 
 def forget_all():
@@ -346,7 +359,12 @@ def stiffen(obj, group, most):
     session = session_of(obj)
     before = {name: obj.get(name) for name in (STIFF, STIFF + "_group")}
     if group:
-        mesh_data.group_weights(obj, group)  # it is there
+        weights = mesh_data.group_weights(obj, group)
+        if not weights.any():
+            raise hf.EmptyError(f"the weights of {group} are 0; paint it in Weight Paint first")
+        if most != 1 and np.ptp(weights) == 0:
+            raise hf.InvalidArgumentError(f"{group} is painted alike on the whole mesh, so no part bends less than another; "
+                "paint a part")
         obj[STIFF], obj[STIFF + "_group"] = most, group
     else:
         obj.pop(STIFF, None)

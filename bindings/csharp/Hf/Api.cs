@@ -2626,10 +2626,10 @@ namespace Hf
             {
                 var descStruct = new hf_surface_edit_desc { struct_size = (uint)sizeof(hf_surface_edit_desc) };
                 hf_surface_edit_desc* desc = &descStruct;
-                desc->vertices = (IntPtr)c.Array(vertices, "vertices", "vertex_count");
-                desc->stiffness = (IntPtr)c.Array(stiffness, "stiffness", "vertex_count");
+                desc->vertices = (IntPtr)c.Array(vertices, "vertices", "list_vertex_count");
+                desc->stiffness = (IntPtr)c.Array(stiffness, "stiffness", "list_vertex_count");
                 desc->progress = c.Handle(progress);
-                desc->vertex_count = (uint)c.Count("vertex_count", 0);
+                desc->vertex_count = (uint)c.Count("list_vertex_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Functions.hf_surface_edit(RawHandle, desc, raw));
                 var made = new Surface();

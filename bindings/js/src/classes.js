@@ -582,7 +582,7 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
 
     edit(options = {}) {
       const c = new Call(this);
-      const desc = surfaceEditDesc(c, '', options);
+      const desc = surfaceEditDesc(c, 'list_', options);
       const made = new this.constructor(bare);
       Object.assign(c.n, this._n);
       made._own('hf_surface_edit', c, this._handle, desc);

@@ -1384,7 +1384,7 @@ class Surface(Object):
         NotPositiveDefiniteError, OutOfRangeError.
         """
         c = Call(self)
-        desc = _surface_edit_desc(c, vertices=vertices, stiffness=stiffness, progress=progress)
+        desc = _surface_edit_desc(c, 'list_', vertices=vertices, stiffness=stiffness, progress=progress)
         made = type(self).__new__(type(self))
         c.n.update(self._n)
         made._own('hf_surface_edit', c, self._handle, ref(desc))

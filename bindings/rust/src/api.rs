@@ -1770,7 +1770,7 @@ impl Surface {
     /// [`raw::HF_ERROR_OUT_OF_RANGE`].
     pub fn edit(&self, options: &SurfaceEdit) -> Result<Self> {
         let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
-        let desc = options.fill(&mut c, "")?;
+        let desc = options.fill(&mut c, "list_")?;
         let mut handle_ = std::ptr::null_mut();
         // SAFETY: every slice is as long as its check says.
         check(unsafe { raw::hf_surface_edit(self.handle, &desc, &mut handle_) })?;

@@ -50,7 +50,7 @@ export function takeRow({ make, button }, app, onfile, accept) {
   const sample = async (name) => {
     const answer = await fetch(`samples/${name}.glb`);
     if (answer.ok) await onfile(new Uint8Array(await answer.arrayBuffer()), `${name}.glb`);
-    else app.warn(`the sample ${name} is not there (${answer.status})`);
+    else app.warn(`the sample ${name} is not there (${answer.status}); open a file of your own`);
   };
   return make(
     'div',

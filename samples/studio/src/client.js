@@ -8,7 +8,7 @@ export class HfFailure extends Error {
   }
 }
 
-const failureOf = ({ message }) => new HfFailure({ message: message || 'the Worker could not start' });
+const failureOf = ({ message }) => new HfFailure({ message: message || 'the Worker could not start; load the page again' });
 
 class Line {
   constructor(worker = new Worker(new URL('worker.js', document.baseURI), { type: 'module' })) {

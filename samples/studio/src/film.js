@@ -10,7 +10,7 @@ const LAST_MS = 1000;
 export async function film(app) {
   const { view, timeline, tools } = app;
   const { say } = app.ui;
-  if (!window.MediaRecorder?.isTypeSupported('video/webm')) throw new Error('This browser cannot write webm films.');
+  if (!window.MediaRecorder?.isTypeSupported('video/webm')) throw new Error('This browser cannot write webm films. Open the studio in Chrome, Edge or Firefox.');
   const { canvas } = view;
   // the ground of the stage belongs to the page: the film gets it too
   const sheet = document.createElement('canvas');
@@ -40,7 +40,7 @@ export async function film(app) {
   recorder.ondataavailable = ({ data }) => data.size && pieces.push(data);
   const ended = new Promise((resolve, reject) => {
     recorder.onstop = resolve;
-    recorder.onerror = ({ error }) => reject(error ?? new Error('The film was not written.'));
+    recorder.onerror = ({ error }) => reject(error ?? new Error('The film was not written. Try again.'));
   });
   const hand = () => (copy(), track.requestFrame());
   copy();

@@ -29,7 +29,7 @@ export async function showLink(app) {
   const { card, make, say } = app.ui;
   const link = await linkOf(app);
   if (link.length > LONGEST)
-    throw new Error(`The link would have ${link.length} letters; programs cut links of more than ${LONGEST}.`);
+    throw new Error(`The link would have ${link.length} letters; programs cut links of more than ${LONGEST}. Save the body as a file instead.`);
   const field = make('input', { id: 'link', type: 'text', readonly: true, value: link, 'aria-label': 'Link' });
   const sample = new URL(link).searchParams.has('sample');
   card(
@@ -67,7 +67,7 @@ export async function settingsOf(hash, { say }) {
     const text = await through(new DecompressionStream('deflate-raw'), decode(hash.slice(MARK.length)));
     return JSON.parse(new TextDecoder().decode(text));
   } catch {
-    say('the link is damaged: it was cut off or changed');
+    say('the link is damaged: it was cut off or changed; copy all of it again');
     return null;
   }
 }
@@ -83,7 +83,7 @@ export async function takeSettings(app, settings) {
   try {
     refused = await app.adopt(settings);
   } catch {
-    app.warn('the link is damaged: its settings do not fit the body');
+    app.warn('the link is damaged: its settings do not fit the body; make the link again');
     return false;
   }
   if (refused.length) app.warn(`not all of the link could be brought back; ${refused.join('; ')}`);

@@ -110,7 +110,7 @@ export class Session {
     try {
       await app.bring(body.bytes, body.name);
       if (settings && settings.vertexCount !== app.body.vertexCount)
-        throw new Error(`${body.name} has ${app.body.vertexCount} vertices now; what was set is for ${settings.vertexCount}.`);
+        throw new Error(`${body.name} has ${app.body.vertexCount} vertices now; the session is for ${settings.vertexCount}.`);
       const refused = settings ? await app.adopt(settings) : [];
       if (refused.length) throw new Error(refused.join('; '));
     } catch (error) {
@@ -128,7 +128,7 @@ export class Session {
       `The last session with ${name} is not whole`,
       [
         make('p', {}, error.message),
-        make('p', {}, 'It stays in this browser as you left it, and meanwhile nothing of this visit is kept.'),
+        make('p', {}, 'Try again, or give it up. Until then this browser keeps it as you left it, and keeps nothing of this visit.'),
       ],
       [
         ['Try again', () => location.reload(), true],

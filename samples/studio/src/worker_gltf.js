@@ -36,7 +36,7 @@ async function load() {
     const space = (given) => {
       const bytes = typeof given === 'number' ? new Uint8Array(given) : new Uint8Array(given.buffer, given.byteOffset, given.byteLength);
       const at = module._malloc(Math.max(bytes.length, 1));
-      if (!at) throw new Error('Memory ran out.');
+      if (!at) throw new Error('Memory ran out. Close other pages, or make the mesh coarser.');
       blocks.push(at);
       module.HEAPU8.set(bytes, at);
       return at;

@@ -60,7 +60,7 @@ export const tool = (kit) => {
       this.mapped = mapped;
       if (source && !this.source) {
         const bytes = await this.app.bytesOf(source, 'source');
-        if (!bytes) throw new Error(`${source} is not here`);
+        if (!bytes) throw new Error(`${source} is not here; open it again in Detail`);
         await this.bring(bytes, source);
       }
       if (this.app.tool === this) this.enter();

@@ -178,7 +178,7 @@ export class FieldTool {
         make(
           'p',
           { class: 'warn' },
-          `${whole(told.unreachedVertexCount)} vertices belong to pieces without a site; they are hatched.`,
+          `${whole(told.unreachedVertexCount)} vertices belong to pieces without a site; they are hatched. Add a site there.`,
         ),
       facts([['sites', this.sites.length], this.sites.length && told && ['field', ms(told.milliseconds)]]),
     ];

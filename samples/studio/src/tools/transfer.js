@@ -54,14 +54,14 @@ export const tool = (kit) => {
     async adopt({ sample, source = sample && `${sample}.glb`, pairs, dials = {}, clip = 0 }) {
       if (!source) return;
       const bytes = await this.app.bytesOf(source, 'transfer');
-      if (!bytes) throw new Error(`${source} is not here`);
+      if (!bytes) throw new Error(`${source} is not here; open it again in Transfer`);
       await this.#bring(bytes, source);
       this.clip = this.source.body.clips[clip] ?? this.clip;
       const taken = !pairs || (await this.set(pairs));
       await this.app.client.ask('transferDials', { dials });
       this.dials = dials;
       if (this.app.tool !== this) this.leave();
-      if (!taken) throw new Error('its pairs were refused');
+      if (!taken) throw new Error('its pairs were refused; choose them again');
     }
     enter() {
       this.app.skin.wear('own');
