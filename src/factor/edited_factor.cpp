@@ -245,11 +245,13 @@ void EditedFactor::prepare(const MatrixChange& change, JobRunner& jobs) {
   if (failed >= 0)
     fail(HF_ERROR_NOT_POSITIVE_DEFINITE, static_cast<std::uint32_t>(change.unknown[at(failed)]),
          "the edited matrix is not positive definite at unknown %d", change.unknown[at(failed)]);
+  double largest = 0, least = 1;  // least: of the pivots of L, which soft regions make small
   for (const MatrixChange::Entry& entry : change.entries) {
-    if (entry.row != entry.column) continue;
-    const double ratio = std::fabs(entry.value) * gram_[at(entry.row) * (k_ + 1)];
-    statistics_.rounding = std::max(statistics_.rounding, 0x1p-52 * ratio);
+    if (entry.row == entry.column)
+      largest = std::max(largest, std::fabs(entry.value) * gram_[at(entry.row) * (k_ + 1)]);
   }
+  for (std::size_t i = 0; i < k_; ++i) least = std::min(least, outer_.at(i, i) * outer_.at(i, i));
+  statistics_.rounding = 0x1p-52 * largest / least;
   for (const auto& own : paths_) statistics_.bytes += own->bytes();
   statistics_.bytes += 24.0 * static_cast<double>(k_ * k_);
 }

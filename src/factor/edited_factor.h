@@ -14,8 +14,9 @@
 // k more numbers. Every other object works with the pair as with any factor. D is always counted from A, so errors do
 // not add up over many edits.
 //
-// The products D_ii C_ii say how many times larger a change is than what it changes. The largest of them times 2^-52 is
-// about the relative error of a solution (FactorStatistics::rounding). It is large on long shapes and at needles.
+// The products D_ii C_ii say how many times larger a change is than what it changes. The largest of them times 2^-52,
+// over the least pivot of I + H' D H, is about the relative error of a solution (FactorStatistics::rounding). It is
+// large on long shapes, at needles, and where a soft region is beside a stiff one.
 //
 // Cost: k paths, and about k^3 operations. A sweep costs 2 k products with a path more. Yeung, Crouch and Pothen (2016)
 // solve the same equations with an iterative method; here they are solved exactly.
