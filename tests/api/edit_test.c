@@ -197,6 +197,47 @@ static void lengths_do_not_see_stiffness_and_links_keep_it(void** state) {
   hf_surface_destroy(linked);
 }
 
+/* Harmonic operators of a bi-harmonic surface are edits too: a strip of eight digits, whose matrix alone has no factor. */
+static void an_edited_biharmonic_surface_has_harmonic_fields(void** state) {
+  (void)state;
+  Surface strip = surface_sheet(120, 1);
+  for (uint32_t v = 0; v < strip.vertex_count; ++v) strip.positions[3 * v + 2] = 0;
+  hf_surface plain[2], edited[2];
+  double* fields[2];
+  double* mixed = malloc(sizeof(double) * strip.vertex_count);
+  assert_non_null(mixed);
+  uint32_t random = 39596; /* soft parts lie between stiff ones, so that pivots lose their digits */
+  for (uint32_t v = 0; v < strip.vertex_count; ++v) {
+    random = random * 1664525u + 1013904223u;
+    mixed[v] = random >> 31 ? 1e4 : 1e-4;
+  }
+  for (int k = 0; k < 2; ++k) {
+    Options options = options_of(&strip);
+    options.surface.field_kind = k ? HF_FIELD_BIHARMONIC : HF_FIELD_HARMONIC;
+    assert_ok(hf_surface_create(&options.surface, &plain[k]));
+    hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
+    desc.vertex_count = strip.vertex_count;
+    desc.stiffness = mixed;
+    assert_ok(hf_surface_edit(plain[k], &desc, &edited[k]));
+    hf_solver solver = NULL;
+    hf_solver_desc harmonic = HF_INIT(hf_solver_desc);
+    harmonic.field_kind = HF_FIELD_HARMONIC;
+    assert_ok(hf_create(edited[k], &harmonic, &solver));
+    add_site(solver, 0, 0);
+    add_site(solver, strip.vertex_count - 1, 1);
+    fields[k] = field_of(solver, strip.vertex_count);
+    hf_solver_destroy(solver);
+  }
+  assert_true(same_bits(fields[0], fields[1], sizeof(double) * strip.vertex_count));
+  for (int k = 0; k < 2; ++k) {
+    free(fields[k]);
+    hf_surface_destroy(plain[k]);
+    hf_surface_destroy(edited[k]);
+  }
+  free(mixed);
+  surface_free(&strip);
+}
+
 /* Two edges of 1 hold one of -0.4, until their common end is soft. Vertices 0 to 3 have no edge. */
 static void an_edit_that_negative_weights_outweigh_names_a_vertex(void** state) {
   (void)state;
@@ -290,6 +331,7 @@ int main(void) {
       cmocka_unit_test(a_solver_that_moved_has_the_field_of_a_new_one_and_comes_back),
       cmocka_unit_test(a_stiff_belt_keeps_its_lengths_in_a_pose),
       cmocka_unit_test(lengths_do_not_see_stiffness_and_links_keep_it),
+      cmocka_unit_test(an_edited_biharmonic_surface_has_harmonic_fields),
       cmocka_unit_test(an_edit_that_negative_weights_outweigh_names_a_vertex),
       cmocka_unit_test(bad_edits_are_refused_by_index_and_change_nothing),
   };
