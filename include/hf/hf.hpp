@@ -1055,9 +1055,10 @@ class Surface {
   // the fields of the old one.
   //
   // Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or more.
-  // Lengths do not change, so regions, transfers, distances, directions and quads do not see stiffness. Solver::move_to
-  // and Pose::move_to take sites and handles along. Soft sites keep the unit of their stiffness. Surface::save is
-  // refused: save the factor of the surface before its edits. Memory limits hold for both surfaces together.
+  // Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so regions,
+  // transfers, distances, directions and quads do not see stiffness. Solver::move_to and Pose::move_to take sites and
+  // handles along. Soft sites keep the unit of their stiffness. Surface::save is refused: save the factor of the
+  // surface before its edits. Memory limits hold for both surfaces together.
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
   // HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE.

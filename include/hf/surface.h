@@ -386,6 +386,7 @@ typedef struct hf_surface_edit_desc {
  * fields of the old one.
  *
  * Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or more.
+ * Bi-harmonic operators square it, so they count at most 100 and at least 0.01.
  * Lengths do not change, so regions, transfers, distances, directions and quads do not see stiffness. hf_solver_move_to
  * and hf_pose_move_to take sites and handles along. Soft sites keep the unit of their stiffness. hf_surface_save is
  * refused: save the factor of the surface before its edits. Memory limits hold for both surfaces together. out_surface:
@@ -393,8 +394,8 @@ typedef struct hf_surface_edit_desc {
  * Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a stiffness out of range) and
  * HF_ERROR_CONFLICT (a vertex, or a welded copy, listed twice with different numbers), index = position in the list;
  * HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT (vertices is NULL and vertex_count is not that of the surface),
- * HF_ERROR_NOT_POSITIVE_DEFINITE (a graph with negative weights), HF_ERROR_CANCELLED. Thread safety: reads `surface`.
- * Since 0.1. */
+ * HF_ERROR_NOT_POSITIVE_DEFINITE (negative weights, or weights that span too many digits; index = vertex),
+ * HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_edit(hf_surface surface, const hf_surface_edit_desc* desc, hf_surface* out_surface);
 
 /* Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices. out_stiffness: NULL, or

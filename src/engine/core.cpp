@@ -74,6 +74,11 @@ constexpr double confined_spread = 1e4, confined_biharmonic_spread = 10;
 // needles, loose pieces and a long ribbon.
 constexpr double harmonic_lost_share = 0x1p-31;
 
+// A bi-harmonic operator has the square of a stiffness. It counts at most this and at least 1 over it, so that regions
+// of both kinds span as many digits as harmonic ones. A region of 1e4 beside one of 1e-4 moves fields on a sheared
+// sheet by 2e-9 then, with half by 2e-10, with twice by 3e-9. Without a limit that matrix cannot be factorised.
+constexpr double largest_biharmonic_stiffness = 100;
+
 // Weights of a graph at most this large are rounding beside its median, which is near 1, and do not count for a cap.
 // The cotangents of right angles in tetrahedra are such weights; with many of them the median of all would be one. Half
 // and double change no bit on eight shapes with needles, loose pieces and a long ribbon.
@@ -159,7 +164,10 @@ Vector<double> make_operator(Core& core, const CoreOptions& options, int cap, co
   if (core.stiffness) {
     plain_diagonal = operator_diagonal(core);
     if (!harmonic) unit = biharmonic_diagonal(core.laplacian, areas, pool);
-    stiffen(core.laplacian, *core.stiffness);
+    Vector<double> counted(core.stiffness->begin(), core.stiffness->end(), &pool);
+    for (double& s : counted)
+      if (!harmonic) s = std::clamp(s, 1 / largest_biharmonic_stiffness, largest_biharmonic_stiffness);
+    stiffen(core.laplacian, counted);
   }
   if (!harmonic && exceeds_valence(core.laplacian, options.formed_valence)) {
     core.inverse_mass.swap(areas);
@@ -269,9 +277,7 @@ void make_factor(Core& core, const CoreOptions& options) {
                       ? options.like->factor->refactor(core.laplacian, {}, pool, *core.jobs)
                       : Factor::make(core.laplacian, coordinates, factor_options(core, options), pool, *core.jobs);
   }
-  if (!core.factor) return;
-  const double commute = core.factor->commute_time(core.mesh.component, core.mean_diagonal);
-  core.is_long = !(commute * 0x1p-52 <= long_share) && !(commute <= long_commute * core.size());
+  core.is_long = core.factor && is_long_shape(core);
 }
 
 }  // namespace
@@ -324,6 +330,11 @@ std::shared_ptr<const Core> Core::make(std::shared_ptr<const Geometry> shape, co
   report(1.0f);
   if (options.field_kind != FieldKind::harmonic && core->refinements == 0) return on_root(std::move(core), unit);
   return core;
+}
+
+bool is_long_shape(const Core& core) {
+  const double commute = core.factor->commute_time(core.mesh.component, core.mean_diagonal);
+  return !(commute * 0x1p-52 <= long_share) && !(commute <= long_commute * core.size());
 }
 
 std::uint64_t grounded_hash(const Core& core) {

@@ -129,6 +129,8 @@ SymmetricMatrix grounded(const Core& core);
 // Returns the hash of the factorised matrix A, by which a saved factor recognises its mesh. It covers the pattern and
 // the numbers of K, and the pinned vertices with their weights.
 std::uint64_t grounded_hash(const Core& core);
+// Whether rounding in the core's own factor shows in its fields (Core::is_long).
+bool is_long_shape(const Core& core);
 // Returns the diagonal of K by vertex.
 Vector<double> operator_diagonal(const Core& core);
 // Writes out = K u with `channels` numbers per vertex, by differences of u. out must not be u.

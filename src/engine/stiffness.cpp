@@ -121,6 +121,34 @@ std::shared_ptr<Core> edited_copy(std::shared_ptr<const Core> plain, std::shared
   return made;
 }
 
+// Gives a core the factor of `near` and what these rows add to it. Returns false if the rows lose too many digits.
+bool share_factor(Core& made, std::shared_ptr<const Core> near, MatrixChange change) {
+  try {
+    fill_entries(made.unedited->laplacian, *near, made, change);
+    made.factor = edit_factor(near->factor, change, *made.memory, *made.jobs);
+  } catch (const Error& error) {
+    if (error.code() != HF_ERROR_NOT_POSITIVE_DEFINITE) throw;
+    return false;
+  }
+  made.is_long = made.is_long || made.factor->statistics().rounding > largest_rounding;
+  made.factored = std::move(near);
+  return true;
+}
+
+void factorise_again(Core& made, const Core& near) {
+  try {
+    made.factor = near.factor->refactor(grounded(made), {}, *made.memory, *made.jobs);
+  } catch (const Error& error) {
+    if (error.code() != HF_ERROR_NOT_POSITIVE_DEFINITE) throw;
+    const auto vertex = static_cast<std::uint32_t>(made.mesh.given_of_inner[error.index()]);
+    fail(HF_ERROR_NOT_POSITIVE_DEFINITE, vertex,
+         "with this stiffness the matrix is not positive definite, as found at vertex %u; raise negative weights, or "
+         "let the stiffness vary less",
+         vertex);
+  }
+  made.is_long = is_long_shape(made);
+}
+
 }  // namespace
 
 void stiffen(SymmetricMatrix& laplacian, const Vector<double>& stiffness) {
@@ -151,19 +179,11 @@ std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, std::sha
   const std::shared_ptr<const Core> plain = from->unedited ? from->unedited : from;
   if (!stiffness) return plain;
   const std::shared_ptr<const Core> near = from->factored ? from->factored : from;
-  Memory& memory = *from->memory;
   const std::shared_ptr<Core> made = edited_copy(plain, std::move(stiffness));
   MatrixChange change = changed_rows(plain->laplacian, *near, *made);
   const SiteCost cost(near->factor->statistics());
-  const double inside = static_cast<double>(change.inside.size());
-  if (cost.edit_ns(static_cast<double>(change.unknown.size()) - inside, inside) < most * cost.rebase_ns(0)) {
-    fill_entries(plain->laplacian, *near, *made, change);
-    made->factor = edit_factor(near->factor, change, memory, *from->jobs);
-    made->factored = near;
-    made->is_long = made->is_long || made->factor->statistics().rounding > largest_rounding;
-  } else {
-    made->factor = near->factor->refactor(grounded(*made), {}, memory, *from->jobs);
-  }
+  const bool few = cost.edit_ns(static_cast<double>(change.unknown.size()) - inside, inside) < most * cost.rebase_ns(0);
+  if (!few || !share_factor(*made, near, std::move(change))) factorise_again(*made, *near);
   return made;
 }
 

@@ -49,14 +49,19 @@ std::shared_ptr<const Core> Surface::make_core(std::size_t slot, std::shared_ptr
     const std::lock_guard<std::mutex> guard(made_->guard);
     if (std::shared_ptr<const Core> found = made_->core[slot].lock()) return found;
   }
-  CoreOptions options;
-  options.operator_kind = geometry->operator_kind;
-  options.field_kind = kind;
-  options.ordering = own_->ordering;
-  options.flop_limit = own_->flop_limit;
-  options.formed_valence = own_->formed_valence;
-  options.stiffness = own_->stiffness;
-  const std::shared_ptr<const Core> core = Core::make(std::move(geometry), options);
+  const auto make = [&] {
+    // beside the factor of the surface before its edits, which a solver or a pose may have
+    if (own_->stiffness && kind == FieldKind::harmonic) return edit_core(origin_->core(kind), own_->stiffness);
+    CoreOptions options;
+    options.operator_kind = geometry->operator_kind;
+    options.field_kind = kind;
+    options.ordering = own_->ordering;
+    options.flop_limit = own_->flop_limit;
+    options.formed_valence = own_->formed_valence;
+    options.stiffness = own_->stiffness;
+    return Core::make(geometry, options);
+  };
+  const std::shared_ptr<const Core> core = make();
   const std::shared_ptr<const Core> counted(core.get(), Forget{core, made_, slot},
                                             OwningAllocator<Core>(geometry_->memory));
   const std::lock_guard<std::mutex> guard(made_->guard);

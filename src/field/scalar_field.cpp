@@ -38,7 +38,7 @@ void ScalarField::prepare_rebase() {
     std::optional<Prepared> made;
     {
       const std::lock_guard<std::mutex> lock(guard_);
-      made.emplace(sites_, engine_->clone(), screening_, memory());
+      made.emplace(*this);
     }
     // Uses one thread only: edits and solves on other threads use the threads of the core meanwhile.
     JobRunner alone(1);
@@ -55,7 +55,7 @@ void ScalarField::prepare_rebase() {
 // Replaces the engine (the solver of the equations) by the one that prepare_rebase made, with the sites of an edit.
 // Returns false if there is none, or if it cannot take these sites; it then waits as it was.
 bool ScalarField::adopt(const SiteSet& next) noexcept {
-  if (!prepared_ || prepared_->screening != screening_) return false;
+  if (!prepared_ || prepared_->core != core_ || prepared_->screening != screening_) return false;
   try {
     const SiteDifference since(prepared_->sites, next, memory());
     if (!since.empty()) prepared_->engine->edit(since.edit());

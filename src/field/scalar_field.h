@@ -73,9 +73,12 @@ class ScalarField {
 
  private:
   struct Prepared {
-    Prepared(const SiteSet& set, std::shared_ptr<SiteSolver> solver, std::shared_ptr<const Screening> screen,
-             Memory& memory)
-        : sites(set, memory), engine(std::move(solver)), screening(std::move(screen)) {}
+    explicit Prepared(const ScalarField& field)
+        : core(field.core_),
+          sites(field.sites_, *core->memory),
+          engine(field.engine_->clone()),
+          screening(field.screening_) {}
+    std::shared_ptr<const Core> core;
     SiteSet sites;
     std::shared_ptr<SiteSolver> engine;
     std::shared_ptr<const Screening> screening;

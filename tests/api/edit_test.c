@@ -197,6 +197,73 @@ static void lengths_do_not_see_stiffness_and_links_keep_it(void** state) {
   hf_surface_destroy(linked);
 }
 
+/* Harmonic operators of a bi-harmonic surface are edits too: a strip of eight digits, whose matrix alone has no factor. */
+static void an_edited_biharmonic_surface_has_harmonic_fields(void** state) {
+  (void)state;
+  Surface strip = surface_sheet(120, 1);
+  for (uint32_t v = 0; v < strip.vertex_count; ++v) strip.positions[3 * v + 2] = 0;
+  hf_surface plain[2], edited[2];
+  double* fields[2];
+  double* mixed = malloc(sizeof(double) * strip.vertex_count);
+  assert_non_null(mixed);
+  uint32_t random = 39596; /* soft parts lie between stiff ones, so that pivots lose their digits */
+  for (uint32_t v = 0; v < strip.vertex_count; ++v) {
+    random = random * 1664525u + 1013904223u;
+    mixed[v] = random >> 31 ? 1e4 : 1e-4;
+  }
+  for (int k = 0; k < 2; ++k) {
+    Options options = options_of(&strip);
+    options.surface.field_kind = k ? HF_FIELD_BIHARMONIC : HF_FIELD_HARMONIC;
+    assert_ok(hf_surface_create(&options.surface, &plain[k]));
+    hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
+    desc.vertex_count = strip.vertex_count;
+    desc.stiffness = mixed;
+    assert_ok(hf_surface_edit(plain[k], &desc, &edited[k]));
+    hf_solver solver = NULL;
+    hf_solver_desc harmonic = HF_INIT(hf_solver_desc);
+    harmonic.field_kind = HF_FIELD_HARMONIC;
+    assert_ok(hf_create(edited[k], &harmonic, &solver));
+    add_site(solver, 0, 0);
+    add_site(solver, strip.vertex_count - 1, 1);
+    fields[k] = field_of(solver, strip.vertex_count);
+    hf_solver_destroy(solver);
+  }
+  assert_true(same_bits(fields[0], fields[1], sizeof(double) * strip.vertex_count));
+  for (int k = 0; k < 2; ++k) {
+    free(fields[k]);
+    hf_surface_destroy(plain[k]);
+    hf_surface_destroy(edited[k]);
+  }
+  free(mixed);
+  surface_free(&strip);
+}
+
+/* Two edges of 1 hold one of -0.4, until their common end is soft. Vertices 0 to 3 have no edge. */
+static void an_edit_that_negative_weights_outweigh_names_a_vertex(void** state) {
+  (void)state;
+  uint32_t edges[6] = {4, 5, 5, 6, 4, 6};
+  double weights[3] = {1, 1, -0.4};
+  hf_graph_desc desc = HF_INIT(hf_graph_desc);
+  desc.vertex_count = 7;
+  desc.edges = HF_ARRAY(edges, 3);
+  desc.weights = HF_ARRAY(weights, 3);
+  desc.allow_negative = 1;
+  hf_surface graph = NULL, soft = NULL;
+  assert_ok(hf_surface_create_graph(&desc, &graph));
+  const uint32_t middle = 5;
+  const double stiffness = 0.1;
+  hf_surface_edit_desc edit = HF_INIT(hf_surface_edit_desc);
+  edit.vertex_count = 1;
+  edit.vertices = &middle;
+  edit.stiffness = &stiffness;
+  assert_code(HF_ERROR_NOT_POSITIVE_DEFINITE, hf_surface_edit(graph, &edit, &soft));
+  assert_null(soft);
+  hf_error_detail detail;
+  assert_ok(hf_error_get_detail(&detail));
+  assert_true(detail.index >= 4 && detail.index <= 6);
+  hf_surface_destroy(graph);
+}
+
 /* ---- bad calls ---- */
 
 static hf_surface_edit_desc bad;
@@ -264,6 +331,8 @@ int main(void) {
       cmocka_unit_test(a_solver_that_moved_has_the_field_of_a_new_one_and_comes_back),
       cmocka_unit_test(a_stiff_belt_keeps_its_lengths_in_a_pose),
       cmocka_unit_test(lengths_do_not_see_stiffness_and_links_keep_it),
+      cmocka_unit_test(an_edited_biharmonic_surface_has_harmonic_fields),
+      cmocka_unit_test(an_edit_that_negative_weights_outweigh_names_a_vertex),
       cmocka_unit_test(bad_edits_are_refused_by_index_and_change_nothing),
   };
   return cmocka_run_group_tests(tests, create_tube, free_tube);

@@ -1313,10 +1313,10 @@ export interface Surface extends Handle {
    * that is edited back has the fields of the old one.
    *
    * Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or
-   * more. Lengths do not change, so regions, transfers, distances, directions and quads do not see stiffness.
-   * Solver.moveTo and Pose.moveTo take sites and handles along. Soft sites keep the unit of their stiffness.
-   * Surface.save is refused: save the factor of the surface before its edits. Memory limits hold for both surfaces
-   * together.
+   * more. Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so
+   * regions, transfers, distances, directions and quads do not see stiffness. Solver.moveTo and Pose.moveTo take
+   * sites and handles along. Soft sites keep the unit of their stiffness. Surface.save is refused: save the factor
+   * of the surface before its edits. Memory limits hold for both surfaces together.
    *
    * vertices: [vertexCount] as given; the others keep what they have. null: all vertices in order
    * stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one

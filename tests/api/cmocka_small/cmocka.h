@@ -45,6 +45,7 @@ void small_same_bytes(const void* got, const void* expected, size_t size, const 
 #define assert_int_equal(a, b) small_same_number((uintmax_t)(a), (uintmax_t)(b), #a " is " #b, __FILE__, __LINE__)
 #define assert_int_not_equal(a, b) assert_true((uintmax_t)(a) != (uintmax_t)(b))
 #define assert_string_equal(a, b) small_same_text(a, b, #a " is " #b, __FILE__, __LINE__)
+#define assert_float_equal(a, b, epsilon) assert_true(fabs((double)(a) - (double)(b)) <= (epsilon)) /* <math.h> */
 #define assert_memory_equal(a, b, size) small_same_bytes(a, b, size, #a " is " #b, __FILE__, __LINE__)
 
 #endif

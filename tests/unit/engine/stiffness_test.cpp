@@ -98,6 +98,25 @@ TEST(Stiffness, FieldsAreThoseOfADenseSolve) {
   }
 }
 
+// Rows for a region of 1e4 beside one of 1e-4 lose eight digits; corrections bring them back.
+TEST(Stiffness, ASoftRegionBesideAStiffOneKeepsItsDigits) {
+  const auto plain = hf_test::make_core(islands());
+  const Stiffness stiff = stroke(*plain, nullptr, 0.1, 1e4, 11), both = stroke(*plain, stiff, 0.07, 1e-4, 77);
+  EXPECT_LT(error_of(hf_inner::edit_core(plain, both, always_rows)), 1e-10);
+}
+
+TEST(Stiffness, AFactorThatWasMadeAgainIsLongWhereAFreshOneIs) {
+  const hf_test::PlainMesh mesh = hf_test::sheared_patch(12, 8, 30);
+  const auto plain = hf_test::make_core(mesh);
+  EXPECT_FALSE(plain->is_long);
+  hf_inner::CoreOptions options;
+  auto patches = std::make_shared<hf_inner::Vector<double>>(at(plain->size()), 1e-4, plain->memory.get());
+  for (std::size_t v = 0; v < patches->size(); v += 2) (*patches)[v] = 1e4;
+  options.stiffness = patches;
+  EXPECT_TRUE(hf_test::make_core(mesh, 1, options)->is_long);
+  EXPECT_TRUE(hf_inner::edit_core(plain, options.stiffness, never_rows)->is_long);
+}
+
 // Strokes over strokes: rows are always counted from the factor, so errors do not add up.
 TEST(Stiffness, ManyStrokesLoseNoDigits) {
   auto core = hf_test::make_core(islands());
@@ -177,6 +196,18 @@ TEST(Stiffness, OtherKindsOfFieldAreMadeAnew) {
       EXPECT_LT(error_of(edited), 1e-6) << static_cast<int>(kind) << " " << valence;
     }
   }
+}
+
+// Bi-harmonic operators square the stiffness. A sheared sheet with all that may be given has a matrix of 20 digits.
+TEST(Stiffness, BiharmonicOperatorsLimitIt) {
+  hf_inner::CoreOptions options;
+  options.field_kind = hf_inner::FieldKind::biharmonic;
+  const auto plain = hf_test::make_core(hf_test::sheared_patch(12, 8, 30), 1, options);
+  const Stiffness both = stroke(*plain, stroke(*plain, nullptr, 0.1, 1e4, 11), 0.07, 1e-4, 77),
+                  limited = stroke(*plain, stroke(*plain, nullptr, 0.1, 100, 11), 0.07, 0.01, 77);
+  const auto edited = hf_inner::edit_core(plain, both);
+  EXPECT_EQ(edited->stiffness, both);
+  EXPECT_EQ(edited->matrix().value, hf_inner::edit_core(plain, limited)->matrix().value);
 }
 
 TEST(Stiffness, MovedSolversHaveTheFieldsOfNewOnes) {

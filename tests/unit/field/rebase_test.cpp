@@ -3,10 +3,13 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
+#include <functional>
 #include <thread>
 
 #include "base/error.h"
 #include "base/index.h"
+#include "engine/stiffness.h"
 #include "field/scalar_field.h"
 #include "support/engines.h"
 #include "support/meshes.h"
@@ -99,6 +102,40 @@ TEST(Rebase, takes_in_what_changed_between) {
   EXPECT_EQ(field.engine().counters().rebases, 1u);
   EXPECT_LE(worst(solve(field), oracle(field)), 1e-10);
   remove(field, numbers);
+  EXPECT_LE(worst(solve(field), oracle(field)), 1e-10);
+}
+
+// Calls `meanwhile` once, in the first allocation of at least `bytes`.
+struct Interrupt {
+  std::size_t bytes = SIZE_MAX;
+  std::function<void()> meanwhile;
+  static void* allocate(void* user, std::size_t size, std::size_t alignment) {
+    Interrupt& self = *static_cast<Interrupt*>(user);
+    if (size >= self.bytes) {
+      self.bytes = SIZE_MAX;
+      self.meanwhile();
+    }
+    return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  }
+  static void release(void*, void* block, std::size_t, std::size_t) { std::free(block); }
+};
+
+TEST(Rebase, of_a_surface_that_was_left_meanwhile_is_dropped) {
+  Interrupt interrupt;
+  auto memory = std::make_shared<hf_inner::Memory>(hf_allocator{Interrupt::allocate, Interrupt::release, &interrupt});
+  const auto plain = hf_test::make_core(hf_test::torus(80, 60), 1, {}, memory);
+  auto stiffness = std::make_shared<hf_inner::Vector<double>>(at(plain->size()), 1.0, memory.get());
+  for (std::size_t v = 400; v < 450; ++v) (*stiffness)[v] = 50;
+  const auto edited = hf_inner::edit_core(plain, stiffness);
+  hf_inner::ScalarField field(plain, 1, 100000);
+  add(field, every(0, 4800, 50));
+  interrupt.meanwhile = [&] { field.move_to(edited); };
+  interrupt.bytes =
+      static_cast<std::size_t>(plain->factor->statistics().stored_entries * 8);  // the numbers of a factor
+  field.prepare_rebase();
+  EXPECT_EQ(&field.core(), edited.get());
+  add(field, {1});
+  EXPECT_EQ(field.engine().counters().rebases, 0u);
   EXPECT_LE(worst(solve(field), oracle(field)), 1e-10);
 }
 
