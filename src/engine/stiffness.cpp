@@ -121,7 +121,8 @@ std::shared_ptr<Core> edited_copy(std::shared_ptr<const Core> plain, std::shared
   return made;
 }
 
-// Gives a core the factor of `near` and what these rows add to it. Returns false if the rows lose too many digits.
+// Gives a core the factor of `near` and what the changed rows add to it. Returns false if the rows lose too many
+// digits.
 bool share_factor(Core& made, std::shared_ptr<const Core> near, MatrixChange change) {
   try {
     fill_entries(made.unedited->laplacian, *near, made, change);
@@ -182,6 +183,7 @@ std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, std::sha
   const std::shared_ptr<Core> made = edited_copy(plain, std::move(stiffness));
   MatrixChange change = changed_rows(plain->laplacian, *near, *made);
   const SiteCost cost(near->factor->statistics());
+  const double inside = static_cast<double>(change.inside.size());
   const bool few = cost.edit_ns(static_cast<double>(change.unknown.size()) - inside, inside) < most * cost.rebase_ns(0);
   if (!few || !share_factor(*made, near, std::move(change))) factorise_again(*made, *near);
   return made;
