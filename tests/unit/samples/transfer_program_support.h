@@ -46,6 +46,9 @@ inline int transfer(const std::string& arguments, std::string& output) {
   return run(quoted(HF_TRANSFER_PROGRAM) + " --quiet " + arguments, output);
 }
 
+// A fifth of the keys and a third of the time: for what does not depend on how many frames there are.
+inline const std::string few_frames = " --fps 6";
+
 // A generated creature's file, made once.
 inline fs::path creature(const std::string& name) {
   static std::set<std::string> made;

@@ -109,7 +109,7 @@ TEST(TransferProgram, AVertexInNoTriangleChangesNothing) {
     std::string said;
     const fs::path report = folder() / (name + ".json");
     EXPECT_EQ(transfer(quoted(source) + " " + quoted(target) + " -o " + quoted(folder() / (name + ".glb")) +
-                           " --json " + quoted(report),
+                           " --json " + quoted(report) + few_frames,
                        said),
               0)
         << name << ": " << said;
@@ -204,7 +204,7 @@ TEST(TransferProgram, DialsOfTheFileAndOfTheCommandLineAreTheSame) {
   const auto play = [&](const fs::path& list, const std::string& more, const char* name) {
     const fs::path out = folder() / name;
     EXPECT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " --clip walk --pairs " + quoted(list) + " -o " +
-                           quoted(out) + more,
+                           quoted(out) + more + few_frames,
                        said),
               0)
         << said;
