@@ -400,7 +400,7 @@ TEST(TransferOutputs, InPlaceIsAnOptionOfTheProgram) {
     const fs::path out = folder() / name;
     std::string said;
     EXPECT_EQ(transfer(quoted(walker) + " " + quoted(creature("bull")) + " --clip walk --pairs " +
-                           quoted(pairs("horse_to_bull.json")) + " --as own-skin -o " + quoted(out) + more,
+                           quoted(pairs("horse_to_bull.json")) + " --as own-skin -o " + quoted(out) + more + few_frames,
                        said),
               0)
         << said;

@@ -14,6 +14,7 @@
 #include "assets/creature_gltf.h"
 #include "gltf/gltf_read.h"
 #include "gltf/gltf_write.h"
+#include "support/creature.h"
 #include "support/program_support.h"
 
 namespace transfer_program {
@@ -53,7 +54,7 @@ inline const std::string few_frames = " --fps 6";
 inline fs::path creature(const std::string& name) {
   static std::set<std::string> made;
   const fs::path file = folder() / (name + ".glb");
-  if (made.insert(name).second) hf_gltf::write_gltf(samples::to_model(samples::make_creature(name, 1500)), file);
+  if (made.insert(name).second) hf_gltf::write_gltf(samples::to_model(hf_test::creature(name, 1500)), file);
   return file;
 }
 
