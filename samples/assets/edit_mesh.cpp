@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
 
 namespace samples {
 
@@ -14,21 +13,24 @@ EditMesh::EditMesh(const TriangleMesh& mesh) : points(mesh.points) {
   for (const Triangle& t : mesh.triangles) corner.insert(corner.end(), t.begin(), t.end());
   twin.assign(corner.size(), no_index);
   outgoing.assign(points.size(), no_index);
-  std::unordered_map<uint64_t, uint32_t> open;
-  open.reserve(corner.size());
+  std::vector<uint32_t> next(corner.size());  // of those that leave the same vertex
+  const auto half_edge = [&](uint32_t a, uint32_t b) {
+    uint32_t h = outgoing[a];
+    while (h != no_index && to(h) != b) h = next[h];
+    return h;
+  };
   const auto fail = [](uint32_t a, uint32_t b) {
     throw std::runtime_error("the mesh is not a closed manifold at the edge between vertices " + std::to_string(a) +
                              " and " + std::to_string(b));
   };
   for (uint32_t h = 0; h < corner.size(); ++h) {
-    const uint64_t a = from(h), b = to(h);
-    outgoing[a] = h;
-    if (!open.emplace(a << 32 | b, h).second) fail(from(h), to(h));
+    if (half_edge(from(h), to(h)) != no_index) fail(from(h), to(h));
+    next[h] = outgoing[from(h)];
+    outgoing[from(h)] = h;
   }
   for (uint32_t h = 0; h < corner.size(); ++h) {
-    const auto partner = open.find(uint64_t(to(h)) << 32 | from(h));
-    if (partner == open.end()) fail(from(h), to(h));
-    twin[h] = partner->second;
+    twin[h] = half_edge(to(h), from(h));
+    if (twin[h] == no_index) fail(from(h), to(h));
   }
   // one fan of triangles per vertex
   std::vector<uint32_t> uses(points.size(), 0);

@@ -205,8 +205,10 @@ dvec3 light_surface(const dvec3& albedo, const dvec3& n, double shininess, doubl
   const dvec3 ambient = mix(dvec3(0.20, 0.185, 0.17), dvec3(0.40, 0.43, 0.47), sky) * open;
   const double lambert = std::max(0.0, dot(n, key)), second = std::max(0.0, dot(n, fill));
   const dvec3 half = normalize(key + dvec3(0, 0, 1));
-  const double highlight = shininess * std::pow(std::max(0.0, dot(n, half)), 36.0);
-  const double rim = 0.10 * std::pow(1 - std::clamp(n.z, 0.0, 1.0), 3.0) * sky;
+  const double gloss = std::max(0.0, dot(n, half)), edge = 1 - std::clamp(n.z, 0.0, 1.0);
+  const double gloss4 = gloss * gloss * gloss * gloss, gloss12 = gloss4 * gloss4 * gloss4;
+  const double highlight = shininess * gloss12 * gloss12 * gloss12;
+  const double rim = 0.10 * edge * edge * edge * sky;
   const double kept = 0.45 + 0.55 * open;
   return albedo * (ambient + kept * (0.74 * lambert * dvec3(1.0, 0.98, 0.94) + 0.13 * second * dvec3(0.9, 0.95, 1.0))) +
          dvec3(highlight * kept + rim * 0.5);
@@ -409,7 +411,19 @@ Picture render(const std::vector<Layer>& layers, const View& view) {
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
       const size_t pixel = size_t(y) * size_t(view.width) + size_t(x);
-      const dvec3 back = to_linear(background(view, shadow, ground_row, x, y));
+      const dvec3 shown_back = background(view, shadow, ground_row, x, y);
+      const auto put = [&](const dvec3& display) {
+        for (int k = 0; k < 3; ++k) picture.rgb[3 * pixel + size_t(k)] = static_cast<uint8_t>(display[k] * 255.0 + 0.5);
+      };
+      bool drawn = false;
+      for (int j = 0; j < n && !drawn; ++j) {
+        for (int i = 0; i < n; ++i) drawn |= buffer.at(x * n + i, y * n + j).layer != -1;
+      }
+      if (!drawn) {
+        put(min(max(shown_back, dvec3(0)), dvec3(1)));
+        continue;
+      }
+      const dvec3 back = to_linear(shown_back);
       dvec3 sum(0);
       for (int j = 0; j < n; ++j) {
         for (int i = 0; i < n; ++i) {
@@ -425,8 +439,7 @@ Picture render(const std::vector<Layer>& layers, const View& view) {
           }
         }
       }
-      const dvec3 display = pow(min(max(sum / double(n * n), dvec3(0)), dvec3(1)), dvec3(1 / 2.2));
-      for (int k = 0; k < 3; ++k) picture.rgb[3 * pixel + size_t(k)] = static_cast<uint8_t>(display[k] * 255.0 + 0.5);
+      put(pow(min(max(sum / double(n * n), dvec3(0)), dvec3(1)), dvec3(1 / 2.2)));
     }
   }
   return picture;

@@ -18,7 +18,7 @@ constexpr double rides_within = 1e-2;
 // moves for the chest.
 constexpr double alike = 0.005;
 // Clips that are read, and times of each. A body shows in few poses what moves with what; more cost time.
-constexpr size_t most_clips = 8, times_of_clip = 6;
+constexpr size_t rider_clips = 8, times_of_clip = 6;
 // Comparisons of two transforms in one search. A body of 100 joints takes at most 15,000 for a node, and most joints
 // are out after the first few, so thousands of nodes are looked at. Half of it loses props in a large scene; double
 // costs another tenth of a second there.
@@ -27,7 +27,7 @@ constexpr size_t most_comparisons = 1'000'000;
 // or double changes nothing, as rounding is far below and bones are far above.
 constexpr double flat = 1e-9;
 
-struct Candidate {
+struct RiderCandidate {
   int node = -1;
   glm::dvec3 low{1e300}, high{-1e300};  // of its vertices, at rest
   glm::dvec3 middle() const { return 0.5 * (low + high); }
@@ -49,7 +49,7 @@ int moved_above(const Model& model, const std::vector<uint8_t>& animated, const 
   return node;
 }
 
-std::vector<Candidate> find_candidates(const Model& model, const FlatMesh& mesh) {
+std::vector<RiderCandidate> find_candidates(const Model& model, const FlatMesh& mesh) {
   std::vector<uint8_t> bound(model.nodes.size(), 0), carries(model.nodes.size(), 0), animated(model.nodes.size(), 0);
   for (const Skin& skin : model.skins)
     for (const int joint : skin.joints) bound[static_cast<size_t>(joint)] = 1;
@@ -59,7 +59,7 @@ std::vector<Candidate> find_candidates(const Model& model, const FlatMesh& mesh)
       carries[static_cast<size_t>(k)] = 1;
   for (const Animation& clip : model.animations)
     for (const Channel& channel : clip.channels) animated[static_cast<size_t>(channel.node)] = 1;
-  std::vector<Candidate> out;
+  std::vector<RiderCandidate> out;
   std::vector<int> places(model.nodes.size(), -1);  // in out, by node
   for (const FlatPart& part : mesh.parts) {
     if (model.nodes[static_cast<size_t>(part.node)].skin >= 0 || hangs_on_joint(model, bound, part.node)) continue;
@@ -67,9 +67,9 @@ std::vector<Candidate> find_candidates(const Model& model, const FlatMesh& mesh)
     int& at = places[static_cast<size_t>(node)];
     if (at < 0) {
       at = static_cast<int>(out.size());
-      out.push_back(Candidate{node});
+      out.push_back(RiderCandidate{node});
     }
-    Candidate& found = out[static_cast<size_t>(at)];
+    RiderCandidate& found = out[static_cast<size_t>(at)];
     for (uint32_t v = part.first_vertex; v < part.first_vertex + part.vertex_count; ++v) {
       found.low = glm::min(found.low, mesh.positions[v]);
       found.high = glm::max(found.high, mesh.positions[v]);
@@ -84,7 +84,7 @@ bool is_flat(const glm::dmat4& m) {
 }
 
 // How far the corners of a box move at most between two transforms. Infinity: one of them is not finite.
-double moved_by(const Candidate& c, const glm::dmat4& a, const glm::dmat4& b) {
+double moved_by(const RiderCandidate& c, const glm::dmat4& a, const glm::dmat4& b) {
   double out = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec4 p(corner & 1 ? c.high.x : c.low.x, corner & 2 ? c.high.y : c.low.y,
@@ -101,14 +101,14 @@ double moved_by(const Candidate& c, const glm::dmat4& a, const glm::dmat4& b) {
 class Search {
  public:
   Search(const Model& model, const FlatMesh& mesh, const Pose& rest, const std::vector<uint8_t>& body,
-         const std::vector<Candidate>& candidates)
+         const std::vector<RiderCandidate>& candidates)
       : within_(rides_within * SurfaceBox(mesh).diagonal()) {
     for (size_t j = 0; j < body.size(); ++j)
       if (body[j]) nodes_.push_back(static_cast<int>(j));
     joints_ = nodes_.size();
-    for (const Candidate& c : candidates) nodes_.push_back(c.node);
+    for (const RiderCandidate& c : candidates) nodes_.push_back(c.node);
     at_rest_ = kept(global_matrices(model, rest));
-    for (size_t k = 0; k < std::min(model.animations.size(), most_clips); ++k) {
+    for (size_t k = 0; k < std::min(model.animations.size(), rider_clips); ++k) {
       const Animation& clip = model.animations[k];
       for (size_t t = 0; t < times_of_clip; ++t) {
         hf_inner::poll();
@@ -121,7 +121,7 @@ class Search {
   }
 
   // Adds what is found for candidate k.
-  void look(const Candidate& c, size_t k, Riders& out) {
+  void look(const RiderCandidate& c, size_t k, Riders& out) {
     const size_t node = joints_ + k;
     if (is_flat(at_rest_[node])) return;  // it is not seen
     bool body_moves = false;
@@ -144,14 +144,14 @@ class Search {
     return out;
   }
   // Against the first pose of the clips, in the space of the model.
-  bool still(const Candidate& c, size_t n) {
+  bool still(const RiderCandidate& c, size_t n) {
     return std::all_of(poses_.begin(), poses_.end(), [&](const std::vector<glm::dmat4>& globals) {
       ++comparisons_;
       return moved_by(c, globals[n] * from_first_[n], glm::dmat4(1)) <= within_;
     });
   }
   // The joint that moves and against which a node moves least in the clips, then the nearest; -1: none is good enough.
-  int nearest_still(const Candidate& c, size_t node, const std::vector<glm::dmat4>& first, bool& body_moves) {
+  int nearest_still(const RiderCandidate& c, size_t node, const std::vector<glm::dmat4>& first, bool& body_moves) {
     int best = -1;
     double least = within_, nearest = std::numeric_limits<double>::infinity();
     if (is_flat(first[node])) return best;
@@ -193,7 +193,7 @@ glm::dmat4 above_of(const Model& model, const Pose& pose, int node) {
 Riders find_riders(const Model& model, const FlatMesh& mesh, const Pose& rest, const std::vector<uint8_t>& body) {
   Riders out;
   if (model.skins.empty()) return out;
-  std::vector<Candidate> candidates = find_candidates(model, mesh);
+  std::vector<RiderCandidate> candidates = find_candidates(model, mesh);
   if (candidates.empty()) return out;
   const auto depth = [&](int node) {
     size_t count = 0;
@@ -202,7 +202,7 @@ Riders find_riders(const Model& model, const FlatMesh& mesh, const Pose& rest, c
   };
   // A rider may hang on another: it is placed after that one.
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [&](const Candidate& a, const Candidate& b) { return depth(a.node) < depth(b.node); });
+                   [&](const RiderCandidate& a, const RiderCandidate& b) { return depth(a.node) < depth(b.node); });
   Search search(model, mesh, rest, body, candidates);
   for (size_t k = 0; k < candidates.size(); ++k) search.look(candidates[k], k, out);
   return out;

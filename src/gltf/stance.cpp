@@ -16,7 +16,7 @@ namespace {
 constexpr double lifted = 0.12;
 // A file may hold hundreds of clips, and thousands of loose joints. Clips of one body begin alike, and joints of one
 // skin are bound alike. More cost time.
-constexpr size_t most_clips = 8, most_roots = 8;
+constexpr size_t stance_clips = 8, most_roots = 8;
 constexpr std::ptrdiff_t most_legs = 1 << 16;  // more than any body has
 
 struct Look {
@@ -62,7 +62,7 @@ Look look_at(const Model& model, const FlatMesh& mesh, const Pose& pose, const A
   return out;
 }
 
-glm::dquat rotation_of(const glm::dmat4& m) {
+glm::dquat axes_rotation(const glm::dmat4& m) {
   glm::dmat3 axes(m);
   for (int c = 0; c < 3; ++c) axes[c] = glm::normalize(axes[c]);
   if (glm::determinant(axes) < 0) axes = -axes;
@@ -128,7 +128,7 @@ std::optional<Pose> bound_pose(const Model& model, const Pose& rest) {
       const double volume = glm::determinant(glm::dmat3(bind));
       if (!(std::abs(volume) > 0) || !std::isfinite(volume)) return {};
       auto& turn = wanted[static_cast<size_t>(skin.joints[k])];
-      if (!turn) turn = rotation_of(world * glm::inverse(bind));
+      if (!turn) turn = axes_rotation(world * glm::inverse(bind));
     }
   }
   std::vector<double> numbers;
@@ -147,7 +147,7 @@ std::optional<Pose> bound_pose(const Model& model, const Pose& rest) {
       // A mirrored parent turns the other way; such rigs keep the pose of their nodes.
       if (glm::determinant(glm::dmat3(above)) < 0) return {};
       out[n] = parts[n];
-      out[n].rotation = glm::normalize(glm::inverse(rotation_of(above)) * *wanted[n]);
+      out[n].rotation = glm::normalize(glm::inverse(axes_rotation(above)) * *wanted[n]);
       turned |= std::abs(glm::dot(out[n].rotation, parts[n].rotation)) < 1 - 1e-6;
     }
     now[n] = above * local_matrix(out[n]);
@@ -208,7 +208,7 @@ std::optional<Stance> find_stance(const Model& model, const FlatMesh& mesh, cons
   };
   if (const std::optional<Pose> bound = bound_pose(model, rest)) offer(*bound, "as bound");
   // A clip that gets up ends standing.
-  const size_t clips = std::min(model.animations.size(), most_clips);
+  const size_t clips = std::min(model.animations.size(), stance_clips);
   for (size_t k = 0; k < 2 * clips && !(is_even() && lifted_in_best == 0); ++k) {
     const Animation& clip = model.animations[k % clips];
     const bool end = k >= clips;

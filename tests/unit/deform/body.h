@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "cases.h"
 #include "deform/pose_stack.h"
+#include "support/creature.h"
 
 namespace deform_test {
 
@@ -29,7 +30,7 @@ struct Creature {
 };
 
 inline Creature make_body(const char* name, std::uint32_t vertices = 2500) {
-  const samples::Creature creature = samples::make_creature(name, vertices);
+  const samples::Creature& creature = hf_test::creature(name, vertices);
   Creature out;
   hf_test::PlainMesh mesh;
   mesh.positions.assign(creature.positions.begin(), creature.positions.end());

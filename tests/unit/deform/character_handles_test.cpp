@@ -8,6 +8,7 @@
 
 #include "assets/creature.h"
 #include "hf/hf.hpp"
+#include "support/creature.h"
 
 namespace {
 
@@ -22,7 +23,7 @@ struct Host {
   std::vector<std::string> names;
 
   explicit Host(const char* name, uint32_t vertices = 3000) {
-    const Creature made = samples::make_creature(name, vertices);
+    const Creature& made = hf_test::creature(name, vertices);
     positions = made.positions;
     triangles = made.triangles;
     for (uint32_t v = 0; v < made.vertex_count(); ++v) {

@@ -13,6 +13,7 @@
 #include "gltf/animate.h"
 #include "gltf/flat_mesh.h"
 #include "hf/hf.hpp"
+#include "support/creature.h"
 #include "unit/gltf/gltf_support.h"
 
 namespace {
@@ -181,7 +182,7 @@ struct KnownBody {
 };
 
 KnownBody known_body(const char* name) {
-  const samples::Creature creature = samples::make_creature(name, 3000);
+  const samples::Creature& creature = hf_test::creature(name, 3000);
   KnownBody out;
   out.body.positions.assign(creature.positions.begin(), creature.positions.end());
   out.body.triangles = creature.triangles;

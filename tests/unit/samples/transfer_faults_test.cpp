@@ -13,7 +13,7 @@ using namespace samples;
 using namespace hf_gltf;
 
 struct Walk {
-  Model horse = to_model(make_creature("horse", 1500)), bull = to_model(make_creature("bull", 1500));
+  Model horse = to_model(hf_test::creature("horse", 1500)), bull = to_model(hf_test::creature("bull", 1500));
   ProgressBar bar{true};
   Session session{horse, bull, read_pairs(pairs("horse_to_bull.json")), 1, true, bar};
   PlayedClip clip = session.play(horse.animations[static_cast<size_t>(find_animation(horse, "walk"))], 30, bar);

@@ -95,8 +95,8 @@ TEST(TransferOutputs, ExchangedSidesAreSaid) {
 }
 
 TEST(TransferOutputs, ContactsAreNamedByPairOrJointAndWrongNamesAreRefused) {
-  const std::string start =
-      both() + " --pairs " + quoted(horse_to_bull()) + " -o " + quoted(folder() / "contacts.glb") + " --contacts ";
+  const std::string start = both() + few_frames + " --pairs " + quoted(horse_to_bull()) + " -o " +
+                            quoted(folder() / "contacts.glb") + " --contacts ";
   std::string said;
   ASSERT_EQ(transfer(start + "nose", said), 0) << said;
   EXPECT_NE(said.find("\"nose\" touches the ground"), std::string::npos) << said;
@@ -400,7 +400,7 @@ TEST(TransferOutputs, InPlaceIsAnOptionOfTheProgram) {
     const fs::path out = folder() / name;
     std::string said;
     EXPECT_EQ(transfer(quoted(walker) + " " + quoted(creature("bull")) + " --clip walk --pairs " +
-                           quoted(pairs("horse_to_bull.json")) + " --as own-skin -o " + quoted(out) + more,
+                           quoted(pairs("horse_to_bull.json")) + " --as own-skin -o " + quoted(out) + more + few_frames,
                        said),
               0)
         << said;
@@ -590,7 +590,7 @@ TEST(TransferOutputs, TheSheetDrawsWhatWasWritten) {
   ASSERT_EQ(transfer(files + " --suggest-pairs " + quoted(list), said), 0) << said;
   const auto sheet = [&](const std::string& kind) {
     const fs::path picture = folder() / ("stiff_" + kind + ".png");
-    EXPECT_EQ(transfer(files + " --pairs " + quoted(list) + " --fps 10 --as " + kind + " -o " +
+    EXPECT_EQ(transfer(files + " --pairs " + quoted(list) + few_frames + " --as " + kind + " -o " +
                            quoted(folder() / "stiff_out.glb") + " --sheet " + quoted(picture),
                        said),
               0)

@@ -14,6 +14,7 @@
 #include "assets/creature_gltf.h"
 #include "gltf/gltf_read.h"
 #include "gltf/gltf_write.h"
+#include "support/creature.h"
 #include "support/program_support.h"
 
 namespace transfer_program {
@@ -46,11 +47,14 @@ inline int transfer(const std::string& arguments, std::string& output) {
   return run(quoted(HF_TRANSFER_PROGRAM) + " --quiet " + arguments, output);
 }
 
+// A fifth of the keys and a third of the time: for what does not depend on how many frames there are.
+inline const std::string few_frames = " --fps 6";
+
 // A generated creature's file, made once.
 inline fs::path creature(const std::string& name) {
   static std::set<std::string> made;
   const fs::path file = folder() / (name + ".glb");
-  if (made.insert(name).second) hf_gltf::write_gltf(samples::to_model(samples::make_creature(name, 1500)), file);
+  if (made.insert(name).second) hf_gltf::write_gltf(samples::to_model(hf_test::creature(name, 1500)), file);
   return file;
 }
 

@@ -59,7 +59,7 @@ TEST(TransferProgram, TheHorsesWalkGoesToTheBullAndPairsAreEditedInTheSameSessio
   std::string said;
   ASSERT_EQ(
       transfer(quoted(horse) + " " + quoted(bull) + " --pairs " + quoted(pairs("horse_to_bull.json")) + " -o " +
-                   quoted(out) + " --as skin --key-tolerance 0 --clip all --sheet " +
+                   quoted(out) + " --as skin --key-tolerance 0 --clip all --fps 10 --sheet " +
                    quoted(folder() / "horse_on_bull.png") + " --report " + quoted(folder() / "horse_on_bull.txt") +
                    " --json " + quoted(report) + " --edit " + quoted(pairs("horse_to_bull_edit.json")),
                said),
@@ -109,7 +109,7 @@ TEST(TransferProgram, AVertexInNoTriangleChangesNothing) {
     std::string said;
     const fs::path report = folder() / (name + ".json");
     EXPECT_EQ(transfer(quoted(source) + " " + quoted(target) + " -o " + quoted(folder() / (name + ".glb")) +
-                           " --json " + quoted(report),
+                           " --json " + quoted(report) + few_frames,
                        said),
               0)
         << name << ": " << said;
@@ -147,8 +147,8 @@ TEST(TransferProgram, AVertexInNoTriangleChangesNothing) {
   }
 }
 
-// Every clip of a source on a target: whole outputs, feet and ground within the bars. The quick form has a target of the
-// source's rig and one of another.
+// Every clip of a source on a target: whole outputs, feet and ground within the bars. The quick form has a target of
+// the source's rig and one of another.
 void check_real(const std::string& source, const std::string& target, const std::string& list) {
   if (!std::getenv("HF_FULL_TESTS") && target != "q_Wolf.glb" && target != "farm_Cow.glb")
     GTEST_SKIP() << "set HF_FULL_TESTS to run it";
@@ -204,7 +204,7 @@ TEST(TransferProgram, DialsOfTheFileAndOfTheCommandLineAreTheSame) {
   const auto play = [&](const fs::path& list, const std::string& more, const char* name) {
     const fs::path out = folder() / name;
     EXPECT_EQ(transfer(quoted(horse) + " " + quoted(bull) + " --clip walk --pairs " + quoted(list) + " -o " +
-                           quoted(out) + more,
+                           quoted(out) + more + few_frames,
                        said),
               0)
         << said;

@@ -23,7 +23,7 @@ fs::path written(const hf_gltf::Model& model, const std::string& name) {
 
 hf_gltf::Model rigged(const std::string& name) { return samples::to_model(samples::make_rigged(name, 800)); }
 
-hf_gltf::Model biped() { return samples::to_model(samples::make_creature("biped", 800)); }
+hf_gltf::Model biped() { return samples::to_model(hf_test::creature("biped", 800)); }
 
 // Runs it on the biped's walk; the report.
 json walked(const fs::path& target, const std::string& name, const std::string& more, int code = 0) {

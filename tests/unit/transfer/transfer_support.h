@@ -15,6 +15,7 @@
 #include "gltf/animate.h"
 #include "gltf/gltf_read.h"
 #include "gltf/pairs_file.h"
+#include "support/creature.h"
 #include "transfer/transfer.h"
 
 namespace transfer_test {
@@ -84,7 +85,7 @@ struct Body {
 };
 
 inline Body creature(const std::string& name, uint32_t vertices, const World& world) {
-  return Body(samples::to_model(samples::make_creature(name, vertices)), world);
+  return Body(samples::to_model(hf_test::creature(name, vertices)), world);
 }
 
 // The regions of a pairs file as inner vertices of two bodies.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "assets/creature.h"
+#include "support/creature.h"
 #include "weights/carry.h"
 #include "weights_support.h"
 
@@ -28,7 +29,7 @@ struct Body {
 
 inline Body make_body(const std::string& name, std::uint32_t vertices) {
   Body out;
-  out.creature = samples::make_creature(name, vertices);
+  out.creature = hf_test::creature(name, vertices);
   const samples::Creature& c = out.creature;
   out.mesh.positions.resize(3 * std::size_t{c.surface_vertex_count});
   out.joints.resize(4 * std::size_t{c.surface_vertex_count});
