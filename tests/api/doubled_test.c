@@ -199,7 +199,7 @@ static void every_operator_weighs_doubled_faces_once(void** state) {
       add_site(solver, 0, 0);
       add_site(solver, 1234, 1);
       add_site(solver, 3001, 3);
-      field[k] = field_of(solver, 3 * (k ? doubled : plain).triangle_count);
+      field[k] = field_of(solver, 3 * (k ? &doubled : &plain)->triangle_count);
       hf_solver_destroy(solver);
       hf_surface_destroy(surface);
     }
