@@ -16,8 +16,10 @@ struct SiteCost {
   // predicted cost of its step. Wrong rates cost time, but no digits.
   static constexpr double path_rate = 45, gram_rate = 40, cholesky_rate = 15, factorisation_rate = 26;
   static constexpr double signed_rate =
-      3.7;                                 // rows of mixed signs (DenseBlock), without fast kernels; 100 to 1,600 rows
-  static constexpr double sweep_rate = 4;  // limited by memory; four flops per entry
+      3.7;  // rows of mixed signs (DenseBlock), without fast kernels; 100 to 1,600 rows
+  static constexpr double inside_ns = 10e3;    // an unknown of two small factors; 300 to 10,000 unknowns
+  static constexpr double product_rate = 9.6;  // of an edited factor's rim, without fast kernels; the same
+  static constexpr double sweep_rate = 4;      // limited by memory; four flops per entry
 
   explicit SiteCost(const FactorStatistics& factor) noexcept : factor_(factor) {}
   double dense_ns(double k, double d) const noexcept {
@@ -25,11 +27,12 @@ struct SiteCost {
            (cube(k + d) - cube(k)) / 3 / cholesky_rate;
   }
   // Cost of an edited factor of changed rows, on the rim and inside (edited_factor.h): the rim's paths and their
-  // products; two factors and an inverse of the inside, three products of it with the rim, and two factors of the rim,
-  // without fast kernels.
+  // products; two sparse factors of the inside with an ordering; three products of all rows with the rim, and its
+  // factor, without fast kernels.
   double edit_ns(double rim, double inside) const noexcept {
-    const double dense = cube(inside) + 3 * inside * inside * rim + 2 * inside * rim * rim + cube(rim);
-    return 2 * rim * factor_.path_entries / path_rate + rim * rim * factor_.path_rows / gram_rate + dense / signed_rate;
+    const double dense = 3 * (rim + inside) * rim * rim + 2 * cube(rim) / 3;
+    return 2 * rim * factor_.path_entries / path_rate + rim * rim * factor_.path_rows / gram_rate + inside_ns * inside +
+           dense / product_rate;
   }
   // Cost of factorising again the rows [first, k) of a dense system with signs of both kinds.
   double signed_ns(double first, double k) const noexcept { return (cube(k) - cube(first)) / 3 / signed_rate; }

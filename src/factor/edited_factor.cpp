@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "base/error.h"
 #include "base/index.h"
@@ -68,20 +69,6 @@ struct Lower {
     }
   }
 
-  // Entry (i, i) of (M M')^-1. scratch: `size` numbers.
-  double inverse_at(std::size_t i, double* scratch) const noexcept {
-    std::fill(scratch + i, scratch + size, 0.0);
-    scratch[i] = 1;
-    double squares = 0;
-    for (std::size_t j = i; j < size; ++j) {
-      const double* const own = column(j);
-      const double y = scratch[j] / own[j];
-      squares += y * y;
-      for (std::size_t r = j + 1; r < size; ++r) scratch[r] -= own[r] * y;
-    }
-    return squares;
-  }
-
   std::size_t size;
   Vector<double> value;
 };
@@ -106,10 +93,12 @@ class EditedPaths final : public PathGroup {
   Vector<double> whole;    // [k][count] Y'(T^-1 y)
 };
 
+// Probes of the inside's inverse: signs at random. With 16 its diagonal is known to a third, enough for a rounding.
+constexpr Index probes = 16;
+
 class EditedFactor final : public Factor {
  public:
-  EditedFactor(std::shared_ptr<const Factor> base, std::size_t rim, std::size_t inside, SparseVectors rows,
-               Memory& memory)
+  EditedFactor(std::shared_ptr<const Factor> base, std::size_t rim, std::size_t inside, Memory& memory)
       : base_(std::move(base)),
         memory_(memory),
         rim_(rim),
@@ -118,16 +107,13 @@ class EditedFactor final : public Factor {
         statistics_(base_->statistics()),
         paths_(&memory),
         place_(rim, &memory),
-        rows_(std::move(rows)),
+        rows_(memory),
         unknown_(&memory),
         gram_(rim * rim, 0.0, &memory),
         entries_(&memory),
         rim_before_(rim, memory),
         rim_after_(rim, memory),
-        inside_before_(inside, memory),
-        inside_after_(inside, memory),
-        coupling_(&memory),
-        ratio_(k_, 0.0, &memory) {}
+        coupling_(&memory) {}
 
   void prepare(const MatrixChange& change, JobRunner& jobs);
 
@@ -172,9 +158,15 @@ class EditedFactor final : public Factor {
   void project(const PathGroup& group, const double* z, Index channels, double* out) const override;
 
  private:
+  // An entry of both matrices in the block of the inside.
+  struct Entry {
+    Index row, column;
+    double before, change;
+  };
   static const EditedPaths& of(const PathGroup& group) noexcept { return static_cast<const EditedPaths&>(group); }
   void form_rim(Span<const Index> unknowns, JobRunner& jobs);
-  void form_change(const MatrixChange& change, const Vector<std::size_t>& number);
+  void factorise_inside(const MatrixChange& change, JobRunner& jobs);
+  void form_change(const MatrixChange& change, Span<const Index> number, JobRunner& jobs);
   // out[i * channels + q] = v_i' z.
   void project_own(const double* z, Index channels, double* out) const;
   // z += V x.
@@ -195,17 +187,14 @@ class EditedFactor final : public Factor {
   };
   Vector<Place> place_;    // by column of V
   SparseVectors rows_;     // of G, of the inside
-  Vector<Index> unknown_;  // the inside in the caller's numbering, ascending
+  Vector<Index> unknown_;  // the inside in the caller's numbering, ascending; its columns of V are in the order of the
+                           // factors below
   Vector<double> gram_;    // C of the rim, both triangles
-  struct Entry {
-    std::size_t row, column;
-    double value;
-  };
-  Vector<Entry> entries_;               // C of the inside: entries of A, counted in the inside
-  Lower rim_before_, rim_after_;        // H and L of the rim
-  Lower inside_before_, inside_after_;  // H of the inside, and H L: the factors of A and A' there
-  Vector<double> coupling_;             // [inside][rim] L between the two, transposed
-  Vector<double> ratio_;                // by column of V: D_ii (A^-1)_ii
+  Vector<Entry> entries_;  // of the inside, by ascending unknown; `before` is C of the inside
+  Lower rim_before_, rim_after_;  // H and L of the rim
+  // H of the inside and H L, the factors of A and A' there. Null without an inside.
+  std::shared_ptr<const Factor> inside_before_, inside_after_;
+  Vector<double> coupling_;  // [inside][rim] L between the two, transposed
 };
 
 void EditedFactor::project_own(const double* z, Index channels, double* out) const {
@@ -250,34 +239,36 @@ void EditedFactor::clear_own(Index channels, double* z) const {
 
 // W = H'^-1 (L^-1 - I) H^-1. For the inside L^-1 H^-1 is the inverse of the factor of A'.
 void EditedFactor::apply(double* x, std::size_t m, bool transposed) const {
+  JobRunner alone(1);
+  const Index channels = static_cast<Index>(m);
   double* const inside = x + rim_ * m;
   Vector<double> y(x, x + k_ * m, &memory_);
   double* const y_inside = y.data() + rim_ * m;
-  const auto each = [&](auto&& take) {
+  const auto couple = [&](auto&& take) {
     for (std::size_t i = 0; i < inside_; ++i) {
       for (std::size_t a = 0; a < rim_; ++a) take(coupling_[i * rim_ + a], y_inside + i * m, y.data() + a * m);
     }
   };
-  inside_before_.solve(inside, m);
+  if (inside_before_) inside_before_->forward(inside, channels, alone);
   rim_before_.solve(x, m);
   std::copy_n(x, rim_ * m, y.data());
   if (transposed) {
     rim_after_.solve_transposed(y.data(), m);
     std::copy_n(inside, inside_ * m, y_inside);
-    each([&](double value, double* of_inside, const double* of_rim) {
+    couple([&](double value, double* of_inside, const double* of_rim) {
       for (std::size_t q = 0; q < m; ++q) of_inside[q] -= value * of_rim[q];
     });
-    inside_after_.solve_transposed(y_inside, m);
-    inside_before_.solve_transposed(inside, m);
+    if (inside_after_) inside_after_->backward(y_inside, channels, alone);
+    if (inside_before_) inside_before_->backward(inside, channels, alone);
     for (std::size_t i = 0; i < inside_ * m; ++i) inside[i] = y_inside[i] - inside[i];
   } else {
-    inside_after_.solve(y_inside, m);
-    each([&](double value, const double* of_inside, double* of_rim) {
+    if (inside_after_) inside_after_->forward(y_inside, channels, alone);
+    couple([&](double value, const double* of_inside, double* of_rim) {
       for (std::size_t q = 0; q < m; ++q) of_rim[q] -= value * of_inside[q];
     });
     rim_after_.solve(y.data(), m);
     for (std::size_t i = 0; i < inside_ * m; ++i) inside[i] = y_inside[i] - inside[i];
-    inside_before_.solve_transposed(inside, m);
+    if (inside_before_) inside_before_->backward(inside, channels, alone);
   }
   for (std::size_t i = 0; i < rim_ * m; ++i) x[i] = y[i] - x[i];
   rim_before_.solve_transposed(x, m);
@@ -317,6 +308,48 @@ void EditedFactor::form_rim(Span<const Index> unknowns, JobRunner& jobs) {
   });
 }
 
+// The two factors of the inside, of A and of A'. Entry (i, j) of a factor's matrix belongs to the i-th and the j-th
+// unknown inside.
+void EditedFactor::factorise_inside(const MatrixChange& change, JobRunner& jobs) {
+  Vector<Index> number(k_, -1, &memory_);  // in the inside, by position in `unknown`
+  for (std::size_t i = 0; i < inside_; ++i) number[at(change.inside[i])] = static_cast<Index>(i);
+  const auto list = [&](const Vector<MatrixChange::Entry>& entries, bool is_change) {
+    for (const MatrixChange::Entry& entry : entries) {
+      const Index row = number[at(entry.row)], column = number[at(entry.column)];
+      if (row < 0 || column < 0) continue;
+      entries_.push_back({row, column, is_change ? 0.0 : entry.value, is_change ? entry.value : 0.0});
+    }
+  };
+  list(change.inside_entries, false);
+  list(change.entries, true);
+  std::sort(entries_.begin(), entries_.end(),
+            [](const Entry& a, const Entry& b) { return a.row != b.row ? a.row < b.row : a.column < b.column; });
+  std::size_t kept = 0;
+  for (const Entry& entry : entries_) {
+    Entry* const last = kept > 0 ? &entries_[kept - 1] : nullptr;
+    if (last && last->row == entry.row && last->column == entry.column) {
+      last->before += entry.before;
+      last->change += entry.change;
+    } else {
+      entries_[kept++] = entry;
+    }
+  }
+  entries_.resize(kept);
+  SymmetricMatrix matrix(memory_);
+  matrix.column_start.push_back(0);
+  for (std::size_t e = 0; e < kept; ++e) {
+    matrix.row.push_back(entries_[e].column);
+    matrix.value.push_back(entries_[e].before);
+    if (e + 1 == kept || entries_[e + 1].row != entries_[e].row)
+      matrix.column_start.push_back(static_cast<Index>(e + 1));
+  }
+  FactorOptions options;
+  options.ordering = Ordering::minimum_degree;
+  inside_before_ = Factor::make(matrix, {}, options, memory_, jobs);
+  for (std::size_t e = 0; e < kept; ++e) matrix.value[e] += entries_[e].change;
+  inside_after_ = inside_before_->refactor(matrix, {}, memory_, jobs);
+}
+
 // L by blocks, the inside first. With X = A_ri A_ii^-1 (r: the rim, i: the inside) the rim's rows of F = H' B^-1 are
 // H' [I, -X]. Then I + F D F' has, with the factor H_after of A'_ii,
 //
@@ -324,104 +357,117 @@ void EditedFactor::form_rim(Span<const Index> unknowns, JobRunner& jobs) {
 //
 // So a soft inside beside a stiff one keeps its digits, which a factorisation of I + F D F' as it is would lose. H'
 // comes before D, which takes differences of neighbours. number: a column of V by position in `unknown`.
-void EditedFactor::form_change(const MatrixChange& change, const Vector<std::size_t>& number) {
+void EditedFactor::form_change(const MatrixChange& change, Span<const Index> number, JobRunner& jobs) {
+  const Index rim = static_cast<Index>(rim_);
   Vector<double> x(inside_ * rim_, 0.0, &memory_);  // X'
   for (const MatrixChange::Entry& entry : change.inside_entries) {
-    const std::size_t row = number[at(entry.row)], column = number[at(entry.column)];
-    if (row >= rim_ && column < rim_) x[(row - rim_) * rim_ + column] = entry.value;
+    const Index row = number[at(entry.row)], column = number[at(entry.column)];
+    if (row >= rim && column < rim) x[at(row - rim) * rim_ + at(column)] = entry.value;
   }
-  inside_before_.solve(x.data(), rim_);
-  inside_before_.solve_transposed(x.data(), rim_);
-  poll();
-  Vector<double> f(k_ * rim_, 0.0, &memory_),
-      product(k_ * rim_, 0.0, &memory_);  // the rim's rows of F and F D, by column
+  if (inside_before_ && rim > 0) inside_before_->solve_in_order(x.data(), rim, jobs);
+  Vector<double> f(k_ * rim_, 0.0, &memory_), product(k_ * rim_, 0.0, &memory_);  // the rim's rows of F and F D
   for (std::size_t c = 0; c < rim_; ++c) {
     for (std::size_t a = 0; a <= c; ++a) f[c * rim_ + a] = rim_before_.at(c, a);
   }
   for (std::size_t i = 0; i < inside_; ++i) {
-    for (std::size_t a = 0; a < rim_; ++a) {
-      double sum = 0;
-      for (std::size_t b = a; b < rim_; ++b) sum += rim_before_.at(b, a) * x[i * rim_ + b];
-      f[(rim_ + i) * rim_ + a] = -sum;
+    double* const out = &f[(rim_ + i) * rim_];
+    for (std::size_t c = 0; c < rim_; ++c) {
+      const double* const h = &f[c * rim_];
+      const double factor = x[i * rim_ + c];
+      for (std::size_t a = 0; a <= c; ++a) out[a] -= factor * h[a];
     }
   }
   for (const MatrixChange::Entry& entry : change.entries) {
-    const double* const row = &f[number[at(entry.row)] * rim_];
-    double* const out = &product[number[at(entry.column)] * rim_];
+    const double* const row = &f[at(number[at(entry.row)]) * rim_];
+    double* const out = &product[at(number[at(entry.column)]) * rim_];
     for (std::size_t a = 0; a < rim_; ++a) out[a] += entry.value * row[a];
   }
   poll();
   coupling_.assign(product.begin() + static_cast<std::ptrdiff_t>(rim_ * rim_), product.end());
-  inside_after_.solve(coupling_.data(), rim_);
-  // the lower triangle += factor * (left right')
-  const auto add = [this](double factor, const double* left, const double* right) {
-    for (std::size_t b = 0; b < rim_; ++b) {
-      double* const out = rim_after_.column(b);
-      const double scaled = factor * right[b];
-      for (std::size_t a = b; a < rim_; ++a) out[a] += scaled * left[a];
+  if (inside_after_ && rim > 0) inside_after_->forward(coupling_.data(), rim, jobs);
+  // the lower triangle += the sum of factor * (left_c right_c'), four at once, so that it is read a fourth as often
+  const auto add = [this](double factor, const double* left, const double* right, std::size_t count) {
+    std::size_t c = 0;
+    for (; c + 4 <= count; c += 4, left += 4 * rim_, right += 4 * rim_) {
+      const double *const x0 = left, *const x1 = x0 + rim_, *const x2 = x1 + rim_, *const x3 = x2 + rim_;
+      for (std::size_t b = 0; b < rim_; ++b) {
+        double* const out = rim_after_.column(b);
+        const double f0 = factor * right[b], f1 = factor * right[rim_ + b], f2 = factor * right[2 * rim_ + b],
+                     f3 = factor * right[3 * rim_ + b];
+        for (std::size_t a = b; a < rim_; ++a) out[a] += (f0 * x0[a] + f1 * x1[a]) + (f2 * x2[a] + f3 * x3[a]);
+      }
+    }
+    for (; c < count; ++c, left += rim_, right += rim_) {
+      for (std::size_t b = 0; b < rim_; ++b) {
+        double* const out = rim_after_.column(b);
+        for (std::size_t a = b; a < rim_; ++a) out[a] += factor * right[b] * left[a];
+      }
     }
   };
-  for (std::size_t c = 0; c < k_; ++c) add(1, &product[c * rim_], &f[c * rim_]);
-  for (std::size_t i = 0; i < inside_; ++i) add(-1, &coupling_[i * rim_], &coupling_[i * rim_]);
+  add(1, product.data(), f.data(), k_);
+  add(-1, coupling_.data(), coupling_.data(), inside_);
   for (std::size_t a = 0; a < rim_; ++a) rim_after_.at(a, a) += 1;
-  // what the change of each unknown is to A^-1 there: F'F of the rim's rows, and A_ii^-1
-  Vector<double> column(inside_, &memory_);
-  for (const MatrixChange::Entry& entry : change.entries) {
+  // D_ii (A^-1)_ii of the inside: F'F of the rim's rows, and A_ii^-1
+  if (!inside_before_) return;
+  Vector<double> probe(inside_ * at(probes), &memory_);
+  std::minstd_rand random(1);
+  for (double& sign : probe) sign = (random() >> 15) % 2 == 0 ? 1 : -1;
+  inside_before_->backward(probe.data(), probes, jobs);
+  for (const Entry& entry : entries_) {
     if (entry.row != entry.column) continue;
-    const std::size_t c = number[at(entry.row)];
-    double inverse = c < rim_ ? 0.0 : inside_before_.inverse_at(c - rim_, column.data());
-    for (std::size_t a = 0; a < rim_; ++a) inverse += f[c * rim_ + a] * f[c * rim_ + a];
-    ratio_[c] = std::fabs(entry.value) * inverse;
+    const std::size_t i = at(inside_before_->position()[at(entry.row)]);
+    double inverse = 0;
+    for (Index q = 0; q < probes; ++q)
+      inverse += probe[i * at(probes) + at(q)] * probe[i * at(probes) + at(q)] / probes;
+    for (std::size_t a = 0; a < rim_; ++a) inverse += f[(rim_ + i) * rim_ + a] * f[(rim_ + i) * rim_ + a];
+    const double softer = std::min(1.0, (entry.before + entry.change) / entry.before);
+    statistics_.rounding = std::max(statistics_.rounding, 0x1p-52 * std::fabs(entry.change) * inverse / softer);
   }
 }
 
 void EditedFactor::prepare(const MatrixChange& change, JobRunner& jobs) {
-  Vector<std::size_t> number(k_, k_, &memory_);
-  Vector<Index> unknown(k_, &memory_);  // by column of V
-  for (std::size_t i = 0; i < inside_; ++i) number[at(change.inside[i])] = rim_ + i;
-  std::size_t next = 0;
-  for (std::size_t p = 0; p < k_; ++p) {
-    if (number[p] == k_) number[p] = next++;
-    unknown[number[p]] = change.unknown[p];
-  }
-  unknown_.assign(unknown.begin() + static_cast<std::ptrdiff_t>(rim_), unknown.end());
-  const auto require = [&](Index failed, std::size_t first, const char* what) {
-    if (failed < 0) return;
-    const Index v = unknown[first + at(failed)];
+  const auto refuse = [](Index v, const char* what) {
     fail(HF_ERROR_NOT_POSITIVE_DEFINITE, static_cast<std::uint32_t>(v), what, v);
   };
-  constexpr const char* lost = "the edited matrix lost its digits at unknown %d";
+  constexpr const char* indefinite = "the edited matrix is not positive definite at unknown %d";
+  for (std::size_t i = 0; i < inside_; ++i) unknown_.push_back(change.unknown[at(change.inside[i])]);
+  if (inside_ > 0) {
+    try {
+      factorise_inside(change, jobs);
+    } catch (const Error& error) {
+      if (error.code() != HF_ERROR_NOT_POSITIVE_DEFINITE) throw;
+      refuse(unknown_[error.index()], indefinite);
+    }
+  }
+  // columns of V: the rim, then the inside in the order of its factors
+  Vector<Index> number(k_, -1, &memory_), unknown(k_, &memory_);
+  for (std::size_t i = 0; i < inside_; ++i)
+    number[at(change.inside[i])] = static_cast<Index>(rim_) + inside_before_->position()[i];
+  Index next = 0;
+  for (std::size_t p = 0; p < k_; ++p) {
+    if (number[p] < 0) number[p] = next++;
+    unknown[at(number[p])] = change.unknown[p];
+  }
+  if (inside_ > 0) base_->rows_of({unknown.data() + rim_, inside_}, rows_);
   form_rim({unknown.data(), rim_}, jobs);
   poll();
   for (std::size_t j = 0; j < rim_; ++j) std::copy_n(&gram_[j * rim_ + j], rim_ - j, rim_before_.column(j) + j);
-  require(rim_before_.factorise(), 0, lost);
-  const auto add_inside = [&](const Vector<MatrixChange::Entry>& entries, Lower& out) {
-    for (const MatrixChange::Entry& entry : entries) {
-      const std::size_t row = number[at(entry.row)], column = number[at(entry.column)];
-      if (row >= rim_ && column >= rim_) out.at(row - rim_, column - rim_) += entry.value;
-    }
-  };
-  add_inside(change.inside_entries, inside_before_);
-  add_inside(change.inside_entries, inside_after_);
-  add_inside(change.entries, inside_after_);
-  for (const MatrixChange::Entry& entry : change.inside_entries) {
-    const std::size_t row = number[at(entry.row)], column = number[at(entry.column)];
-    if (row >= rim_ && column >= rim_) entries_.push_back({row - rim_, column - rim_, entry.value});
-  }
-  constexpr const char* indefinite = "the edited matrix is not positive definite at unknown %d";
-  require(inside_before_.factorise(), rim_, lost);
-  require(inside_after_.factorise(), rim_, indefinite);
-  form_change(change, number);
+  Index failed = rim_before_.factorise();
+  if (failed >= 0) refuse(unknown[at(failed)], "the edited matrix lost its digits at unknown %d");
+  form_change(change, number, jobs);
   poll();
-  require(rim_after_.factorise(), 0, indefinite);
-  for (std::size_t c = 0; c < k_; ++c) {
-    const double l =
-        c < rim_ ? rim_after_.at(c, c) : inside_after_.at(c - rim_, c - rim_) / inside_before_.at(c - rim_, c - rim_);
-    statistics_.rounding = std::max(statistics_.rounding, 0x1p-52 * ratio_[c] / std::min(1.0, l * l));
+  failed = rim_after_.factorise();
+  if (failed >= 0) refuse(unknown[at(failed)], indefinite);
+  for (const MatrixChange::Entry& entry : change.entries) {
+    const std::size_t c = at(number[at(entry.row)]);
+    if (entry.row != entry.column || c >= rim_) continue;
+    const double l = rim_after_.at(c, c), ratio = std::fabs(entry.value) * gram_[c * (rim_ + 1)];
+    statistics_.rounding = std::max(statistics_.rounding, 0x1p-52 * ratio / std::min(1.0, l * l));
   }
   for (const auto& own : paths_) statistics_.bytes += own->bytes();
-  statistics_.bytes += 12.0 * static_cast<double>(rows_.value.size()) +
-                       8.0 * static_cast<double>(3 * rim_ * rim_ + 2 * inside_ * inside_ + inside_ * rim_);
+  if (inside_ > 0) statistics_.bytes += inside_before_->statistics().bytes + inside_after_->statistics().bytes;
+  statistics_.bytes += 12.0 * static_cast<double>(rows_.value.size()) + 32.0 * static_cast<double>(entries_.size()) +
+                       8.0 * static_cast<double>(3 * rim_ * rim_ + inside_ * rim_);
 }
 
 void EditedFactor::solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
@@ -448,7 +494,8 @@ void EditedFactor::solve_paths(const SparseColumns& columns, Memory& memory, Job
       for (Index e = columns.start[i]; e < columns.start[i + 1]; ++e) {
         const auto there = std::lower_bound(unknown_.begin(), unknown_.end(), columns.row[at(e)]);
         if (there == unknown_.end() || *there != columns.row[at(e)]) continue;
-        const std::size_t row = rim_ + static_cast<std::size_t>(there - unknown_.begin());
+        const std::size_t row =
+            rim_ + at(inside_before_->position()[static_cast<std::size_t>(there - unknown_.begin())]);
         group->product[row * m + at(out_column[i])] += columns.value[at(e)];
       }
     }
@@ -461,7 +508,10 @@ void EditedFactor::solve_paths(const SparseColumns& columns, Memory& memory, Job
     for (std::size_t i = 0; i < rim_; ++i) {
       for (std::size_t j = 0; j < rim_; ++j) add(i, j, gram_[i * rim_ + j]);
     }
-    for (const Entry& entry : entries_) add(rim_ + entry.row, rim_ + entry.column, entry.value);
+    for (const Entry& entry : entries_) {
+      const Span<const Index> place = inside_before_->position();
+      if (entry.before != 0) add(rim_ + at(place[at(entry.row)]), rim_ + at(place[at(entry.column)]), entry.before);
+    }
     out_groups[g] = group;
   }
 }
@@ -511,12 +561,10 @@ void EditedFactor::project(const PathGroup& group, const double* z, Index channe
 std::shared_ptr<const Factor> edit_factor(std::shared_ptr<const Factor> base, const MatrixChange& change,
                                           Memory& memory, JobRunner& jobs) {
   if (change.unknown.empty()) return base;
-  SparseVectors rows(memory);
-  Vector<Index> inside(&memory);
-  for (const Index p : change.inside) inside.push_back(change.unknown[at(p)]);
-  const bool whole_rim = inside.empty() || !base->rows_of(inside, rows);
-  const std::size_t count = whole_rim ? 0 : inside.size(), rim = change.unknown.size() - count;
-  const auto made = make_shared_in<EditedFactor>(memory, std::move(base), rim, count, std::move(rows), memory);
+  SparseVectors none(memory);
+  const std::size_t inside = base->rows_of({}, none) ? change.inside.size() : 0;
+  const std::size_t rim = change.unknown.size() - inside;
+  const auto made = make_shared_in<EditedFactor>(memory, std::move(base), rim, inside, memory);
   made->prepare(change, jobs);
   return made;
 }

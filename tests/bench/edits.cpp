@@ -57,7 +57,7 @@ nlohmann::json run_edits_on(const Mesh& mesh, const Run& run, Report* report) {
     }));
   }
   nlohmann::json row = {{"name", mesh.name}, {"n", mesh.vertex_count()}, {"fresh_ms", median(fresh)}};
-  for (const uint32_t count : {30u, 100u, 300u, 1000u}) {
+  for (const uint32_t count : {30u, 100u, 300u, 1000u, 3000u, 10000u}) {
     std::vector<double> edits, moves, fields, wholes, bytes;
     hf_solver moved = nullptr;
     check(hf_solver_clone(solver.handle(), &moved));
@@ -101,14 +101,16 @@ Rows run_edits(const Run& run, Report& report) { return run_meshes(run, report, 
 
 void plot_edits(const Runs& runs, const std::string& file) {
   BarPlot plot;
-  plot.text = {"A stroke of stiffness and the field", "patches of 30 to 1,000 vertices beside a fresh surface, medians",
-               "", "ms"};
+  plot.text = {"A stroke of stiffness and the field",
+               "patches of 30 to 10,000 vertices beside a fresh surface, medians", "", "ms"};
   plot.format = "%.3g";
   write_rows(plot,
              {{"30 vertices", "/all_ms/30"},
               {"100", "/all_ms/100"},
               {"300", "/all_ms/300"},
               {"1000", "/all_ms/1000"},
+              {"3000", "/all_ms/3000"},
+              {"10000", "/all_ms/10000"},
               {"fresh surface", "/fresh_ms"}},
              runs, file);
 }
