@@ -28,7 +28,8 @@ Surface::Surface(std::shared_ptr<const Surface> from, std::shared_ptr<const Vect
     : geometry_(from->geometry_),
       own_(edit_core(from->own_, std::move(stiffness))),
       made_(make_shared_in<Made>(*geometry_->memory)),
-      origin_(from->origin_ ? from->origin_ : std::move(from)) {}
+      origin_(from->origin_ ? from->origin_ : std::move(from)),
+      edit_(&edit_core) {}
 
 std::shared_ptr<const Core> Surface::core(FieldKind kind) const {
   if (kind == own_->field_kind) return own_;
@@ -51,7 +52,7 @@ std::shared_ptr<const Core> Surface::make_core(std::size_t slot, std::shared_ptr
   }
   const auto make = [&] {
     // beside the factor of the surface before its edits, which a solver or a pose may have
-    if (own_->stiffness && kind == FieldKind::harmonic) return edit_core(origin_->core(kind), own_->stiffness);
+    if (own_->stiffness && kind == FieldKind::harmonic) return edit_(origin_->core(kind), own_->stiffness, 1);
     CoreOptions options;
     options.operator_kind = geometry->operator_kind;
     options.field_kind = kind;

@@ -57,6 +57,9 @@ class Surface {
   mutable OwnedMutex making_;
   const std::shared_ptr<Made> made_;
   std::shared_ptr<const Surface> origin_;  // null: this is it
+  // edit_core (stiffness.h), or null without edits: a program that edits nothing links nothing of it
+  std::shared_ptr<const Core> (*edit_)(std::shared_ptr<const Core>, std::shared_ptr<const Vector<double>>,
+                                       double) = nullptr;
 };
 
 }  // namespace hf_inner
