@@ -56,7 +56,8 @@ static void a_stiff_belt_has_an_almost_constant_field(void** state) {
     const int inner = BELT_END - BELT - 1, outer = RINGS - 1 - inner - 2;
     const double whole = outer + 2 / edge + inner / s;
     assert_float_equal(field[BELT * AROUND], (BELT - 1 + 1 / edge) / whole, 1e-6); /* the tube is round to floats */
-    assert_float_equal(field[(BELT_END - 1) * AROUND] - field[BELT * AROUND], inner / s / whole, 1e-6); /* the tube is round to floats */
+    assert_float_equal(field[(BELT_END - 1) * AROUND] - field[BELT * AROUND], inner / s / whole,
+                       1e-6); /* the tube is round to floats */
     hf_certificate certificate = HF_INIT(hf_certificate);
     assert_ok(hf_solver_certify(solver, &certificate));
     free(field);
@@ -109,7 +110,8 @@ static double stretch_of(const float* posed) {
   for (uint32_t v = BELT * AROUND; v < (BELT_END - 1) * AROUND; ++v) {
     double rest = 0, now = 0;
     for (int c = 0; c < 3; ++c) {
-      const double a = (double)tube.positions[3 * (v + AROUND) + (uint32_t)c] - (double)tube.positions[3 * v + (uint32_t)c],
+      const double a = (double)tube.positions[3 * (v + AROUND) + (uint32_t)c] -
+                       (double)tube.positions[3 * v + (uint32_t)c],
                    b = (double)posed[3 * (v + AROUND) + (uint32_t)c] - (double)posed[3 * v + (uint32_t)c];
       rest += a * a;
       now += b * b;
@@ -197,7 +199,64 @@ static void lengths_do_not_see_stiffness_and_links_keep_it(void** state) {
   hf_surface_destroy(linked);
 }
 
-/* Harmonic operators of a bi-harmonic surface are edits too: a strip of eight digits, whose matrix alone has no factor. */
+/* A tube of two pieces that links hold together, and a vertex of no triangle. An edit of the linked surface and the
+ * links of the edited surface give one field; a stroke goes over the links. */
+static void edits_and_links_can_be_made_in_any_order(void** state) {
+  (void)state;
+  enum { CUT = BELT + 4, STRAY = VERTICES };
+  Surface pieces = {VERTICES + 1, 0, malloc(sizeof(float) * 3 * (VERTICES + 1)), malloc(12 * tube.triangle_count)};
+  assert_non_null(pieces.positions);
+  assert_non_null(pieces.triangles);
+  memcpy(pieces.positions, tube.positions, sizeof(float) * 3 * VERTICES);
+  for (int k = 0; k < 3; ++k) pieces.positions[3 * STRAY + k] = 100.0f + (float)k;
+  for (uint32_t t = 0; t < tube.triangle_count; ++t) {
+    const uint32_t* const corner = tube.triangles + 3 * t;
+    int below = 0;
+    for (int k = 0; k < 3; ++k) below += corner[k] < CUT * AROUND;
+    if (below == 0 || below == 3) memcpy(pieces.triangles + 3 * pieces.triangle_count++, corner, 12);
+  }
+  hf_link links[AROUND];
+  memset(links, 0, sizeof links);
+  for (uint32_t i = 0; i < AROUND; ++i) {
+    links[i].vertex = (CUT - 1) * AROUND + i;
+    links[i].corners[0] = CUT * AROUND + i;
+    links[i].corners[1] = links[i].corners[2] = NO_INDEX;
+    links[i].barycentrics[0] = links[i].weight = 1;
+  }
+  hf_links_desc list = HF_INIT(hf_links_desc);
+  list.mode = HF_LINK_LIST;
+  list.link_count = AROUND;
+  list.links = links;
+  hf_surface plain = surface_on(&pieces), stiff = belted(plain, 50), linked = NULL, surfaces[2];
+  assert_ok(hf_surface_relink(plain, &list, NULL, &linked));
+  surfaces[0] = belted(linked, 50);
+  assert_ok(hf_surface_relink(stiff, &list, NULL, &surfaces[1]));
+  double* fields[3];
+  for (int k = 0; k < 3; ++k) {
+    hf_solver solver = solver_on(k < 2 ? surfaces[k] : linked);
+    add_site(solver, 0, 0);
+    add_site(solver, VERTICES - 1, 1);
+    fields[k] = field_of(solver, VERTICES + 1);
+    hf_solver_destroy(solver);
+  }
+  assert_near(fields[0], fields[1]);
+  assert_float_equal(fields[0][STRAY], fields[2][STRAY], 0);
+  double softer = 0; /* the links and the belt around them give way less than before */
+  for (uint32_t i = 0; i < AROUND; ++i) {
+    const uint32_t a = (CUT - 1) * AROUND + i;
+    softer += fields[2][a + AROUND] - fields[2][a] - 5 * (fields[0][a + AROUND] - fields[0][a]);
+  }
+  assert_true(softer > 0);
+  for (int k = 0; k < 3; ++k) free(fields[k]);
+  for (int k = 0; k < 2; ++k) hf_surface_destroy(surfaces[k]);
+  hf_surface_destroy(plain);
+  hf_surface_destroy(stiff);
+  hf_surface_destroy(linked);
+  surface_free(&pieces);
+}
+
+/* Harmonic operators of a bi-harmonic surface are edits too: a strip of eight digits, whose matrix alone has no factor.
+ */
 static void an_edited_biharmonic_surface_has_harmonic_fields(void** state) {
   (void)state;
   Surface strip = surface_sheet(120, 1);
@@ -303,7 +362,8 @@ static void bad_edits_are_refused_by_index_and_change_nothing(void** state) {
   EDIT("no stiffness", HF_ERROR_NULL_POINTER, NO_INDEX, bad.stiffness = NULL);
   EDIT("no vertex", HF_ERROR_EMPTY, NO_INDEX, bad.vertex_count = 0);
   EDIT("all vertices, but three", HF_ERROR_INVALID_ARGUMENT, NO_INDEX, bad.vertices = NULL);
-  ROW("short list", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0, hf_surface_get_stiffness(scene.sheet, 3, out_stiffness, NULL));
+  ROW("short list", HF_ERROR_TOO_SMALL, NO_INDEX, (void)0,
+      hf_surface_get_stiffness(scene.sheet, 3, out_stiffness, NULL));
   ROW("no list", HF_ERROR_NULL_POINTER, NO_INDEX, (void)0, hf_surface_get_stiffness(scene.sheet, 0, NULL, NULL));
   ROW("solver on another mesh", HF_ERROR_CONFLICT, NO_INDEX, (void)0, hf_solver_move_to(scene.solver, scene.body));
   ROW("pose on another mesh", HF_ERROR_CONFLICT, NO_INDEX, (void)0, hf_pose_move_to(scene.pose, stiff));
@@ -315,8 +375,8 @@ static void bad_edits_are_refused_by_index_and_change_nothing(void** state) {
   size_t size = 0;
   ROW("a saved factor", HF_ERROR_UNSUPPORTED, NO_INDEX, (void)0,
       hf_surface_save(stiff, HF_FIELD_HARMONIC, NULL, 0, NULL, &size));
-  ROW("a cancelled edit", HF_ERROR_CANCELLED, NO_INDEX, (bad.progress = scene.progress, hf_progress_cancel(scene.progress)),
-      hf_surface_edit(scene.sheet, &bad, &out));
+  ROW("a cancelled edit", HF_ERROR_CANCELLED, NO_INDEX,
+      (bad.progress = scene.progress, hf_progress_cancel(scene.progress)), hf_surface_edit(scene.sheet, &bad, &out));
   assert_ok(hf_surface_get_stiffness(stiff, CUT_VERTICES, out_stiffness, &count));
   assert_true(out_stiffness[CUT_LEFT] == 2 && out_stiffness[CUT_SEAM_RIGHT] == 2 && out_stiffness[CUT_ISOLATED] == 1);
   hf_solver_destroy(peer);
@@ -331,6 +391,7 @@ int main(void) {
       cmocka_unit_test(a_solver_that_moved_has_the_field_of_a_new_one_and_comes_back),
       cmocka_unit_test(a_stiff_belt_keeps_its_lengths_in_a_pose),
       cmocka_unit_test(lengths_do_not_see_stiffness_and_links_keep_it),
+      cmocka_unit_test(edits_and_links_can_be_made_in_any_order),
       cmocka_unit_test(an_edited_biharmonic_surface_has_harmonic_fields),
       cmocka_unit_test(an_edit_that_negative_weights_outweigh_names_a_vertex),
       cmocka_unit_test(bad_edits_are_refused_by_index_and_change_nothing),

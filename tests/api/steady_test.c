@@ -11,15 +11,15 @@ static struct World {
   CountingAllocator memory;
   Surface tube;
   hf_surface surface;
-  hf_solver solver, vectors;
-  hf_pose pose, refined;
+  hf_solver solver, vectors, edited;
+  hf_pose pose, refined, edited_pose;
   hf_transfer transfer;
   hf_direction direction;
   hf_geodesics distances;
   hf_region region;
   hf_retarget retarget;
   StickMan man, other;
-  uint32_t site, direction_site, handles[2];
+  uint32_t site, edited_site, direction_site, handles[2], edited_handles[2];
   double field[VERTICES];
   float values[3 * VERTICES], posed[3 * VERTICES], normals[3 * VERTICES];
 } w;
@@ -58,23 +58,34 @@ static void a_preview(uint32_t frame) {
   assert_ok(hf_solver_move_sites(w.solver, 1, &w.site, &to));
   assert_ok(hf_solver_solve_preview(w.solver, OUT(w.values), 2, NULL));
 }
-static void deform(hf_pose pose, uint32_t frame, int refine) {
+static void a_site_on_an_edited_surface(uint32_t frame) {
+  const uint32_t vertex = 3000 + 7 * frame; /* in and out of the stroke */
+  const hf_sites_desc to = sites_at(1, &vertex, NULL);
+  assert_ok(hf_solver_move_sites(w.edited, 1, &w.edited_site, &to));
+  assert_ok(hf_solver_solve(w.edited, OUT(w.field), NULL));
+}
+static void an_edited_field_at_some_vertices(uint32_t frame) {
+  const uint32_t vertices[3] = {7000 + frame, 3050, 8000 - frame};
+  assert_ok(hf_solver_solve_at(w.edited, 3, vertices, w.field));
+}
+static void deform(hf_pose pose, uint32_t handle, uint32_t frame, int refine) {
   const hf_transform moved = {{0, 0, 0, 0}, {0.05 * frame, 0.02 * frame, 0}};
   hf_deform_desc desc = HF_INIT(hf_deform_desc);
   desc.positions = ROWS_OUT(w.posed);
   desc.normals = ROWS_OUT(w.normals);
   desc.refine = refine;
-  assert_ok(hf_pose_set_transform(pose, w.handles[0], &moved));
+  assert_ok(hf_pose_set_transform(pose, handle, &moved));
   assert_ok(hf_pose_deform(pose, &desc, NULL));
 }
-static void a_pose_with_normals(uint32_t frame) { deform(w.pose, frame, 0); }
+static void a_pose_with_normals(uint32_t frame) { deform(w.pose, w.handles[0], frame, 0); }
 static void a_pose_without_vertices(uint32_t frame) {
   const hf_transform moved = {{0, 0, 0, 1}, {0.01 * frame, 0, 0}};
   assert_ok(hf_pose_set_transform(w.pose, w.handles[0], &moved));
   assert_ok(hf_pose_solve(w.pose, 0, 0, NULL));
   assert_ok(hf_pose_get_blend_transforms(w.pose, COUNT_OF(w.values) / 12, w.values, NULL));
 }
-static void a_pose_with_a_full_mesh_step(uint32_t frame) { deform(w.refined, frame, 1); }
+static void a_pose_with_a_full_mesh_step(uint32_t frame) { deform(w.refined, w.handles[0], frame, 1); }
+static void a_pose_of_an_edited_surface(uint32_t frame) { deform(w.edited_pose, w.edited_handles[0], frame, 1); }
 static void a_transfer_with_normals(uint32_t frame) {
   hf_transfer_frame desc = HF_INIT(hf_transfer_frame);
   for (uint32_t v = 0; v < VERTICES; ++v) w.posed[3 * v] = w.tube.positions[3 * v] + 0.001f * (float)frame;
@@ -127,6 +138,24 @@ static void create_world(void) {
   assert_ok(hf_solver_add_site(w.vectors, VERTICES - 9, along, NULL));
   w.pose = tube_pose(w.surface, AROUND, RINGS, w.handles);
   w.refined = tube_pose(w.surface, AROUND, RINGS, w.handles);
+  uint32_t stroke[200];
+  double stiffness[200];
+  for (uint32_t i = 0; i < 200; ++i) {
+    stroke[i] = 3000 + i;
+    stiffness[i] = 50;
+  }
+  hf_surface_edit_desc stiff = HF_INIT(hf_surface_edit_desc);
+  stiff.vertex_count = 200;
+  stiff.vertices = stroke;
+  stiff.stiffness = stiffness;
+  hf_surface edited;
+  assert_ok(hf_surface_edit(w.surface, &stiff, &edited));
+  assert_ok(hf_create(edited, NULL, &w.edited));
+  add_site(w.edited, 0, 0);
+  add_site(w.edited, VERTICES - 1, 1);
+  w.edited_site = add_site(w.edited, VERTICES / 2, 2);
+  w.edited_pose = tube_pose(edited, AROUND, RINGS, w.edited_handles);
+  hf_surface_destroy(edited);
   assert_ok(hf_transfer_create(w.surface, w.surface, NULL, &w.transfer));
   uint32_t* ends = tube_ends(AROUND, RINGS);
   const uint32_t counts[2] = {2 * AROUND, 2 * AROUND};
@@ -160,8 +189,10 @@ static void destroy_world(void) {
   hf_surface_destroy(w.surface);
   hf_solver_destroy(w.solver);
   hf_solver_destroy(w.vectors);
+  hf_solver_destroy(w.edited);
   hf_pose_destroy(w.pose);
   hf_pose_destroy(w.refined);
+  hf_pose_destroy(w.edited_pose);
   hf_transfer_destroy(w.transfer);
   hf_direction_destroy(w.direction);
   hf_geodesics_destroy(w.distances);
@@ -192,6 +223,9 @@ static const struct Row {
     {"a direction moved, and the field", a_direction_moved, 1},
     {"a morph of a region, with normals", a_region_morphed, 1},
     {"distances from a moving vertex", distances_from_a_vertex, 1},
+    {"a site moved on an edited surface, and the field", a_site_on_an_edited_surface, 1},
+    {"the field at some vertices of an edited surface", an_edited_field_at_some_vertices, 1},
+    {"a pose of an edited surface, with a full-mesh step", a_pose_of_an_edited_surface, 1},
 };
 
 static void a_steady_state_asks_the_host_for_no_memory(void** state) {

@@ -2604,8 +2604,8 @@ namespace Hf
         }
 
         /// <summary>Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the
-        /// factor: an edit of some hundred vertices costs elimination paths, as sites do, and no factorisation. The
-        /// library factorises again with the same ordering where that costs less, and for bi-harmonic fields. A
+        /// factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do.
+        /// The library factorises again with the same ordering where that costs less, and for bi-harmonic fields. A
         /// surface that is edited back has the fields of the old one.
         ///
         /// Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100

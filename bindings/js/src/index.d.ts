@@ -1308,7 +1308,7 @@ export interface Surface extends Handle {
   relink(options?: { joints?: Rows | null; weights?: Rows | null; jointParents?: Rows | null; tags?: Rows | null; links?: Rows | null; lightVertices?: Rows | null; heavyVertices?: Rows | null; mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; progress?: Progress | null }): Surface;
   /**
    * Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the
-   * factor: an edit of some hundred vertices costs elimination paths, as sites do, and no factorisation. The
+   * factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do. The
    * library factorises again with the same ordering where that costs less, and for bi-harmonic fields. A surface
    * that is edited back has the fields of the old one.
    *

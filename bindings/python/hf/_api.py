@@ -1366,7 +1366,7 @@ class Surface(Object):
     def edit(self, vertices: Optional[ArrayLike] = None, stiffness: Optional[ArrayLike] = None, *,
             progress: Optional[Progress] = None) -> "Surface":
         """Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the
-        factor: an edit of some hundred vertices costs elimination paths, as sites do, and no factorisation. The
+        factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do. The
         library factorises again with the same ordering where that costs less, and for bi-harmonic fields. A surface
         that is edited back has the fields of the old one.
 

@@ -49,15 +49,15 @@ std::vector<Site> sites_on(const Core& core) {
   return sites;
 }
 
-double error_of(const std::shared_ptr<const Core>& core) {
+double value_of(std::size_t site) { return site % 2 == 0 ? 1.0 : -2.5; }
+
+std::vector<double> field_of(const std::shared_ptr<const Core>& core) {
   const std::vector<Site> sites = sites_on(*core);
   std::vector<Index> slots;
   std::vector<double> values;
-  Eigen::MatrixXd exact(static_cast<Eigen::Index>(sites.size()), 1);
   for (std::size_t i = 0; i < sites.size(); ++i) {
     slots.push_back(static_cast<Index>(i));
-    values.push_back(i % 2 == 0 ? 1.0 : -2.5);
-    exact(static_cast<Eigen::Index>(i), 0) = values[i];
+    values.push_back(value_of(i));
   }
   const auto solver = hf_inner::SiteSolver::make(core);
   hf_inner::SiteEdit edit;
@@ -66,6 +66,14 @@ double error_of(const std::shared_ptr<const Core>& core) {
   solver->edit(edit);
   std::vector<double> u(at(core->size()));
   solver->solve(values.data(), 1, u.data(), nullptr);
+  return u;
+}
+
+double error_of(const std::shared_ptr<const Core>& core) {
+  const std::vector<Site> sites = sites_on(*core);
+  Eigen::MatrixXd exact(static_cast<Eigen::Index>(sites.size()), 1);
+  for (std::size_t i = 0; i < sites.size(); ++i) exact(static_cast<Eigen::Index>(i), 0) = value_of(i);
+  const std::vector<double> u = field_of(core);
   const Eigen::MatrixXd field = hf_test::dense_field(*core, sites, exact);
   double worst = 0;
   for (Index v = 0; v < core->size(); ++v) worst = std::max(worst, std::fabs(u[at(v)] - field(v, 0)));
@@ -115,6 +123,25 @@ TEST(Stiffness, AFactorThatWasMadeAgainIsLongWhereAFreshOneIs) {
   options.stiffness = patches;
   EXPECT_TRUE(hf_test::make_core(mesh, 1, options)->is_long);
   EXPECT_TRUE(hf_inner::edit_core(plain, options.stiffness, never_rows)->is_long);
+}
+
+// A stroke over a thousand vertices, and one over a whole island, have the fields of a new factor: here the inside has
+// supernodes of many columns.
+TEST(Stiffness, LargeStrokesHaveTheFieldsOfANewFactor) {
+  hf_test::PlainMesh mesh = hf_test::torus(70, 40);
+  append(mesh, hf_test::grid(14, 11, 1, 0.3), 30);
+  const auto plain = hf_test::make_core(mesh);
+  for (const double radius : {0.07, 0.6}) {
+    auto stiffness =
+        std::make_shared<hf_inner::Vector<double>>(*stroke(*plain, nullptr, radius, 40, 5), plain->memory.get());
+    ASSERT_GT(std::count(stiffness->begin(), stiffness->end(), 40.0), 800);
+    for (std::size_t v = 0; v < stiffness->size(); v += 3) (*stiffness)[v] = (*stiffness)[v] == 40 ? 0.2 : 1;
+    const auto rows = hf_inner::edit_core(plain, stiffness, always_rows),
+               fresh = hf_inner::edit_core(plain, stiffness, never_rows);
+    ASSERT_EQ(rows->factored, plain);
+    const std::vector<double> a = field_of(rows), b = field_of(fresh);
+    for (std::size_t v = 0; v < a.size(); ++v) ASSERT_NEAR(a[v], b[v], 1e-11) << v;
+  }
 }
 
 // Strokes over strokes: rows are always counted from the factor, so errors do not add up.
