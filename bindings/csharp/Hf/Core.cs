@@ -80,7 +80,15 @@ namespace Hf
         internal abstract Recorded State();
 
         /// <summary>Keeps the present state for Undo.</summary>
-        public void Record() { past.Push(State()); undone.Clear(); }
+        public void Record()
+        {
+            Recorded state = State();
+            lock (past)
+            {
+                past.Push(state);
+                undone.Clear();
+            }
+        }
 
         /// <summary>Goes back to the last record, bit for bit.</summary>
         public void Undo() => Exchange(past, undone, "nothing is recorded; call Record before the edits");
@@ -91,12 +99,15 @@ namespace Hf
         void Exchange(Stack<Recorded> from, Stack<Recorded> to, string nothing)
         {
             if (IsClosed) State();  // throws what every call on a disposed object throws
-            if (from.Count == 0) throw new HfException(nothing, Constants.HF_ERROR_EMPTY);
-            Recorded state = from.Pop();
-            IntPtr mine = handle;
-            SetHandle(state.handle);
-            state.SetHandle(mine);
-            to.Push(state);
+            lock (past)
+            {
+                if (from.Count == 0) throw new HfException(nothing, Constants.HF_ERROR_EMPTY);
+                Recorded state = from.Pop();
+                IntPtr mine = handle;
+                SetHandle(state.handle);
+                state.SetHandle(mine);
+                to.Push(state);
+            }
         }
     }
 

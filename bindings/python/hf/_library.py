@@ -388,8 +388,10 @@ class Recorded(Object):
     def _exchange(self, taken: list, kept: list, nothing: str) -> None:
         if self.closed:
             self.clone()  # type: ignore[attr-defined] # raises what every call on a closed object raises
-        require(taken, nothing, error=EmptyError)
-        state = taken.pop()
+        try:
+            state = taken.pop()  # one step, so that of two threads one gets the record
+        except IndexError:
+            require(False, nothing, error=EmptyError)
         self._handle, state._handle = state._handle, self._handle
         kept.append(state)
 
