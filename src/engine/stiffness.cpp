@@ -41,8 +41,8 @@ bool write_row(const SymmetricMatrix& plain, Index v, StiffnessOf&& of, double* 
   return changed;
 }
 
-// The difference of the two operators: the rows that differ, and those of them that lie inside. Ground vertices count
-// as the rim, because the factorised matrix has more at them than the operator.
+// Lists the rows in which the two operators differ, and which of these rows lie inside. A ground vertex counts as the
+// rim, because the factorised matrix has more there than the operator.
 MatrixChange changed_rows(const SymmetricMatrix& plain, const Core& from, const Core& to) {
   Memory& memory = *from.memory;
   MatrixChange change(memory);
@@ -64,7 +64,7 @@ MatrixChange changed_rows(const SymmetricMatrix& plain, const Core& from, const 
   return change;
 }
 
-// Fills in the entries of the change, and those of the rows inside.
+// Fills in the entries of D, and the entries of A in the rows inside.
 void fill_entries(const SymmetricMatrix& plain, const Core& from, const Core& to, MatrixChange& change) {
   Memory& memory = *from.memory;
   Vector<double> before(&memory), after(&memory);
@@ -121,8 +121,7 @@ std::shared_ptr<Core> edited_copy(std::shared_ptr<const Core> plain, std::shared
   return made;
 }
 
-// Gives a core the factor of `near` and what the changed rows add to it. Returns false if the rows lose too many
-// digits.
+// Gives a core the factor of `near`, edited in the changed rows. Returns false if these rows lose too many digits.
 bool share_factor(Core& made, std::shared_ptr<const Core> near, MatrixChange change) {
   try {
     fill_entries(made.unedited->laplacian, *near, made, change);

@@ -23,13 +23,13 @@
 // k more numbers, and V'y is known for the inside: the weights of the site there. Every other object works with the
 // pair as with any factor. D is always counted from A, so errors do not add up over many edits.
 //
-// The products D_ii (A^-1)_ii say how many times larger a change is than what it changes, and L_ii^2 how much softer
-// the matrix becomes. The largest D_ii (A^-1)_ii / min(1, L_ii^2) times 2^-52 is about the relative error of a solution
+// D_ii (A^-1)_ii says how large a change is beside its row, and L_ii^2 how much softer the matrix becomes there. The
+// largest D_ii (A^-1)_ii / min(1, L_ii^2) times 2^-52 is about the relative error of a solution
 // (FactorStatistics::rounding). It is large on long shapes and at needles.
 //
-// Cost: a path for each unknown of the rim, the inside's rows of G, two sparse factors of the inside, and about 3 k r^2
-// operations with the r unknowns of the rim. A sweep costs two products with V more. Yeung, Crouch and Pothen (2016)
-// solve the same equations with an iterative method; here they are solved exactly.
+// Cost: a path for each of the r unknowns of the rim, the inside's rows of G, two sparse factors of the inside, and
+// about 3 k r^2 operations. A sweep costs two products with V more. Yeung, Crouch and Pothen (2016) solve the same
+// equations with an iterative method; here they are solved exactly.
 #pragma once
 #include "factor/factor.h"
 

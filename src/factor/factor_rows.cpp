@@ -1,5 +1,5 @@
-// Reads rows of the factor out of its supernodes. Row j has entries in the supernodes (blocks of columns) of a subtree
-// whose root is the supernode of j: those with j among the rows below their triangle (Liu 1990).
+// Reads rows of the factor out of its supernodes. Row j has entries in its own supernode, and in each supernode that
+// has j among the rows below its triangle. They form a subtree (Liu 1990).
 #include <algorithm>
 
 #include "factor/supernodal_factor.h"
