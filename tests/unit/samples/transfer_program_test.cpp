@@ -218,6 +218,9 @@ TEST(TransferProgram, DialsOfTheFileAndOfTheCommandLineAreTheSame) {
   EXPECT_EQ(of_file, of_line);
   EXPECT_EQ(neutral, plain);
   EXPECT_NE(of_file, plain);
+  const std::string stride = play(pairs("horse_to_bull.json"), " --dials stride=1.3", "stride.glb");
+  EXPECT_NE(stride, plain);
+  EXPECT_NE(stride, of_line);  // each of the two dials counts
   // what turns nothing is said: neither has arms
   play(file, " --dials arm_space_degrees=10", "armless.glb");
   EXPECT_NE(said.find("dial arm_space_degrees turns nothing"), std::string::npos) << said;
