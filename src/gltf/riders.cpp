@@ -156,6 +156,7 @@ class Search {
     double least = within_, nearest = std::numeric_limits<double>::infinity();
     if (is_flat(first[node])) return best;
     const glm::dmat4 back = glm::inverse(at_rest_[node]);
+    const glm::dvec4 middle(c.middle(), 1);
     for (size_t j = 0; j < joints_ && !poses_.empty() && comparisons_ < most_comparisons; ++j) {
       hf_inner::poll();
       if (is_flat(first[j]) || is_flat(at_rest_[j]) || still(c, j)) continue;
@@ -164,7 +165,7 @@ class Search {
       double off = alike * within_;
       for (size_t p = 0; p < poses_.size() && off <= least; ++p, ++comparisons_)
         off = std::max(off, moved_by(c, poses_[p][j] * offset, poses_[p][node] * back));
-      const double distance = glm::distance(glm::dvec3(at_rest_[j][3]), c.middle());
+      const double distance = glm::distance(glm::dvec3(first[j][3]), glm::dvec3(first[node] * back * middle));
       if (off > least || (off == least && distance >= nearest)) continue;
       least = off;
       nearest = distance;

@@ -100,22 +100,25 @@ TEST(TransferFaults, ABodyThatFloatsOrRestsInAStrideIsSaidAndLowersTheConfidence
   }
 }
 
-// A hat beside a body: the body goes two units aside, and the hat goes along or stays.
+// A hat beside a body without legs: the body goes two units aside, and the hat goes along or stays. The floor may stay.
 TEST(TransferFaults, AMeshThatStaysBehindComesOff) {
   Model model = make_model("body", {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 1}}, {0, 1, 2, 0, 2, 3});
-  const Model hat = make_model("hat", {{0, 2, 0}, {1, 3, 0}, {0, 3, 1}}, {0, 1, 2});
-  Node node = hat.nodes[0];
-  node.mesh = 1;
-  model.meshes.push_back(hat.meshes[0]);
-  model.nodes.push_back(node);
-  model.scene_roots.push_back(1);
+  for (const Model& beside : {make_model("hat", {{0, 2, 0}, {1, 3, 0}, {0, 3, 1}}, {0, 1, 2}),
+                              make_model("floor", {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {0, 1, 2})}) {
+    Node node = beside.nodes[0];
+    node.mesh = static_cast<int>(model.meshes.size());
+    model.meshes.push_back(beside.meshes[0]);
+    model.scene_roots.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(node);
+  }
   const FlatMesh mesh = flatten(model);
   KnownBody known;
   known.axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  known.nodes.resize(2);
+  known.nodes.resize(3);
   known.nodes[0].part = BodyPart::trunk;
-  const std::vector<Fastening> found = fastenings_of({model, mesh, known}, {1});
+  const std::vector<Fastening> found = fastenings_of({model, mesh, known}, {1, 2});
   ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].node, 1);
   const Fastening& fastening = found[0];
   std::vector<double> along = double_positions(mesh.positions), stays = along;
   for (const FlatPart& part : mesh.parts) {
@@ -187,6 +190,27 @@ TEST(TransferFaults, ABodyHoversByTheMeanHeightOfItsSolesWhileTheSourceStands) {
   // A source that stands a bit over the ground, scaled.
   EXPECT_NEAR(hover_of(walker.body(), walker.body(), 2, {walker.at(0.02)}, {walker.at(0.1)}), 0.06 / walker.box(),
               1e-6);
+  // One that sinks a bit stands. One whose clip puts it as deep as its shins does not.
+  EXPECT_NEAR(hover_of(walker.body(), walker.body(), 1, {walker.at(-0.05)}, {walker.at(0.1)}), 0.1 / walker.box(),
+              1e-6);
+  EXPECT_LT(hover_of(walker.body(), walker.body(), 1, {walker.at(-0.4)}, {walker.at(0.1)}), 0);
+}
+
+// The other foot is in the air on both. A knee of the target that is bent down to the ground is no sole.
+TEST(TransferFaults, ABodyThatStandsOnOneFootHoversByThatFoot) {
+  const Walker walker(false);
+  for (const uint32_t lifted : {1u, 2u}) {
+    std::vector<double> source = walker.at(0), target = walker.at(0.1);
+    for (const FlatPart& part : walker.mesh.parts) {
+      for (uint32_t v = part.first_vertex; v < part.first_vertex + part.vertex_count; ++v) {
+        if (part.node == static_cast<int>(lifted))
+          for (std::vector<double>* frame : {&source, &target}) (*frame)[3 * v + 1] += 0.5;
+        else if (part.node > 0 && walker.mesh.positions[v].y > 0.5)
+          target[3 * v + 1] = 0;
+      }
+    }
+    EXPECT_NEAR(hover_of(walker.body(), walker.body(), 1, {source}, {target}), 0.1 / walker.box(), 1e-6) << lifted;
+  }
 }
 
 // A pickaxe that hangs lower than the feet of the source does not say that these are in the air.

@@ -317,7 +317,6 @@ TEST(Lengths, AreThoseOfTheBodyInItsUnit) {
   }
 }
 
-// Every joint of the body is in one chain, after its carrier if that is in the same one; frames are rotations.
 // A miner with a pickaxe that hangs lower than his feet stands on his feet. So does one with a low cape. A body that
 // stands on its hands has its ground under the hands.
 TEST(Lengths, TheGroundIsUnderTheFeet) {
@@ -331,6 +330,13 @@ TEST(Lengths, TheGroundIsUnderTheFeet) {
     rig.joints.back().judged = false;
     rig.add_block(pickaxe, {-0.75, -0.4, -0.02}, {-0.71, 1.4, 0.02});
     rig.add_block(pickaxe, {-0.95, -0.4, -0.02}, {-0.51, -0.35, 0.02});
+    const auto spine =
+        std::find_if(rig.joints.begin(), rig.joints.end(), [](const RigJoint& j) { return j.role == Role::spine; });
+    ASSERT_NE(spine, rig.joints.end());
+    const int chest = static_cast<int>(spine - rig.joints.begin());
+    const int cape = rig.add("cape", chest, {0, 1.3, -0.15}, Role::other);
+    rig.joints.back().judged = false;
+    rig.add_block(cape, {-0.2, -0.2, -0.17}, {0.2, 1.3, -0.15});
     Memory memory;
     const PlacedRig placed(rig, {});
     const Character found = know_character(placed.input(), memory);
@@ -391,6 +397,7 @@ TEST(Limbs, APairOnSomethingAsideDoesNotSayWhereTheNeckBegins) {
   EXPECT_EQ(found.roles[static_cast<std::size_t>(neck)], Role::neck) << placed.faults(found);
 }
 
+// Every joint of the body is in one chain, after its carrier if that is in the same one; frames are rotations.
 TEST(Chains, HoldEveryJointOnceFromRootToTip) {
   for (const std::string& convention : biped_conventions) {
     const Rig rig = make_biped(convention, {});
