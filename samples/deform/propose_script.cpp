@@ -35,6 +35,14 @@ std::string role_name(const hf_handle_proposal& proposal) {
   return std::string(roles[proposal.role]) + sides[proposal.side];
 }
 
+// A joint inside a limb or the trunk is none: pulled out, it makes a spike of the surface around it. Heads, hands and
+// feet that do not protrude are proposed as joints too.
+bool is_tip(const ProposedHandle& handle) {
+  const hf_handle_proposal& p = handle.proposal;
+  return handle.entry.offered && (p.reason != HF_HANDLE_REASON_JOINT || p.role == HF_ROLE_HEAD ||
+                                  p.role == HF_ROLE_HAND || p.role == HF_ROLE_FOOT);
+}
+
 }  // namespace
 
 std::vector<ProposedHandle> propose(const PosableMesh& mesh, const Posable& posable, const glm::dvec3& up) {
@@ -70,14 +78,16 @@ std::vector<ProposedHandle> propose(const PosableMesh& mesh, const Posable& posa
 }
 
 std::string list_of(const std::vector<ProposedHandle>& handles) {
+  size_t width = 0;
+  for (const ProposedHandle& handle : handles) width = std::max(width, handle.entry.name.size());
   std::string out;
   for (const ProposedHandle& handle : handles) {
-    char line[200];
+    char line[160];
     const hf_handle_proposal& p = handle.proposal;
-    std::snprintf(line, sizeof line, "  %-9s %-7s %-13s vertex %-7u radius %-10.4g length %-10.4g region %zu\n",
-                  handle.entry.name.c_str(), p.pinned ? "holds" : "offered", role_name(p).c_str(), p.vertex, p.radius,
-                  p.length, handle.entry.vertices.size());
-    out += line;
+    std::snprintf(line, sizeof line, " %-7s %-13s vertex %-7u radius %-10.4g length %-10.4g region %zu\n",
+                  p.pinned ? "holds" : "offered", role_name(p).c_str(), p.vertex, p.radius, p.length,
+                  handle.entry.vertices.size());
+    out += "  " + handle.entry.name + std::string(width - handle.entry.name.size(), ' ') + line;
   }
   return out;
 }
@@ -111,8 +121,9 @@ ScriptFile propose_script(const std::vector<ProposedHandle>& handles, const glm:
     script.steps.insert(script.steps.end(), {all, gone});
     script.steps.back().label.clear();
   }
+  const bool any_tip = std::any_of(handles.begin(), handles.end(), is_tip);
   for (const ProposedHandle& handle : handles) {
-    if (!handle.entry.offered || tips == 0) continue;
+    if (!handle.entry.offered || (any_tip && !is_tip(handle)) || tips == 0) continue;
     --tips;
     constexpr double rise = 0.12, outward = 0.05;  // of the diagonal: a change that shows and tears nothing
     const glm::dvec3 away = handle.place - middle;

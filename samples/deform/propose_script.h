@@ -25,7 +25,8 @@ std::string list_of(const std::vector<ProposedHandle>& handles);
 // The step that adds what holds.
 Step hold_step(const std::vector<ProposedHandle>& handles);
 
-// Shows all proposals, then drags the longest tips up and outwards, `tips` of them.
+// Shows all proposals, then drags the longest tips up and outwards, `tips` of them at most: joints only where there is
+// no tip.
 ScriptFile propose_script(const std::vector<ProposedHandle>& handles, const glm::dvec3& up, size_t tips);
 
 }  // namespace samples

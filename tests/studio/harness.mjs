@@ -2,7 +2,7 @@
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { dirname, join } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { Pictures } from './pictures.mjs';
 
@@ -11,7 +11,8 @@ const modules = process.env.HF_NODE_MODULES ?? join(here, '../../build/npm/node_
 export const require = createRequire(join(modules, 'x.js'));
 /** Data that is not the project's: tests that use it are passed over without it. */
 export const shared = process.env.HF_SHARED ?? join(here, '../../../shared');
-export const [folder, pictures] = process.argv.slice(2);
+// whole paths: a browser drops no file with a relative one
+export const [folder, pictures] = process.argv.slice(2, 4).map((path) => resolve(path));
 
 export function skip(why) {
   console.log(`skipped: ${why}`);

@@ -176,6 +176,37 @@ export default async function story(host) {
     await studio.close();
   });
 
+  await check('a small phone has all of the bar; a long name of a file is cut off nowhere', async () => {
+    for (const size of [
+      [320, 640],
+      [360, 740],
+      [1280, 800],
+    ]) {
+      const phone = size[0] < 720 ? { hasTouch: true, isMobile: true } : {};
+      const studio = await Studio.open(host, { size, ...phone });
+      const told = await studio.page.evaluate(() => {
+        const app = window.hfStudio;
+        const { card, make } = app.ui;
+        const name = `${'a_long_name_of_a_body_'.repeat(4)}.glb`;
+        app.warn(`${name} is not here`);
+        card(`The last session with ${name} is not whole`, [make('p', {}, `${name} has other vertices`)], [['Close', null]]);
+        const boxes = [...document.querySelectorAll('#top button, #top select, #told, #matters, #card')].filter(
+          (element) => element.checkVisibility(),
+        );
+        const cut = boxes.filter((element) => {
+          const { left, right } = element.getBoundingClientRect();
+          return left < 0 || right > document.documentElement.clientWidth || element.scrollWidth > element.clientWidth + 1;
+        });
+        return { count: boxes.length, cut: cut.map(({ id }) => id), wide: [innerWidth, document.documentElement.scrollWidth] };
+      });
+      assert.ok(told.count >= 8, `${told.count} boxes`);
+      assert.deepEqual(told.cut, [], `at ${size[0]} pixels`);
+      assert.deepEqual(told.wide, [size[0], size[0]]);
+      await studio.picture(`long_name_${size[0]}`, { kept: false });
+      await studio.close();
+    }
+  });
+
   await check('by touch alone on a phone: pull, add a handle, turn and pinch the view, put a site', async () => {
     const studio = await Studio.open(host, { size: [390, 844], hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
     const { page } = studio;
