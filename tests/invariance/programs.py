@@ -213,6 +213,7 @@ EXCEPTIONS = [
     ("vertex order", "hf_transfer to", 1e-2, "clusters begin at the first vertex"),
     ("renamed joints", "hf_transfer from", INFINITY, "names of joints say which parts correspond"),
     ("renamed joints", "hf_transfer to", INFINITY, "names of joints say which parts correspond"),
+    ("renamed joints", "hf_deform_script --propose", INFINITY, "names of joints say which joint is a head that is pulled"),
     ("renamed joints", "hf_weights", INFINITY, "names of nodes say where last joints end"),
 ]
 

@@ -80,34 +80,23 @@ namespace Hf
         internal abstract Recorded State();
 
         /// <summary>Keeps the present state for Undo.</summary>
-        public void Record()
-        {
-            Recorded state = State();
-            lock (past)
-            {
-                past.Push(state);
-                undone.Clear();
-            }
-        }
+        public void Record() { lock (past) { past.Push(State()); undone.Clear(); } }
 
         /// <summary>Goes back to the last record, bit for bit.</summary>
-        public void Undo() => Exchange(past, undone, "nothing is recorded; call Record before the edits");
+        public void Undo() { lock (past) Exchange(past, undone, "nothing is recorded; call Record before the edits"); }
 
         /// <summary>Goes to the state before the last Undo.</summary>
-        public void Redo() => Exchange(undone, past, "nothing was undone since the last Record");
+        public void Redo() { lock (past) Exchange(undone, past, "nothing was undone since the last Record"); }
 
         void Exchange(Stack<Recorded> from, Stack<Recorded> to, string nothing)
         {
             if (IsClosed) State();  // throws what every call on a disposed object throws
-            lock (past)
-            {
-                if (from.Count == 0) throw new HfException(nothing, Constants.HF_ERROR_EMPTY);
-                Recorded state = from.Pop();
-                IntPtr mine = handle;
-                SetHandle(state.handle);
-                state.SetHandle(mine);
-                to.Push(state);
-            }
+            if (from.Count == 0) throw new HfException(nothing, Constants.HF_ERROR_EMPTY);
+            Recorded state = from.Pop();
+            IntPtr mine = handle;
+            SetHandle(state.handle);
+            state.SetHandle(mine);
+            to.Push(state);
         }
     }
 

@@ -39,8 +39,8 @@ def _faces(faces: Any) -> Dict[str, Any]:
 
 class Surface(_api.Surface):
     __doc__ = f"""{_api.Surface.__doc__}
-    faces: (m, k) corners; (offsets, corners), m + 1 offsets; or (starts, sizes, corners) as Blender's loops, with None for
-        starts where faces follow one another
+    faces: (m, k) corners; (offsets, corners), m + 1 offsets; or (starts, sizes, corners) as Blender's loops, with None
+        for starts where faces follow one another
     link_pieces: True joins the pieces of a character by links. tags: (n,) with it: pieces of different tags stay apart
     """
 

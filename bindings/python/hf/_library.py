@@ -3,6 +3,7 @@ headers (_api.py) stands on this."""
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import functools
 import math
@@ -364,10 +365,8 @@ class Object:
         self.close()
 
     def __del__(self) -> None:
-        try:
+        with contextlib.suppress(Exception):  # at the end of the interpreter
             self.close()
-        except Exception:  # at the end of the interpreter
-            pass
 
 
 class Recorded(Object):
