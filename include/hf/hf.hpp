@@ -164,15 +164,20 @@ struct GraphOptions {
       const Reals& weights) const;
 };
 
-// What Surface::edit changes. The stiffness of a vertex is a number by which the weights of its edges are multiplied:
-// an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A region of large stiffness bends
-// and stretches little and hardly changes its surroundings: a belt, a shield, a shell. A region of small stiffness
-// takes up the bending around it.
+// What Surface::edit changes: stiffness, links, or both. The stiffness of a vertex is a number by which the weights of
+// its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A region
+// of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a shell. A
+// region of small stiffness takes up the bending around it.
 struct SurfaceEdit {
   // `[vertex_count]` as given; the others keep what they have. none: all vertices in order
   std::vector<uint32_t> vertices{};
-  // `[vertex_count]` 1e-4 to 1e4; 1: as the surface was made. Welded copies share one
+  // `[vertex_count]` 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. none: no stiffness changes, and
+  // vertex_count is 0
   std::vector<double> stiffness{};
+  // `[link_count]` links that come in, after those that stay
+  std::vector<hf_link> links{};
+  // `[removed_link_count]` links that go out, by their numbers in Surface::links
+  std::vector<uint32_t> removed_links{};
   // none, or an object to poll and cancel through
   const Progress* progress = nullptr;
   hf_surface_edit_desc fill([[maybe_unused]] Call& c, [[maybe_unused]] const std::string& prefix) const;
@@ -1049,19 +1054,26 @@ class Surface {
     return Surface(raw, c.counts({"vertex_count"}));
   }
 
-  // Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the factor: an
-  // edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do. The library factorises
-  // again with the same ordering where that costs less, and for bi-harmonic fields. A surface that is edited back has
-  // the fields of the old one.
+  // Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface shares
+  // the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do, and a
+  // link costs up to six paths. The library factorises again with the same ordering where that costs less, and for bi-
+  // harmonic fields. A surface that is edited back has the fields of the old one.
   //
   // Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or more.
   // Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so regions,
-  // transfers, distances, directions and quads do not see stiffness. Solver::move_to and Pose::move_to take sites and
-  // handles along. Soft sites keep the unit of their stiffness. Surface::save is refused: save the factor of the
+  // transfers, distances, directions and quads do not see stiffness.
+  //
+  // A link joins two pieces, and removing the last link between two pieces parts them: a sword that is taken up and
+  // dropped. The new surface is the one that Surface::relink makes of the same list of links. Surface::components gives
+  // the new components. Light pieces and contacts stay as they are.
+  //
+  // Solver::move_to and Pose::move_to take sites and handles along. Soft sites keep the unit of their stiffness while
+  // links stay; other links change it as they do for Surface::relink. Surface::save is refused: save the factor of the
   // surface before its edits. Memory limits hold for both surfaces together.
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-  // HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE.
+  // HF_ERROR_NOT_FOUND, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE,
+  // HF_ERROR_UNSUPPORTED.
   Surface edit(const SurfaceEdit& options = {}) const {
     Call c(counts_);
     const hf_surface_edit_desc desc = options.fill(c, "list_");
@@ -1343,7 +1355,8 @@ class Solver {
 
   // Moves a solver to an edited surface: its sites keep their numbers, values and screening.
   //
-  // surface: made by Surface::edit from the solver's surface, or the other way round, in any number of steps.
+  // surface: made by Surface::edit or Surface::relink from the solver's surface, or the other way round, in any number
+  // of steps.
   //
   // Fails with HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.
   void move_to(const Surface& surface) {
@@ -2108,9 +2121,10 @@ class Pose {
   }
 
   // Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
-  // Pose.deform shows the surface with its new stiffness.
+  // Pose.deform shows the surface with its new stiffness and links.
   //
-  // surface: made by Surface::edit from the pose's surface, or the other way round, in any number of steps.
+  // surface: made by Surface::edit or Surface::relink from the pose's surface, or the other way round, in any number of
+  // steps.
   //
   // Fails with HF_ERROR_CONFLICT.
   void move_to(const Surface& surface) {
@@ -3864,8 +3878,12 @@ inline hf_surface_edit_desc SurfaceEdit::fill([[maybe_unused]] Call& c,
   auto desc = make<hf_surface_edit_desc>();
   desc.vertices = c.array(vertices, false, "vertices", {prefix + "vertex_count"});
   desc.stiffness = c.array(stiffness, false, "stiffness", {prefix + "vertex_count"});
+  desc.links = c.array(links, false, "links", {prefix + "link_count"});
+  desc.removed_links = c.array(removed_links, false, "removed_links", {prefix + "removed_link_count"});
   desc.progress = progress ? progress->get() : nullptr;
   desc.vertex_count = c.count(prefix + "vertex_count", 0);
+  desc.link_count = c.count(prefix + "link_count", 0);
+  desc.removed_link_count = c.count(prefix + "removed_link_count", 0);
   return desc;
 }
 

@@ -44,9 +44,9 @@ HF_API hf_result hf_pose_create(hf_surface surface, const hf_pose_desc* desc, hf
 HF_API hf_result hf_pose_clone(hf_pose pose, hf_pose* out_pose);
 
 /* Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
- * hf_deform shows the surface with its new stiffness. surface: made by hf_surface_edit from the pose's surface, or the
- * other way round, in any number of steps. Cost: as adding all handles at once. Errors: HF_ERROR_CONFLICT (the surfaces
- * have no common origin). Thread safety: changes `pose`, reads `surface`. Since 0.1. */
+ * hf_deform shows the surface with its new stiffness and links. surface: made by hf_surface_edit or hf_surface_relink
+ * from the pose's surface, or the other way round, in any number of steps. Cost: as adding all handles at once. Errors:
+ * HF_ERROR_CONFLICT (the surfaces have no common origin). Thread safety: changes `pose`, reads `surface`. Since 0.1. */
 HF_API hf_result hf_pose_move_to(hf_pose pose, hf_surface surface);
 
 /* Destroys a pose. Ignores NULL and destroyed objects. Since 0.1. */
@@ -353,9 +353,9 @@ typedef struct hf_blend_info {
   double offset_share;    /* 0 to 1: share of its offset that a vertex gets. 0 unless handles were added in place or
                              rotations freed; it falls as handles move */
   double centre[3];       /* in the unit and frame of the mesh; positions are relative to this point */
-  double low[3];          /* for culling: the smallest x, y and z of a box that holds all vertices of the last frame. In the
-                             unit and frame of the mesh, relative to centre */
-  double high[3];         /* the largest x, y and z. The box may be larger than needed: see docs/renderer.md */
+  double low[3];  /* for culling: the smallest x, y and z of a box that holds all vertices of the last frame. In the
+                     unit and frame of the mesh, relative to centre */
+  double high[3]; /* the largest x, y and z. The box may be larger than needed: see docs/renderer.md */
 } hf_blend_info;
 
 /* Writes the info of a blend. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_UNSUPPORTED (higher layers, rigid pieces or

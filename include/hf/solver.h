@@ -39,10 +39,10 @@ HF_API hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_so
 HF_API hf_result hf_solver_clone(hf_solver solver, hf_solver* out_solver);
 
 /* Moves a solver to an edited surface: its sites keep their numbers, values and screening. surface: made by
- * hf_surface_edit from the solver's surface, or the other way round, in any number of steps. Cost: the elimination
- * paths of the sites; for screened fields a numeric factorisation. Errors: HF_ERROR_CONFLICT (the surfaces have no
- * common origin), HF_ERROR_UNSUPPORTED (a baseline), HF_ERROR_CANCELLED. Thread safety: changes `solver`, reads
- * `surface`. Since 0.1. */
+ * hf_surface_edit or hf_surface_relink from the solver's surface, or the other way round, in any number of steps. Cost:
+ * the elimination paths of the sites; for screened fields a numeric factorisation. Errors: HF_ERROR_CONFLICT (the
+ * surfaces have no common origin), HF_ERROR_UNSUPPORTED (a baseline), HF_ERROR_CANCELLED. Thread safety: changes
+ * `solver`, reads `surface`. Since 0.1. */
 HF_API hf_result hf_solver_move_to(hf_solver solver, hf_surface surface);
 
 /* Destroys a solver. Ignores NULL and destroyed objects. Thread safety: a call under way on another thread ends first;

@@ -368,34 +368,46 @@ HF_API hf_result hf_surface_relink(hf_surface surface, const hf_links_desc* link
 
 /* ---- edits ---- */
 
-/* What hf_surface_edit changes. The stiffness of a vertex is a number by which the weights of its edges are multiplied:
- * an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A region of large stiffness bends
- * and stretches little and hardly changes its surroundings: a belt, a shield, a shell. A region of small stiffness
- * takes up the bending around it. */
+/* What hf_surface_edit changes: stiffness, links, or both. The stiffness of a vertex is a number by which the weights
+ * of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A
+ * region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a shell.
+ * A region of small stiffness takes up the bending around it. */
 typedef struct hf_surface_edit_desc {
   uint32_t struct_size;
   uint32_t vertex_count;    /* entries of vertices and stiffness */
   const uint32_t* vertices; /* [vertex_count] as given; the others keep what they have. NULL: all vertices in order */
-  const double* stiffness;  /* [vertex_count] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one */
-  hf_progress progress;     /* NULL, or an object to poll and cancel through */
+  const double* stiffness;  /* [vertex_count] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. NULL: no
+                               stiffness changes, and vertex_count is 0 */
+  uint32_t link_count;      /* entries of links */
+  uint32_t removed_link_count;   /* entries of removed_links */
+  const hf_link* links;          /* [link_count] links that come in, after those that stay */
+  const uint32_t* removed_links; /* [removed_link_count] links that go out, by their numbers in hf_surface_get_links */
+  hf_progress progress;          /* NULL, or an object to poll and cancel through */
 } hf_surface_edit_desc;
 
-/* Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the factor: an
- * edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do. The library factorises
- * again with the same ordering where that costs less, and for bi-harmonic fields. A surface that is edited back has the
- * fields of the old one.
+/* Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface shares
+ * the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do, and a link
+ * costs up to six paths. The library factorises again with the same ordering where that costs less, and for bi-harmonic
+ * fields. A surface that is edited back has the fields of the old one.
  *
  * Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or more.
- * Bi-harmonic operators square it, so they count at most 100 and at least 0.01.
- * Lengths do not change, so regions, transfers, distances, directions and quads do not see stiffness. hf_solver_move_to
- * and hf_pose_move_to take sites and handles along. Soft sites keep the unit of their stiffness. hf_surface_save is
- * refused: save the factor of the surface before its edits. Memory limits hold for both surfaces together. out_surface:
- * as in hf_surface_create.
- * Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a stiffness out of range) and
- * HF_ERROR_CONFLICT (a vertex, or a welded copy, listed twice with different numbers), index = position in the list;
- * HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT (vertices is NULL and vertex_count is not that of the surface),
- * HF_ERROR_NOT_POSITIVE_DEFINITE (negative weights, or weights that span too many digits; index = vertex),
- * HF_ERROR_CANCELLED. Thread safety: reads `surface`. Since 0.1. */
+ * Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so regions,
+ * transfers, distances, directions and quads do not see stiffness.
+ *
+ * A link joins two pieces, and removing the last link between two pieces parts them: a sword that is taken up and
+ * dropped. The new surface is the one that hf_surface_relink makes of the same list of links. hf_surface_get_components
+ * gives the new components. Light pieces and contacts stay as they are.
+ *
+ * hf_solver_move_to and hf_pose_move_to take sites and handles along. Soft sites keep the unit of their stiffness while
+ * links stay; other links change it as they do for hf_surface_relink. hf_surface_save is refused: save the factor of
+ * the surface before its edits. Memory limits hold for both surfaces together. out_surface: as in hf_surface_create.
+ * Errors: HF_ERROR_OUT_OF_RANGE, HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT (a stiffness out of range, or a link as
+ * hf_surface_create refuses it) and HF_ERROR_CONFLICT (a vertex, or a welded copy, listed twice with different numbers;
+ * a removed link listed twice), index = position in the list; HF_ERROR_NOT_FOUND (a removed link that is not there,
+ * index = position in removed_links); HF_ERROR_EMPTY (nothing to edit), HF_ERROR_INVALID_ARGUMENT (vertices is NULL and
+ * vertex_count is not that of the surface), HF_ERROR_UNSUPPORTED (links of a graph), HF_ERROR_NOT_POSITIVE_DEFINITE
+ * (negative weights, or weights that span too many digits; index = vertex), HF_ERROR_CANCELLED. Thread safety: reads
+ * `surface`. Since 0.1. */
 HF_API hf_result hf_surface_edit(hf_surface surface, const hf_surface_edit_desc* desc, hf_surface* out_surface);
 
 /* Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices. out_stiffness: NULL, or

@@ -143,7 +143,7 @@ hf_result hf_surface_trace_isolines(hf_surface handle, const hf_array* given, ui
     const Geometry& shape = surface->surface.geometry().unlinked();
     const Vector<double> field = read_scalars(shape, given);
     const Isolines lines =
-        trace_isolines(shape.mesh, shape.topology, field, Span<const double>(levels, level_count), *shape.memory);
+        trace_isolines(shape.mesh, shape.topology(), field, Span<const double>(levels, level_count), *shape.memory);
     out.point_count = static_cast<std::uint32_t>(lines.points.size());
     out.line_count = lines.line_count();
     write_struct(inout_lines, out);
@@ -179,7 +179,7 @@ hf_result hf_surface_find_critical_points(hf_surface handle, const hf_array* giv
     if (out_info) check_struct(out_info, "out_info");
     const Geometry& shape = surface->surface.geometry().unlinked();
     const Vector<double> field = read_scalars(shape, given);
-    const CriticalPoints found = find_critical_points(shape.mesh, shape.topology, field, *shape.memory);
+    const CriticalPoints found = find_critical_points(shape.mesh, shape.topology(), field, *shape.memory);
     hf_critical_info info{};
     info.point_count = static_cast<std::uint32_t>(found.points.size());
     info.minimum_count = found.minima;

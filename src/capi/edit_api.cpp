@@ -9,9 +9,10 @@ namespace hf_inner::capi {
 namespace {
 
 void require_same_origin(const Core& core, const Surface& surface, const char* noun) {
-  if (core.geometry.get() != &surface.geometry())
+  if (&core.geometry->unlinked() != &surface.geometry().unlinked())
     fail(HF_ERROR_CONFLICT, HF_NO_INDEX,
-         "the %s is on another surface: move it to one that hf_surface_edit made from its own", noun);
+         "the %s is on another surface: move it to one that hf_surface_edit or hf_surface_relink made from its own",
+         noun);
 }
 
 }  // namespace
@@ -27,9 +28,9 @@ hf_result hf_surface_edit(hf_surface surface, const hf_surface_edit_desc* given,
     const auto object = get<SurfaceObject>(surface, "surface");
     const hf_surface_edit_desc desc = read_struct(given, "desc");
     const std::shared_ptr<const Surface> before(object, &object->surface);
-    std::shared_ptr<const Vector<double>> stiffness = read_stiffness(desc, *before);
+    SurfaceEdit edit = read_surface_edit(desc, *before);
     return with_progress(desc.progress, [&] {
-      return make_owner_in<SurfaceObject>(object->memory, before, std::move(stiffness), object->info);
+      return make_owner_in<SurfaceObject>(object->memory, before, std::move(edit), object->info);
     });
   });
 }

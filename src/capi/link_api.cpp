@@ -111,7 +111,8 @@ hf_result hf_surface_relink(hf_surface handle, const hf_links_desc* links, hf_pr
           make_owner_in<SurfaceObject>(object->memory, std::move(geometry), options_like(old.unedited()), object->info);
       if (!old.stiffness()) return unedited;
       const std::shared_ptr<const Surface> from(unedited, &unedited->surface);
-      return make_owner_in<SurfaceObject>(object->memory, from, old.own().stiffness, object->info);
+      return make_owner_in<SurfaceObject>(object->memory, from, SurfaceEdit{old.own().stiffness, nullptr},
+                                          object->info);
     });
   });
 }

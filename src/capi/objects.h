@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "capi/boundary.h"
 #include "capi/handle_table.h"
+#include "engine/stiffness.h"
 #include "engine/surface.h"
 #include "field/intake.h"
 #include "hf/surface.h"
@@ -47,9 +48,8 @@ struct SurfaceObject final : Object {
   SurfaceObject(std::shared_ptr<const Geometry> geometry, const CoreOptions& options, const hf_surface_info& given)
       : Object(kind_of, geometry->memory), surface(std::move(geometry), options), info(given) {}
   // A surface edited from another one.
-  SurfaceObject(std::shared_ptr<const Surface> from, std::shared_ptr<const Vector<double>> stiffness,
-                const hf_surface_info& given)
-      : Object(kind_of, from->geometry().memory), surface(std::move(from), std::move(stiffness)), info(given) {}
+  SurfaceObject(std::shared_ptr<const Surface> from, SurfaceEdit edit, const hf_surface_info& given)
+      : Object(kind_of, from->geometry().memory), surface(std::move(from), std::move(edit)), info(given) {}
   const Surface surface;
   const hf_surface_info info;
 };

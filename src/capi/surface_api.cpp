@@ -155,7 +155,7 @@ hf_result hf_surface_save(hf_surface handle, int32_t field_kind, hf_progress pro
   return guarded("hf_surface_save", [&] {
     const auto object = get<SurfaceObject>(handle, "surface");
     const FieldKind kind = read_field_kind(field_kind);
-    if (object->surface.stiffness())
+    if (object->surface.is_edited())
       fail(
           HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
           "the factor of an edited surface cannot be saved; save that of the surface before its edits, and edit again");

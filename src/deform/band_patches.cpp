@@ -81,7 +81,7 @@ void join_edge(const PieceBands& bands, std::int32_t v, std::int32_t u, std::int
 }  // namespace
 
 void read_bands(const BandSource& source, std::int32_t first, std::int32_t last, PieceBands& out, Memory& memory) {
-  const Topology& topology = source.core.topology;
+  const Topology& topology = source.core.topology();
   out.first = first;
   out.start.reserve(static_cast<std::size_t>(last - first) + 1);
   out.slot.reserve(slots_a_vertex * static_cast<std::size_t>(last - first));

@@ -88,7 +88,7 @@ class ClusterNumbers {
   }
   // Joins the bands of a vertex with those of its neighbours in earlier pieces.
   void join_vertex(const PieceBands& piece, std::int32_t v) noexcept {
-    const Topology& topology = source_.core.topology;
+    const Topology& topology = source_.core.topology();
     const auto patch_at = [&](const PieceBands& at, const BandSlot& slot, int a) {
       return base_[at.first / vertex_piece] + at.patch_of[3 * (&slot - at.slot.data()) + a];
     };

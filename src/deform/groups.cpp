@@ -21,14 +21,14 @@ struct Front {
 class Spreading {
  public:
   Spreading(const Core& core, Memory& memory)
-      : start_(core.topology.neighbour_start.data()),
-        arc_(memory, core.topology.neighbour.size()),
+      : start_(core.topology().neighbour_start.data()),
+        arc_(memory, core.topology().neighbour.size()),
         node_(memory, core.size()),
         near_(&memory),
         far_(&memory),
         best_(&memory),
         stale_(&memory) {
-    const Topology& topology = core.topology;
+    const Topology& topology = core.topology();
     Buffer<double> length(memory, topology.edge_count());
     for (std::int32_t e = 0; e < topology.edge_count(); ++e)
       length[e] = norm(core.mesh.positions[topology.second(e)] - core.mesh.positions[topology.first(e)]);
@@ -171,8 +171,8 @@ std::shared_ptr<const Groups> Groups::with(std::shared_ptr<const Groups> groups,
     grown->component_end[c] = grown->count();
     for (const std::int32_t v : vertices) grown->group_of[v] = spreading.group(v);
   }
-  for (std::int32_t e = 0; e < core.topology.edge_count(); ++e) {
-    if (grown->group_of[core.topology.first(e)] != grown->group_of[core.topology.second(e)])
+  for (std::int32_t e = 0; e < core.topology().edge_count(); ++e) {
+    if (grown->group_of[core.topology().first(e)] != grown->group_of[core.topology().second(e)])
       grown->border_edge.push_back(e);
   }
   return grown;

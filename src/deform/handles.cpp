@@ -79,7 +79,7 @@ void check_region_count(std::size_t there, std::size_t added, const char* noun) 
 std::shared_ptr<HandleRegion> make_region(const Core& core, Span<const std::int32_t> vertices,
                                           std::uint32_t rim_site_count, Memory& memory) {
   const Mesh& mesh = core.mesh;
-  const Topology& topology = core.topology;
+  const Topology& topology = core.topology();
   auto region = make_shared_in<HandleRegion>(memory, memory);
   region->vertices.assign(vertices.begin(), vertices.end());
   std::sort(region->vertices.begin(), region->vertices.end());
@@ -120,7 +120,7 @@ std::int32_t vertex_near(const Core& core, Vec3 point) noexcept {
 }
 
 Vector<std::int32_t> RegionSearch::from(std::int32_t nearest, Vec3 point, double radius) {
-  const Topology& topology = core_.topology;
+  const Topology& topology = core_.topology();
   Vector<std::int32_t> region(1, nearest, core_.memory.get());
   seen_[nearest] = 1;
   for (std::size_t at = 0; at < region.size(); ++at) {
@@ -140,8 +140,8 @@ Vector<std::int32_t> RegionSearch::from(std::int32_t nearest, Vec3 point, double
 // How far a point is from the nearest neighbour of a vertex.
 double neighbour_distance(const Core& core, std::int32_t v, Vec3 point) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t k = core.topology.neighbour_start[v]; k < core.topology.neighbour_start[v + 1]; ++k)
-    least = std::min(least, norm(core.mesh.positions[core.topology.neighbour[k]] - point));
+  for (std::int32_t k = core.topology().neighbour_start[v]; k < core.topology().neighbour_start[v + 1]; ++k)
+    least = std::min(least, norm(core.mesh.positions[core.topology().neighbour[k]] - point));
   return least;
 }
 

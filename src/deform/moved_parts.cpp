@@ -223,8 +223,8 @@ void MovedParts::find_beside() {
   for (int ring = 0; ring < free_rings; ++ring) {
     const Vector<std::uint8_t> inside(beside_, &memory_);
     for (std::size_t v = 0; v < size; ++v) {
-      for (Index k = core_.topology.neighbour_start[v]; k < core_.topology.neighbour_start[v + 1]; ++k)
-        beside_[v] |= inside[at(core_.topology.neighbour[at(k)])];
+      for (Index k = core_.topology().neighbour_start[v]; k < core_.topology().neighbour_start[v + 1]; ++k)
+        beside_[v] |= inside[at(core_.topology().neighbour[at(k)])];
     }
   }
 }

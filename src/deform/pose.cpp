@@ -75,9 +75,17 @@ std::shared_ptr<Pose> Pose::on(std::shared_ptr<const Core> core) const {
   moved->rest_ = make_shared_in<Rest>(memory(), *core, memory());
   moved->previous_layout_.reset();
   moved->previous_state_.reset();
+  const bool relinked = core->geometry != core_->geometry;
+  if (relinked) moved->groups_.reset();  // they reach across links
   if (!layout_) return moved;
+  Handles handles(&memory());
+  for (const Handle& handle : layout_->handles) {
+    const std::shared_ptr<const HandleRegion>& region = handle.region;
+    handles.push_back(
+        {handle.number, relinked ? make_region(*core, region->vertices, options_.rim_site_count, memory()) : region});
+  }
   const Handles none(&memory());
-  std::shared_ptr<const Layout> layout = moved->make_layout(layout_->handles, SiteSolver::make(core), none);
+  std::shared_ptr<const Layout> layout = moved->make_layout(handles, layout_->sites->on(core), none);
   std::shared_ptr<State> state = moved->carry_over(*layout);
   state->changed = true;
   moved->install(std::move(layout), std::move(state));
@@ -300,7 +308,10 @@ std::shared_ptr<Pose::State> Pose::carry_over(const Layout& layout, bool free_tu
   for (const Handle& handle : layout.handles) {
     const std::int32_t old = find(handle.number);
     HandleState carried;
-    if (old >= 0 && layout_->handles[old].region == handle.region) {
+    const auto same_region = [&](const HandleRegion& before) {
+      return &before == handle.region.get() || before.vertices == handle.region->vertices;
+    };
+    if (old >= 0 && same_region(*layout_->handles[old].region)) {
       carried = state_->handles[old];
       state->handles.push_back(carried);
       continue;

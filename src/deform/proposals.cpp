@@ -66,7 +66,7 @@ class Proposer {
       highest_of = std::max(highest_of, height_[v]);
       depth[v] = -height_[v];
     }
-    for (const Peak& peak : find_peaks(core_.topology, depth, memory_)) {
+    for (const Peak& peak : find_peaks(core_.topology(), depth, memory_)) {
       const double low = height_[at(peak.vertex)];
       // a component that stands on the ground, a shoe for example, needs no leg
       const bool whole = peak.saddle == Mesh::none;
@@ -86,8 +86,8 @@ class Proposer {
     seen[at(lowest)] = 1;
     for (std::size_t i = 0; i < sole.size(); ++i) {
       const Index v = sole[i];
-      for (Index k = core_.topology.neighbour_start[at(v)]; k < core_.topology.neighbour_start[at(v) + 1]; ++k) {
-        const Index u = core_.topology.neighbour[at(k)];
+      for (Index k = core_.topology().neighbour_start[at(v)]; k < core_.topology().neighbour_start[at(v) + 1]; ++k) {
+        const Index u = core_.topology().neighbour[at(k)];
         if (seen[at(u)] || height_[at(u)] > level) continue;
         sole.push_back(u);
         seen[at(u)] = 1;

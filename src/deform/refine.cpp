@@ -54,7 +54,7 @@ Mat3 linear_part(const Affine& affine) noexcept {
 }
 
 void add_ring(const Core& core, const Rest& rest, const Vec3* positions, std::int32_t v, Mat3& sum) noexcept {
-  const Topology& topology = core.topology;
+  const Topology& topology = core.topology();
   for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
     const std::int32_t u = topology.neighbour[k];
     add_outer(sum, rest.stiffness[topology.neighbour_edge[k]], positions[v] - positions[u],

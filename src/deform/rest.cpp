@@ -91,7 +91,7 @@ Rest::Rest(const Core& core, Memory& memory)
       face_start(&memory),
       face(&memory),
       sampled(&memory),
-      stiffness(core.weights.begin(), core.weights.end(), &memory) {
+      stiffness(core.weights().begin(), core.weights().end(), &memory) {
   core.jobs->for_each(2, [&](std::uint32_t half) {
     if (half == 0) {
       list_triangles_by_piece(core.mesh, *this);
@@ -100,9 +100,9 @@ Rest::Rest(const Core& core, Memory& memory)
       sort_components(core.mesh, *this);
       sample_triangles(core.mesh, *this);
       for (double& w : stiffness) w = std::clamp(w, least_edge_weight, largest_edge_weight);
-      for (std::int32_t e = 0; core.stiffness && e < core.topology.edge_count(); ++e) {
+      for (std::int32_t e = 0; core.stiffness && e < core.topology().edge_count(); ++e) {
         const double s =
-            edge_stiffness((*core.stiffness)[core.topology.first(e)], (*core.stiffness)[core.topology.second(e)]);
+            edge_stiffness((*core.stiffness)[core.topology().first(e)], (*core.stiffness)[core.topology().second(e)]);
         stiffness[e] *= std::clamp(s, 1 / largest_energy_stiffness, largest_energy_stiffness);
       }
     }

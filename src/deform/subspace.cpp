@@ -212,7 +212,7 @@ class Assembly {
       std::int64_t all = 0;
       std::int32_t widest = 0;
     };
-    const Topology& topology = core_.topology;
+    const Topology& topology = core_.topology();
     const std::size_t clusters = static_cast<std::size_t>(weights_.cluster_count);
     Vector<Counts> counts(&memory_);
     counts.reserve(count_shares);
@@ -260,7 +260,7 @@ class Assembly {
 
   // Returns the weight of edge e in the sample, or 0 if the sample leaves it out.
   double sample_weight(std::int32_t e) const noexcept {
-    const std::int32_t i = core_.topology.first(e), j = core_.topology.second(e);
+    const std::int32_t i = core_.topology().first(e), j = core_.topology().second(e);
     if (!is_elastic(i)) return 0;
     if (probability_ >= 1) return 1;
     if (needs_all_[i] || needs_all_[j]) return 1;
@@ -278,7 +278,7 @@ class Assembly {
       std::int32_t* row = entry_of_.data() + row_of_group_[group];
       for (std::int32_t k = weights_.start[v]; k < weights_.start[v + 1]; ++k) row[weights_.cluster[k]] = 0;
     };
-    const Topology& topology = core_.topology;
+    const Topology& topology = core_.topology();
     for (const std::int32_t e : groups_.border_edge) {
       const std::int32_t i = topology.first(e), j = topology.second(e);
       if (is_elastic(i)) {
@@ -324,7 +324,7 @@ class Assembly {
 
   // Lists the edges that the energy uses, in pieces of fixed size.
   void list_samples() {
-    const Topology& topology = core_.topology;
+    const Topology& topology = core_.topology();
     handle_share_.assign(core_.size(), 0.0f);
     for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
       for (std::int32_t v = first; v < last; ++v) {

@@ -24,8 +24,8 @@ void remove_limb(const Core& core, const Vector<double>& field, const Extremity&
   trunk[at(tip.vertex)] = 0;
   for (std::size_t i = 0; i < limb.size(); ++i) {
     const Index v = limb[i];
-    for (Index k = core.topology.neighbour_start[at(v)]; k < core.topology.neighbour_start[at(v) + 1]; ++k) {
-      const Index u = core.topology.neighbour[at(k)];
+    for (Index k = core.topology().neighbour_start[at(v)]; k < core.topology().neighbour_start[at(v) + 1]; ++k) {
+      const Index u = core.topology().neighbour[at(k)];
       if (!trunk[at(u)] || field[at(u)] < level) continue;
       trunk[at(u)] = 0;
       limb.push_back(u);

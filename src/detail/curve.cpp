@@ -19,7 +19,7 @@ struct Pieces {
 };
 
 Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
-  const Topology& topology = core.geometry->unlinked().topology;
+  const Topology& topology = core.geometry->unlinked().topology();
   Pieces pieces(memory);
   pieces.piece.assign(at(core.size()), none);
   for (const Index v : curve) pieces.piece[at(v)] = on_curve;
@@ -53,7 +53,7 @@ Pieces cut(const Core& core, Span<const Index> curve, Memory& memory) {
 
 ClosedCurve closed_curve(const Core& core, Span<const std::int32_t> points, Memory& memory) {
   ClosedCurve curve(memory);
-  EdgePaths paths(core.mesh, core.geometry->unlinked().topology, memory);
+  EdgePaths paths(core.mesh, core.geometry->unlinked().topology(), memory);
   for (std::size_t i = 0; i < points.size(); ++i) {
     paths.append(points[i], points[(i + 1) % points.size()], curve.vertices);
     curve.point_of.resize(curve.vertices.size(), static_cast<Index>(i));
@@ -66,7 +66,7 @@ ClosedCurve closed_curve(const Core& core, Span<const std::int32_t> points, Memo
 }
 
 bool along_borders(const Core& core, Span<const std::int32_t> curve, Span<const std::uint8_t> on) {
-  const Topology& topology = core.geometry->unlinked().topology;
+  const Topology& topology = core.geometry->unlinked().topology();
   return std::all_of(curve.begin(), curve.end(), [&](Index v) {
     bool at_border = false;
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i) {

@@ -17,7 +17,7 @@ constexpr Index nowhere = -1;
 class Fan {
  public:
   Fan(const Core& core, Memory& memory)
-      : mesh_(core.geometry->unlinked().mesh), topology_(core.geometry->unlinked().topology), order_(&memory) {}
+      : mesh_(core.geometry->unlinked().mesh), topology_(core.geometry->unlinked().topology()), order_(&memory) {}
 
   bool make(Index vertex) {
     if (vertex == vertex_) return !order_.empty();

@@ -26,7 +26,7 @@ class CurveSides {
   CurveSides(const Core& core, Span<const CurvePoint> points, const SurfaceCurve& curve, Memory& memory)
       : core_(core),
         mesh_(core.geometry->unlinked().mesh),
-        topology_(core.geometry->unlinked().topology),
+        topology_(core.geometry->unlinked().topology()),
         points_(points),
         curve_(curve),
         memory_(memory),

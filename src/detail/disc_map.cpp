@@ -28,7 +28,7 @@ struct HalfEdge {
 Vector<double> positive_weights(const Core& core, Span<const Index> edges, Memory& memory) {
   Vector<double> weights(&memory), magnitude(&memory);
   for (const Index e : edges) {
-    weights.push_back(core.geometry->unlinked().weights[at(e)]);
+    weights.push_back(core.geometry->unlinked().weights()[at(e)]);
     magnitude.push_back(std::fabs(weights.back()));
   }
   if (weights.empty()) return weights;
@@ -151,7 +151,7 @@ Vector<DiscPoint> map_to_disc(const RegionSurface& surface, const RegionState& s
       unknown.push_back(l);
     }
   if (unknown.empty()) return points;
-  const Topology& topology = core.geometry->unlinked().topology;
+  const Topology& topology = core.geometry->unlinked().topology();
   for (const Index l : unknown) {
     const Index v = shape.vertex(l);
     for (Index i = topology.neighbour_start[at(v)]; i < topology.neighbour_start[at(v) + 1]; ++i)

@@ -47,7 +47,7 @@ void read_curve(const Core& core, const hf_curve_desc& curve, RegionEditInput& i
     CurvePoint point;
     std::copy_n(place.vertex, 3, point.corner);
     std::copy_n(place.weight, 3, point.weight);
-    if (edit.kind == CurveKind::straight && !is_on_triangle(mesh, core.geometry->unlinked().topology, point))
+    if (edit.kind == CurveKind::straight && !is_on_triangle(mesh, core.geometry->unlinked().topology(), point))
       fail(HF_ERROR_INVALID_ARGUMENT, i,
            "point %u lies between corners of no triangle; take one of them, or join the points along edges "
            "(HF_CURVE_EDGES)",

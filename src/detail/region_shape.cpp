@@ -51,11 +51,11 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
       list.push_back(v);
     }
   };
-  const Topology& surface = core.geometry->unlinked().topology;
+  const Topology& surface = core.geometry->unlinked().topology();
   for (const Index v : inside) for_neighbours(surface, v, [&](Index u) { take(u, rim); });
   sites.assign(rim.begin(), rim.end());
   // Linked vertices outside hold the base, but they are no rim: they lie on other pieces.
-  for (const Index v : inside) for_neighbours(core.topology, v, [&](Index u) { take(u, sites); });
+  for (const Index v : inside) for_neighbours(core.topology(), v, [&](Index u) { take(u, sites); });
   if (core.root) {
     // K couples the vertices within two edges of L. Each vertex next to the region is read once.
     const SymmetricMatrix& l = core.root->matrix();
@@ -86,7 +86,7 @@ RegionShape::RegionShape(const Core& core, Span<const std::int32_t> given, Memor
 }
 
 Vector<std::int32_t> grown(const Core& core, Span<const std::int32_t> inside, std::int32_t rings, Memory& memory) {
-  const Topology& surface = core.geometry->unlinked().topology;
+  const Topology& surface = core.geometry->unlinked().topology();
   Vector<std::uint8_t> in(at(core.size()), 0, &memory);
   for (const Index v : inside) in[at(v)] = 1;
   Vector<Index> front(&memory), next(&memory);

@@ -45,7 +45,7 @@ class CurveTracer {
  public:
   CurveTracer(const Core& core, Span<const CurvePoint> points, SurfaceCurve& curve, Memory& memory)
       : mesh_(core.geometry->unlinked().mesh),
-        topology_(core.geometry->unlinked().topology),
+        topology_(core.geometry->unlinked().topology()),
         points_(points),
         curve_(curve),
         memory_(memory),

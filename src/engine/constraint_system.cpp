@@ -195,7 +195,7 @@ ConstraintState::Decision ConstraintSystem::decide(const SiteEdit& edit) const {
 bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunner& jobs,
                                  const ConstraintState::Decision& decision, bool last) {
   ConstraintState next(state_, memory());
-  ConstraintEdit change(operator_, jobs, edit, next, last);
+  ConstraintEdit change(operator_, jobs, edit, next, known_, last);
   try {
     if (route == EditRoute::dense) {
       change.go_on();
@@ -210,6 +210,7 @@ bool ConstraintSystem::try_route(EditRoute route, const SiteEdit& edit, JobRunne
   next.decision = decision;
   next.decision.route = route;
   state_.swap(next);
+  known_ = {};
   return true;
 }
 

@@ -69,6 +69,9 @@ class ConstraintSystem {
   std::shared_ptr<const ConstraintState> snapshot() const;
   void restore(const ConstraintState& state);
 
+  // The next edit takes the paths of sites that another system of the same kind has under the same slots.
+  void know(KnownPaths known) noexcept { known_ = std::move(known); }
+
   ConstraintCounts counts() const noexcept;
   void add_counts(const ConstraintCounts& more) noexcept;
   // True if a dense block has a pivot below this share of its diagonal: fields may then lose digits.
@@ -134,6 +137,7 @@ class ConstraintSystem {
 
   PinnedOperator operator_;
   ConstraintState state_;
+  KnownPaths known_;
   std::uint32_t path_solves_ = 0, rebases_ = 0, dense_edits_ = 0;
   mutable std::atomic<std::uint32_t> sweeps_{0};
 };

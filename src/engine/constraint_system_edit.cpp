@@ -239,6 +239,48 @@ void ConstraintEdit::add_paths(Span<const Index> rows) {
   path_solves_ += static_cast<std::uint32_t>(rows.size());
 }
 
+// Returns the column of a known group that is the path of a row, or -1.
+Index ConstraintEdit::known_column(Index row, std::size_t group) const noexcept {
+  if (row < 0 || at(row) >= known_.state->entries.size()) return -1;
+  const auto &there = known_.state->entries[at(row)], &here = state_.entries[at(row)];
+  const Site &a = there.site, &b = here.site;
+  const bool same = there.used() && there.path.group == static_cast<Index>(group) && a.part == b.part &&
+                    std::equal(a.vertex, a.vertex + 3, b.vertex) && std::equal(a.weight, a.weight + 3, b.weight);
+  return same ? there.path.column : -1;
+}
+
+// Takes the paths that another system has, and returns the rows that are left.
+Vector<Index> ConstraintEdit::take_known_paths(Span<const Index> rows) {
+  Vector<Index> left(rows.begin(), rows.end(), &memory());
+  for (std::size_t g = 0; known_.state && g < known_.state->groups.size(); ++g) {
+    const PathGroup& paths = *known_.state->groups[g].paths;
+    ConstraintState::Group taken;
+    std::fill(std::begin(taken.row), std::end(taken.row), no_row);
+    for (const Index row : left) {
+      const Index column = known_column(row, g);
+      if (column < 0) continue;
+      taken.row[column] = row;
+      ++taken.used;
+    }
+    if (stored_share * taken.used <= paths.count()) continue;  // most of its paths are of no use here
+    SiteColumns columns(memory());
+    for (Index c = 0; c < paths.count(); ++c) {
+      if (taken.row[c] == no_row)
+        columns.append_empty();
+      else
+        columns.append(state_.entries[at(taken.row[c])].site, nullptr);
+    }
+    taken.paths = factor().take_paths(*known_.factor, known_.state->groups[g].paths, columns.view(), memory());
+    if (!taken.paths) return left;
+    const auto is_taken = [&](Index row) { return known_column(row, g) >= 0; };
+    left.erase(std::remove_if(left.begin(), left.end(), is_taken), left.end());
+    for (Index c = 0; c < paths.count(); ++c)
+      if (taken.row[c] != no_row) state_.path_of(taken.row[c]) = {static_cast<Index>(state_.groups.size()), c};
+    state_.groups.push_back(std::move(taken));
+  }
+  return left;
+}
+
 void ConstraintEdit::solve_part(Part& part) const {
   SiteColumns columns(memory());
   for (const Index row : part.rows) {
@@ -275,7 +317,7 @@ void ConstraintEdit::add_rows(Span<const Row> rows) {
   Vector<Index> ids(&memory());
   for (const Row& row : rows) ids.push_back(row.row);
   const std::size_t first_group = state_.groups.size();
-  add_paths(ids);
+  add_paths(state_.base ? ids : take_known_paths(ids));
   state_.rows += static_cast<Index>(rows.size());
   if (operator_.paths) project_pins(first_group);
   Batch batch(state_, rows, memory());

@@ -10,10 +10,11 @@ class ConstraintEdit {
   // left, or a pivot failed and the order of the rows may be the reason.
   struct NeedsNewLayout {};
 
-  // Prepares one edit of the sites. state: a copy of the system's state, which the edit changes in place. last: no
-  // other layout follows. After an exception this copy is useless.
-  ConstraintEdit(const PinnedOperator& a, JobRunner& jobs, const SiteEdit& edit, ConstraintState& state, bool last)
-      : operator_(a), jobs_(jobs), edit_(edit), state_(state), last_(last) {}
+  // Prepares one edit of the sites. state: a copy of the system's state, which the edit changes in place. known: where
+  // the paths of some sites are known. last: no other layout follows. After an exception this copy is useless.
+  ConstraintEdit(const PinnedOperator& a, JobRunner& jobs, const SiteEdit& edit, ConstraintState& state,
+                 const KnownPaths& known, bool last)
+      : operator_(a), jobs_(jobs), edit_(edit), state_(state), known_(known), last_(last) {}
 
   void go_on();                // edits the present rows
   void start_over(Index end);  // adds every site again; hard vertex sites of slots below end leave the matrix
@@ -34,6 +35,8 @@ class ConstraintEdit {
   void remove_rows(Span<const Row> rows);
   void add_rows(Span<const Row> rows);
   void add_paths(Span<const Index> rows);
+  Vector<Index> take_known_paths(Span<const Index> rows);
+  Index known_column(Index row, std::size_t group) const noexcept;
   void solve_part(Part& part) const;
   void take_part(Part& part);
   void project_pins(std::size_t first_group);
@@ -53,6 +56,7 @@ class ConstraintEdit {
   JobRunner& jobs_;
   const SiteEdit& edit_;
   ConstraintState& state_;
+  const KnownPaths& known_;
   bool last_;
   std::uint32_t path_solves_ = 0, factorisations_ = 0;
 };

@@ -81,4 +81,10 @@ struct ConstraintState {
   Decision decision;                                 // how the last edit was carried out
 };
 
+// The sites of another system, whose elimination paths are those of the present one (Factor::take_paths).
+struct KnownPaths {
+  std::shared_ptr<const ConstraintState> state;  // null: none
+  std::shared_ptr<const Factor> factor;
+};
+
 }  // namespace hf_inner

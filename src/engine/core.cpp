@@ -23,9 +23,7 @@ Core::Core(std::shared_ptr<const Geometry> shape)
       geometry(std::move(shape)),
       jobs(geometry->jobs),
       mesh(geometry->mesh),
-      topology(geometry->topology),
       areas(geometry->areas),
-      weights(geometry->weights),
       laplacian(*memory),
       inverse_mass(memory.get()),
       ground(memory.get()),
@@ -120,7 +118,8 @@ Vector<double> make_operator(Core& core, const CoreOptions& options, int cap, co
   const Geometry& plain = core.geometry->unlinked();
   const Mesh& mesh = plain.mesh;
   if (options.operator_kind == OperatorKind::intrinsic_delaunay && mesh.faces.empty()) {
-    DelaunayOperator made = delaunay_operator(mesh, plain.topology, plain.weights, with_areas, pool, core.jobs.get());
+    DelaunayOperator made =
+        delaunay_operator(mesh, plain.topology(), plain.weights(), with_areas, pool, core.jobs.get());
     core.laplacian = std::move(made.laplacian);
     areas = std::move(made.areas);
     changed = std::move(made.changed);
@@ -129,10 +128,10 @@ Vector<double> make_operator(Core& core, const CoreOptions& options, int cap, co
       changed.assign(core.geometry->limited.begin(), core.geometry->limited.end());
     else if (options.operator_kind != OperatorKind::uniform)
       changed = widened_vertices(core.mesh, pool);
-    core.laplacian = hf_inner::laplacian(plain.topology, plain.weights, pool, core.jobs.get());
+    core.laplacian = hf_inner::laplacian(plain.topology(), plain.weights(), pool, core.jobs.get());
   } else {
-    DelaunayOperator made =
-        face_operator(mesh, plain.topology, plain.weights, options.operator_kind, with_areas, pool, core.jobs.get());
+    DelaunayOperator made = face_operator(mesh, plain.topology(), plain.weights(), options.operator_kind, with_areas,
+                                          pool, core.jobs.get());
     core.laplacian = std::move(made.laplacian);
     areas = std::move(made.areas);
     changed = std::move(made.changed);
@@ -167,7 +166,7 @@ Vector<double> make_operator(Core& core, const CoreOptions& options, int cap, co
     Vector<double> counted(core.stiffness->begin(), core.stiffness->end(), &pool);
     for (double& s : counted)
       if (!harmonic) s = std::clamp(s, 1 / largest_biharmonic_stiffness, largest_biharmonic_stiffness);
-    stiffen(core.laplacian, counted);
+    stiffen(core.laplacian, counted, pool);
   }
   if (!harmonic && exceeds_valence(core.laplacian, options.formed_valence)) {
     core.inverse_mass.swap(areas);

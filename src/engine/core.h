@@ -19,16 +19,21 @@ namespace hf_inner {
 constexpr std::int32_t most_formed_valence = 1000;
 
 struct Core;
+struct LinkChange;
+struct PieceDiagonals;
 
-// The operator of a surface whose stiffness was edited (stiffness.h). Fields hardly ever need it, so it is made when it
-// is first asked for. Thread safety: any thread.
+// The operator of a surface whose stiffness or links were edited (stiffness.h). Fields hardly ever need it, so it is
+// made when it is first asked for. Thread safety: any thread.
 class EditedMatrix {
  public:
-  EditedMatrix(std::shared_ptr<const Core> plain, std::shared_ptr<const Vector<double>> stiffness);
+  // links, stiffness: null for none.
+  EditedMatrix(std::shared_ptr<const Core> plain, std::shared_ptr<const LinkChange> links,
+               std::shared_ptr<const Vector<double>> stiffness);
   const SymmetricMatrix& get() const;
 
  private:
   std::shared_ptr<const Core> plain_;
+  std::shared_ptr<const LinkChange> links_;
   std::shared_ptr<const Vector<double>> stiffness_;
   mutable std::mutex mutex_;
   mutable SymmetricMatrix made_;
@@ -78,10 +83,10 @@ struct Core {
   std::shared_ptr<Memory> memory;  // first member: outlives what is allocated from it
   std::shared_ptr<const Geometry> geometry;
   std::shared_ptr<JobRunner> jobs;
-  const Mesh& mesh;  // this and the next three are parts of the geometry
-  const Topology& topology;
-  const Vector<double>& areas;
-  const Vector<double>& weights;
+  const Mesh& mesh;  // this and the next are parts of the geometry
+  const SharedVector<double>& areas;
+  const Topology& topology() const { return geometry->topology(); }
+  const Vector<double>& weights() const { return geometry->weights(); }
   FieldKind field_kind = FieldKind::harmonic;
   // The operator K: the Laplacian, or a bi-harmonic operator; empty where a root stands for it.
   const SymmetricMatrix& matrix() const { return edited ? edited->get() : laplacian; }
@@ -115,10 +120,14 @@ struct Core {
   // How stiff the surface is at every vertex: an edge of the operator counts the harmonic mean of its two ends times.
   // Null: 1 everywhere.
   std::shared_ptr<const Vector<double>> stiffness;
-  std::shared_ptr<const Core> unedited;        // the same with a stiffness of 1; null: this one
+  // The links beside those of `unedited`; null: the same.
+  std::shared_ptr<const LinkChange> link_change;
+  std::shared_ptr<const Core> unedited;        // that of the surface before all edits; null: this one
   std::shared_ptr<const EditedMatrix> edited;  // K; null: laplacian is K
   std::shared_ptr<const Core> factored;        // the core beside whose factor that of this one is; null: it has its own
   CoreTimes times;
+  mutable std::mutex pieces_guard;  // of `pieces`, which edits of links make when they first need it
+  mutable std::shared_ptr<const PieceDiagonals> pieces;
   mutable PreviewCache preview;  // the factor in single precision; not for a core with `factored`
   WorkspacePool& workspaces;     // the geometry's
   WorkspacePool& zeroed_workspaces;

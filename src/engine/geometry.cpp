@@ -11,14 +11,13 @@ Geometry::Geometry(std::shared_ptr<Memory> owner, std::shared_ptr<JobRunner> run
     : memory(std::move(owner)),
       jobs(std::move(runner)),
       mesh(*memory),
-      topology(*memory),
-      areas(memory.get()),
-      weights(memory.get()),
+      areas(*memory),
       given_count(memory.get()),
       weight_units(memory.get()),
       limited(memory.get()),
       workspaces(*memory),
-      zeroed_workspaces(*memory, true) {}
+      zeroed_workspaces(*memory, true),
+      edges_(*memory) {}
 
 namespace {
 
@@ -54,25 +53,26 @@ std::shared_ptr<const Geometry> Geometry::make(const MeshInput& input, OperatorK
   shape->weld_ms = weld_timer.milliseconds();
   report(welded);
   Timer weights_timer;
-  shape->topology = Topology::make(shape->mesh, pool, runner);
+  shape->edges_.topology = Topology::make(shape->mesh, pool, runner);
   shape->areas = vertex_areas(shape->mesh, pool, runner);
-  shape->weights = edge_weights(shape->mesh, shape->topology, OperatorKind::cotangent, pool, runner);
+  shape->edges_.weights = edge_weights(shape->mesh, shape->edges_.topology, OperatorKind::cotangent, pool, runner);
   MeshReport& found = shape->mesh.report;
-  found.negative_edge_count = count_negative(shape->weights);
+  found.negative_edge_count = count_negative(shape->edges_.weights);
   if (operator_kind == OperatorKind::clamped || operator_kind == OperatorKind::uniform)
-    shape->weights = edge_weights(shape->mesh, shape->topology, operator_kind, pool, runner);
+    shape->edges_.weights = edge_weights(shape->mesh, shape->edges_.topology, operator_kind, pool, runner);
   shape->jobs->for_each(3, [&](std::uint32_t i) {  // they write different members
     if (i == 0) {
       count_inside_out(shape->mesh, pool);
     } else if (i == 1) {
       if (shape->mesh.faces.empty())
-        count_edges(shape->topology, found);
+        count_edges(shape->edges_.topology, found);
       else
-        count_face_sides(shape->mesh.faces, shape->topology, found, pool);
+        count_face_sides(shape->mesh.faces, shape->edges_.topology, found, pool);
     } else {
       count_given(*shape);
     }
   });
+  shape->edges_made_ = true;
   shape->weights_ms = weights_timer.milliseconds();
   report(weighted);
   return shape;
@@ -86,12 +86,13 @@ std::shared_ptr<const Geometry> Geometry::make(const GraphInput& input, std::sha
   Timer timer;
   WeightedGraph graph = WeightedGraph::make(input, *memory);
   shape->mesh = std::move(graph.mesh);
-  shape->topology = std::move(graph.topology);
+  shape->edges_.topology = std::move(graph.topology);
   shape->areas = std::move(graph.masses);
-  shape->weights = std::move(graph.weights);
+  shape->edges_.weights = std::move(graph.weights);
   shape->weight_units = std::move(graph.weight_unit);
   shape->limited = std::move(graph.limited);
   count_given(*shape);
+  shape->edges_made_ = true;
   shape->weights_ms = timer.milliseconds();
   report(weighted);
   return shape;
@@ -105,17 +106,63 @@ std::shared_ptr<const Geometry> Geometry::linked(std::shared_ptr<const Geometry>
   const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(plain->memory, plain->memory, plain->jobs);
   shape->operator_kind = plain->operator_kind;
   shape->mesh = linked_mesh(plain->mesh, *links, pool);
-  shape->weights.assign(plain->weights.begin(), plain->weights.end());
-  shape->areas.assign(plain->areas.begin(), plain->areas.end());
-  shape->topology =
-      linked_topology(plain->topology, *links, link_edges(*links, plain->operator_kind, pool), shape->weights, pool);
+  shape->areas = plain->areas;
   count_given(*shape);
   shape->weld_ms = plain->weld_ms;
   shape->weights_ms = plain->weights_ms;
-  shape->links_ms = timer.milliseconds();
   shape->links = std::move(links);
   shape->plain = std::move(plain);
+  shape->edges();
+  shape->links_ms = timer.milliseconds();
   return shape;
+}
+
+std::shared_ptr<const Geometry> Geometry::relinked(std::shared_ptr<const Geometry> from,
+                                                   std::shared_ptr<const Links> links) {
+  const std::shared_ptr<Geometry> shape = make_owner_in<Geometry>(from->memory, from->memory, from->jobs);
+  shape->operator_kind = from->operator_kind;
+  shape->areas = from->areas;
+  shape->plain = from->plain ? from->plain : from;
+  const auto groups_of = [](const Geometry& geometry, const Links& of) {
+    return geometry.links && geometry.links->group == of.group;
+  };
+  if (groups_of(*from, *links)) {
+    shape->mesh = from->mesh;
+    shape->given_count.assign(from->given_count.begin(), from->given_count.end());
+  } else {
+    shape->mesh = linked_mesh(shape->plain->mesh, *links, *shape->memory);
+    count_given(*shape);
+  }
+  shape->weld_ms = from->weld_ms;
+  shape->weights_ms = from->weights_ms;
+  shape->links = std::move(links);
+  return shape;
+}
+
+std::shared_ptr<const Geometry> Geometry::moved(const Geometry& from, Span<const Vec3> positions) {
+  const std::shared_ptr<Geometry> shape = make_shared_in<Geometry>(*from.memory, from.memory, from.jobs);
+  shape->mesh = from.mesh;
+  shape->mesh.positions = SharedVector<Vec3>(*from.memory);
+  shape->mesh.positions.assign(positions.begin(), positions.end());
+  shape->areas = from.areas;
+  shape->operator_kind = from.operator_kind;
+  shape->edges_.topology = from.topology();
+  shape->edges_.weights = from.weights();
+  shape->edges_made_ = true;
+  return shape;
+}
+
+const Geometry::Edges& Geometry::edges() const {
+  if (edges_made_.load(std::memory_order_acquire)) return edges_;
+  const std::lock_guard<std::mutex> lock(edges_guard_);
+  if (edges_made_.load(std::memory_order_relaxed)) return edges_;
+  Edges made(*memory);
+  made.weights.assign(plain->weights().begin(), plain->weights().end());
+  made.topology =
+      linked_topology(plain->topology(), *links, link_edges(*links, operator_kind, *memory), made.weights, *memory);
+  edges_ = std::move(made);
+  edges_made_.store(true, std::memory_order_release);
+  return edges_;
 }
 
 }  // namespace hf_inner

@@ -5,8 +5,10 @@
 //
 // A geometry is immutable, so any number of threads may read it. Only its workspace pools have a lock.
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 
 #include "base/jobs.h"
 #include "base/memory.h"
@@ -29,6 +31,13 @@ struct Geometry {
   // Returns a geometry whose pieces are linked, or `plain` itself where no link is found. Throws what make_links
   // throws.
   static std::shared_ptr<const Geometry> linked(std::shared_ptr<const Geometry> plain, const LinkOptions& options);
+  // Returns a geometry of the same pieces with other links, which shares all but them. Links of equal groups keep the
+  // components. Cost: O(n) only where components change; edges are made when they are first asked for.
+  static std::shared_ptr<const Geometry> relinked(std::shared_ptr<const Geometry> from,
+                                                  std::shared_ptr<const Links> links);
+  // Returns a geometry with the edges, areas and weights of another one, and other positions. It has no links of its
+  // own: its edges are those of triangles and links.
+  static std::shared_ptr<const Geometry> moved(const Geometry& from, Span<const Vec3> positions);
   // The geometry without links: of the triangles alone.
   const Geometry& unlinked() const noexcept { return plain ? *plain : *this; }
 
@@ -42,10 +51,12 @@ struct Geometry {
 
   std::shared_ptr<Memory> memory;  // first member: outlives what is allocated from it
   std::shared_ptr<JobRunner> jobs;
+  // The edges of triangles and links, and the weights of the Laplacian per edge. Thread safety: any thread.
+  const Topology& topology() const { return edges().topology; }
+  const Vector<double>& weights() const { return edges().weights; }
+
   Mesh mesh;
-  Topology topology;
-  Vector<double> areas;               // per vertex, a third of the triangles around it; the masses of a graph
-  Vector<double> weights;             // of the Laplacian, per edge of the mesh
+  SharedVector<double> areas;         // per vertex, a third of the triangles around it; the masses of a graph
   Vector<std::uint32_t> given_count;  // vertices as given, by component
   Vector<double> weight_units;        // of a graph, by component (graph.h); else empty
   Vector<std::uint8_t> limited;       // of a graph, by vertex (graph.h); else empty
@@ -55,6 +66,18 @@ struct Geometry {
   double weld_ms = 0, weights_ms = 0, links_ms = 0;
   mutable WorkspacePool workspaces;
   mutable WorkspacePool zeroed_workspaces;
+
+ private:
+  struct Edges {
+    explicit Edges(Memory& memory) : topology(memory), weights(&memory) {}
+    Topology topology;
+    Vector<double> weights;
+  };
+  const Edges& edges() const;
+
+  mutable Edges edges_;
+  mutable std::mutex edges_guard_;
+  mutable std::atomic<bool> edges_made_{false};
 };
 
 }  // namespace hf_inner

@@ -29,6 +29,13 @@ GreenSolver::GreenSolver(std::shared_ptr<const Core> core, double crowded)
 GreenSolver::GreenSolver(const GreenSolver& other)
     : core_(other.core_), system_(other.system_), crowded_(other.crowded_), cloned_at_(other.system_.counts()) {}
 
+std::shared_ptr<SiteSolver> GreenSolver::on(std::shared_ptr<const Core> core) const {
+  if (core->root) return make(std::move(core));
+  const auto made = make_owner_in<GreenSolver>(core->memory, core);
+  if (!state().base && !state().groups.empty()) made->system_.know({system_.snapshot(), core_->factor});
+  return made;
+}
+
 EngineCounters GreenSolver::counters() const noexcept {
   const ConstraintCounts counts = system_.counts();
   EngineCounters counters;
@@ -76,7 +83,7 @@ void GreenSolver::value_extent(const double* values, Index channels, Index first
 void GreenSolver::solve_into(const double* values, Index channels, FieldSink& sink) const {
   const std::size_t n = at(core_->size());
   if (state().base || is_refined()) return solve_copied(*this, *core_, values, channels, sink);
-  const Span<const Index> position = core_->factor->position(), order = core_->factor->order();
+  const Span<const Index> position = system_.factor().position(), order = system_.factor().order();
   const bool one_component = state().sites_of.size() == 1;
   Answer answer(memory());
   for (Index first = 0; first < channels; first += channel_block) {
@@ -112,7 +119,7 @@ void GreenSolver::solve_into(const double* values, Index channels, FieldSink& si
 void GreenSolver::write_field(const double* z, Index channels, Index first, Index count, const Answer& answer,
                               double* field) const {
   const std::size_t m = at(count), stride = at(channels);
-  const Span<const Index> position = core_->factor->position();
+  const Span<const Index> position = system_.factor().position();
   for_ranges(*core_->jobs, at(core_->size()), piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const std::size_t c = at(core_->mesh.component[v]);

@@ -132,7 +132,7 @@ void SiteSet::place(const Core& core, const Arrival& arrival, std::int32_t slot,
     set_value(slot, arrival.values);
     return;
   }
-  const Vector<DiscVertex> disc = geodesic_disc(core.mesh, core.topology, arrival.site.vertex, arrival.site.weight,
+  const Vector<DiscVertex> disc = geodesic_disc(core.mesh, core.topology(), arrival.site.vertex, arrival.site.weight,
                                                 arrival.radius / core.mesh.scale, *core.memory);
   Vector<std::int32_t> held(core.memory.get()), taken(core.memory.get());
   const bool whole = core.refinements > 0;  // bi-harmonic: values on the disc's boundary leave the slope free
@@ -218,6 +218,11 @@ void check_value(double value, std::uint32_t position, std::int32_t channel) {
 }
 
 }  // namespace
+
+void SiteSet::take_components(const Core& core) noexcept {
+  for (Slot& slot : slots_)
+    if (slot.used()) slot.site.component = core.mesh.component[at(slot.site.vertex[0])];
+}
 
 void SiteSet::set_values(std::uint32_t count, const std::uint32_t* sites, const double* values) {
   check_site_count(count, count_);

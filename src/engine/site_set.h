@@ -67,6 +67,8 @@ class SiteSet {
     const double* stiffness = nullptr;  // null or 0: hard
     const double* radii = nullptr;      // geodesic, in the unit of the mesh; null or 0: points
   };
+  // Gives the sites the components of another core of the same mesh.
+  void take_components(const Core& core) noexcept;
   // Appends the numbers of the new sites.
   void add(const Core& core, const Places& places, const Holds& holds, std::uint32_t limit,
            Vector<std::uint32_t>& out_sites);

@@ -16,6 +16,7 @@ struct SiteColumns {
     }
     start.push_back(static_cast<std::int32_t>(row.size()));
   }
+  void append_empty() { start.push_back(static_cast<std::int32_t>(row.size())); }
   // Appends the column -K_Fr of an eliminated vertex r whose value is unknown, because its site was removed. F are the
   // vertices that are not eliminated.
   void append_free(std::int32_t r, const SymmetricMatrix& k, const EliminatedBase& base) {

@@ -9,12 +9,19 @@
 namespace hf_inner {
 
 // Multiplies the edges of a Laplacian by the stiffness of their ends, and sums the diagonals of changed rows again.
-void stiffen(SymmetricMatrix& laplacian, const Vector<double>& stiffness);
+void stiffen(SymmetricMatrix& laplacian, const Vector<double>& stiffness, Memory& memory);
 
-// Returns a core with this stiffness by vertex; null: 1 everywhere. A harmonic core shares the factor of `from`, or
+// What an edited surface has beside the surface before all edits.
+struct SurfaceEdit {
+  SurfaceEdit(std::shared_ptr<const Vector<double>> all = nullptr, std::shared_ptr<const Geometry> linked = nullptr)
+      : stiffness(std::move(all)), geometry(std::move(linked)) {}
+  std::shared_ptr<const Vector<double>> stiffness;  // by vertex; null: 1 everywhere
+  std::shared_ptr<const Geometry> geometry;         // the same mesh with other links; null: those there are
+};
+
+// Returns a core with this stiffness and these links. A harmonic core shares the factor of `from`, or
 // factorises again with the same ordering where sharing costs more than `most` times as much; tests raise it. Other
 // kinds of field are made anew. Throws HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_CANCELLED or std::bad_alloc.
-std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, std::shared_ptr<const Vector<double>> stiffness,
-                                      double most = 1);
+std::shared_ptr<const Core> edit_core(std::shared_ptr<const Core> from, SurfaceEdit edit, double most = 1);
 
 }  // namespace hf_inner

@@ -1,5 +1,6 @@
 #include "engine/surface.h"
 
+#include "engine/link_change.h"
 #include "engine/stiffness.h"
 
 namespace hf_inner {
@@ -24,12 +25,27 @@ Surface::Surface(std::shared_ptr<const Geometry> geometry, const CoreOptions& op
       own_(Core::make(geometry_, options)),
       made_(make_shared_in<Made>(*geometry_->memory)) {}
 
-Surface::Surface(std::shared_ptr<const Surface> from, std::shared_ptr<const Vector<double>> stiffness)
-    : geometry_(from->geometry_),
-      own_(edit_core(from->own_, std::move(stiffness))),
+Surface::Surface(std::shared_ptr<const Surface> from, SurfaceEdit edit)
+    : geometry_(edit.geometry ? edit.geometry : from->geometry_),
+      own_(edit_core(from->own_, edit)),
       made_(make_shared_in<Made>(*geometry_->memory)),
-      origin_(from->origin_ ? from->origin_ : std::move(from)),
-      edit_(&edit_core) {}
+      origin_(from->origin_ ? from->origin_ : from),
+      edit_(&edit_core) {
+  if (!edit.stiffness) return;
+  if (geometry_ == from->unedited().geometry_) {
+    plain_ = from->plain_ ? from->plain_ : from;
+  } else if (geometry_ == origin_->geometry_) {
+    plain_ = origin_;
+  } else {
+    plain_ = make_owner_in<Surface>(geometry_->memory, origin_, SurfaceEdit{nullptr, geometry_});
+  }
+}
+
+std::shared_ptr<const Geometry> Surface::geometry_of(std::shared_ptr<const Links> links) const {
+  for (const std::shared_ptr<const Geometry>& known : {geometry_, origin_ ? origin_->geometry_ : geometry_})
+    if (same_links(known->links.get(), links.get())) return known;
+  return Geometry::relinked(geometry_, std::move(links));
+}
 
 std::shared_ptr<const Core> Surface::core(FieldKind kind) const {
   if (kind == own_->field_kind) return own_;
@@ -52,7 +68,8 @@ std::shared_ptr<const Core> Surface::make_core(std::size_t slot, std::shared_ptr
   }
   const auto make = [&] {
     // beside the factor of the surface before its edits, which a solver or a pose may have
-    if (own_->stiffness && kind == FieldKind::harmonic) return edit_(origin_->core(kind), own_->stiffness, 1);
+    if (origin_ && kind == FieldKind::harmonic && geometry == geometry_)
+      return edit_(origin_->core(kind), SurfaceEdit{own_->stiffness, geometry_}, 1);
     CoreOptions options;
     options.operator_kind = geometry->operator_kind;
     options.field_kind = kind;

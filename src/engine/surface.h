@@ -13,18 +13,24 @@
 
 namespace hf_inner {
 
+struct SurfaceEdit;
+
 class Surface {
  public:
   // Makes the operator and factor of options.field_kind, or loads the factor from options.saved_factor.
   Surface(std::shared_ptr<const Geometry> geometry, const CoreOptions& options);
 
-  // Makes a surface of the same geometry whose vertices have this stiffness (stiffness.h); null: 1 everywhere. It
-  // shares the factor of `from`. Throws what edit_core throws.
-  Surface(std::shared_ptr<const Surface> from, std::shared_ptr<const Vector<double>> stiffness);
+  // Makes a surface with another stiffness or other links (stiffness.h), which shares the factor of `from`. Throws what
+  // edit_core throws.
+  Surface(std::shared_ptr<const Surface> from, SurfaceEdit edit);
 
   const Geometry& geometry() const noexcept { return *geometry_; }
-  // The surface before all edits, for what follows lengths alone.
-  const Surface& unedited() const noexcept { return origin_ ? *origin_ : *this; }
+  // Whether its operators are others than those of the surface before all edits.
+  bool is_edited() const noexcept { return own_->stiffness || (origin_ && origin_->geometry_ != geometry_); }
+  // The surface with a stiffness of 1, for what follows lengths alone.
+  const Surface& unedited() const noexcept { return plain_ ? *plain_ : *this; }
+  // The geometry of these links, or null. It is that of a surface before this one where the links are the same.
+  std::shared_ptr<const Geometry> geometry_of(std::shared_ptr<const Links> links) const;
   // By vertex; null: 1 everywhere.
   const Vector<double>* stiffness() const noexcept { return own_->stiffness.get(); }
   // Returns the geometry of the triangles alone, without links.
@@ -56,10 +62,10 @@ class Surface {
                                         FieldKind kind) const;
   mutable OwnedMutex making_;
   const std::shared_ptr<Made> made_;
-  std::shared_ptr<const Surface> origin_;  // null: this is it
+  std::shared_ptr<const Surface> origin_;  // before all edits; null: this is it
+  std::shared_ptr<const Surface> plain_;   // with a stiffness of 1; null: this is it
   // edit_core (stiffness.h), or null without edits: a program that edits nothing links nothing of it
-  std::shared_ptr<const Core> (*edit_)(std::shared_ptr<const Core>, std::shared_ptr<const Vector<double>>,
-                                       double) = nullptr;
+  std::shared_ptr<const Core> (*edit_)(std::shared_ptr<const Core>, SurfaceEdit, double) = nullptr;
 };
 
 }  // namespace hf_inner

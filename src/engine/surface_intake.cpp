@@ -4,8 +4,11 @@
 #include <cmath>
 
 #include "base/arguments.h"
+#include "engine/link_change.h"
 #include "factor/factor_bytes.h"
 #include "factor/ordering.h"
+#include "mesh/link_intake.h"
+#include "mesh/places.h"
 
 namespace hf_inner {
 namespace {
@@ -129,6 +132,8 @@ void read_saved_factor(const hf_factor_desc& saved, std::int32_t ordering, CoreO
   options.ordering = found;
 }
 
+namespace {
+
 std::shared_ptr<const Vector<double>> read_stiffness(const hf_surface_edit_desc& desc, const Surface& before) {
   const Mesh& mesh = before.geometry().mesh;
   const std::uint32_t given = mesh.report.vertex_count;
@@ -160,6 +165,45 @@ std::shared_ptr<const Vector<double>> read_stiffness(const hf_surface_edit_desc&
   }
   const bool plain = std::all_of(stiffness->begin(), stiffness->end(), [](double s) { return s == 1; });
   return plain ? nullptr : stiffness;
+}
+
+// Marks the links that go out.
+Vector<std::uint8_t> read_removed_links(const hf_surface_edit_desc& desc, const Links* links, Memory& memory) {
+  Vector<std::uint8_t> removed(links ? links->links.size() : 0, 0, &memory);
+  if (desc.removed_link_count > 0) require(desc.removed_links, "removed_links");
+  for (std::uint32_t i = 0; i < desc.removed_link_count; ++i) {
+    const std::uint32_t link = desc.removed_links[i];
+    if (link >= removed.size())
+      fail(HF_ERROR_NOT_FOUND, i, "entry %u of removed_links is %u; the surface has %zu links", i, link,
+           removed.size());
+    if (removed[link]) fail(HF_ERROR_CONFLICT, i, "entry %u: link %u is listed twice", i, link);
+    removed[link] = 1;
+  }
+  return removed;
+}
+
+std::shared_ptr<const Geometry> read_link_edit(const hf_surface_edit_desc& desc, const Surface& before) {
+  const Geometry& geometry = before.geometry();
+  const Mesh& mesh = geometry.unlinked().mesh;
+  require_triangles(mesh, "links", HF_NO_INDEX);
+  Memory& memory = *geometry.memory;
+  const Vector<std::uint8_t> removed = read_removed_links(desc, geometry.links.get(), memory);
+  Vector<Link> added(&memory);
+  read_link_list(desc.link_count, desc.links, mesh, added);
+  return before.geometry_of(edited_links(mesh, geometry.links.get(), removed, added, memory));
+}
+
+}  // namespace
+
+SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const Surface& before) {
+  SurfaceEdit edit;
+  const bool links = desc.link_count > 0 || desc.removed_link_count > 0;
+  if (desc.stiffness || desc.vertices || desc.vertex_count > 0 || !links)
+    edit.stiffness = read_stiffness(desc, before);
+  else if (before.stiffness())
+    edit.stiffness = before.own().stiffness;
+  if (links) edit.geometry = read_link_edit(desc, before);
+  return edit;
 }
 
 }  // namespace hf_inner

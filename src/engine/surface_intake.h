@@ -1,5 +1,6 @@
 // Reads the options of a surface: checks them, fills in defaults, compares counts with limits.
 #pragma once
+#include "engine/stiffness.h"
 #include "engine/surface.h"
 #include "hf/surface.h"
 
@@ -30,8 +31,7 @@ CoreOptions options_like(const Surface& other);
 // HF_ERROR_INVALID_ARGUMENT (another ordering, damaged bytes), HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER.
 void read_saved_factor(const hf_factor_desc& saved, std::int32_t ordering, CoreOptions& options);
 
-// Reads the stiffness by inner vertex that a surface has after an edit; null: 1 everywhere. Throws as hf_surface_edit
-// documents.
-std::shared_ptr<const Vector<double>> read_stiffness(const hf_surface_edit_desc& desc, const Surface& before);
+// Reads what a surface has after an edit. Throws as hf_surface_edit documents.
+SurfaceEdit read_surface_edit(const hf_surface_edit_desc& desc, const Surface& before);
 
 }  // namespace hf_inner

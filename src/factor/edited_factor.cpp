@@ -83,6 +83,7 @@ class EditedPaths final : public PathGroup {
     return base_->bytes() + 8.0 * static_cast<double>(product.size() + added.size() + whole.size());
   }
   const PathGroup& base() const noexcept { return *base_; }
+  std::shared_ptr<const PathGroup> shared_base() const noexcept { return base_; }
 
  private:
   std::shared_ptr<const PathGroup> base_;
@@ -156,6 +157,14 @@ class EditedFactor final : public Factor {
     clear_own(channels, z);
   }
   void project(const PathGroup& group, const double* z, Index channels, double* out) const override;
+  const Factor& path_base() const noexcept override { return *base_; }
+
+ protected:
+  std::shared_ptr<const PathGroup> base_paths(std::shared_ptr<const PathGroup> group) const override {
+    return of(*group).shared_base();
+  }
+  std::shared_ptr<const PathGroup> own_paths(std::shared_ptr<const PathGroup> base, const SparseColumns& columns,
+                                             Memory& memory) const override;
 
  private:
   // An entry of both matrices in the block of the inside.
@@ -164,6 +173,10 @@ class EditedFactor final : public Factor {
     double before, change;
   };
   static const EditedPaths& of(const PathGroup& group) noexcept { return static_cast<const EditedPaths&>(group); }
+  void add_inside(const SparseColumns& columns, std::size_t site, std::size_t column, EditedPaths& group) const;
+  template <class AddInside>
+  std::shared_ptr<const PathGroup> edited_paths(std::shared_ptr<const PathGroup> base, Memory& memory,
+                                                AddInside&& add_inside_of) const;
   void form_rim(Span<const Index> unknowns, JobRunner& jobs);
   void factorise_inside(const MatrixChange& change, JobRunner& jobs);
   void form_change(const MatrixChange& change, Span<const Index> number, JobRunner& jobs);
@@ -475,45 +488,63 @@ void EditedFactor::solve_paths(const SparseColumns& columns, Memory& memory, Job
                                Span<Index> out_column) const {
   const std::size_t first = out_groups.size();
   base_->solve_paths(columns, memory, jobs, out_groups, out_group, out_column);
-  double products[tile * tile];
   for (std::size_t g = first; g < out_groups.size(); ++g) {
-    const auto group = make_shared_in<EditedPaths>(memory, out_groups[g], memory);
-    const std::size_t m = at(group->count());
-    group->product.assign(k_ * m, 0.0);
-    Vector<std::size_t> row(paths_.size() * at(tile), k_, &memory);
-    for (std::size_t i = 0; i < rim_; ++i) row[at(place_[i].group * tile + place_[i].column)] = i;
-    for (std::size_t own = 0; own < paths_.size(); ++own) {
-      base_->gram(*paths_[own], group->base(), products, tile);
-      for (Index i = 0; i < paths_[own]->count(); ++i) {
-        const std::size_t place = row[own * at(tile) + at(i)];
-        if (place < k_) std::copy_n(products + i * tile, m, &group->product[place * m]);
-      }
-    }
-    for (std::size_t i = 0; i < out_group.size(); ++i) {
-      if (at(out_group[i]) != g) continue;
-      for (Index e = columns.start[i]; e < columns.start[i + 1]; ++e) {
-        const auto there = std::lower_bound(unknown_.begin(), unknown_.end(), columns.row[at(e)]);
-        if (there == unknown_.end() || *there != columns.row[at(e)]) continue;
-        const std::size_t row =
-            rim_ + at(inside_before_->position()[static_cast<std::size_t>(there - unknown_.begin())]);
-        group->product[row * m + at(out_column[i])] += columns.value[at(e)];
-      }
-    }
-    group->added.assign(group->product.begin(), group->product.end());
-    apply(group->added.data(), m, false);
-    group->whole.assign(group->product.begin(), group->product.end());
-    const auto add = [&](std::size_t i, std::size_t j, double c) {
-      for (std::size_t q = 0; q < m; ++q) group->whole[i * m + q] += c * group->added[j * m + q];
-    };
-    for (std::size_t i = 0; i < rim_; ++i) {
-      for (std::size_t j = 0; j < rim_; ++j) add(i, j, gram_[i * rim_ + j]);
-    }
-    for (const Entry& entry : entries_) {
-      const Span<const Index> place = inside_before_->position();
-      if (entry.before != 0) add(rim_ + at(place[at(entry.row)]), rim_ + at(place[at(entry.column)]), entry.before);
-    }
-    out_groups[g] = group;
+    out_groups[g] = edited_paths(std::move(out_groups[g]), memory, [&](EditedPaths& group) {
+      for (std::size_t i = 0; i < out_group.size(); ++i)
+        if (at(out_group[i]) == g) add_inside(columns, i, at(out_column[i]), group);
+    });
   }
+}
+
+std::shared_ptr<const PathGroup> EditedFactor::own_paths(std::shared_ptr<const PathGroup> base,
+                                                         const SparseColumns& columns, Memory& memory) const {
+  return edited_paths(std::move(base), memory, [&](EditedPaths& group) {
+    for (std::size_t i = 0; i < at(columns.count()); ++i) add_inside(columns, i, i, group);
+  });
+}
+
+// The products V'y of the inside are the weights of the site there: adds those of one site to a column of the group.
+void EditedFactor::add_inside(const SparseColumns& columns, std::size_t site, std::size_t column,
+                              EditedPaths& group) const {
+  for (Index e = columns.start[site]; e < columns.start[site + 1]; ++e) {
+    const auto there = std::lower_bound(unknown_.begin(), unknown_.end(), columns.row[at(e)]);
+    if (there == unknown_.end() || *there != columns.row[at(e)]) continue;
+    const std::size_t row = rim_ + at(inside_before_->position()[static_cast<std::size_t>(there - unknown_.begin())]);
+    group.product[row * at(group.count()) + column] += columns.value[at(e)];
+  }
+}
+
+template <class AddInside>
+std::shared_ptr<const PathGroup> EditedFactor::edited_paths(std::shared_ptr<const PathGroup> base, Memory& memory,
+                                                            AddInside&& add_inside_of) const {
+  const auto group = make_shared_in<EditedPaths>(memory, std::move(base), memory);
+  const std::size_t m = at(group->count());
+  double products[tile * tile];
+  group->product.assign(k_ * m, 0.0);
+  Vector<std::size_t> row(paths_.size() * at(tile), k_, &memory);
+  for (std::size_t i = 0; i < rim_; ++i) row[at(place_[i].group * tile + place_[i].column)] = i;
+  for (std::size_t own = 0; own < paths_.size(); ++own) {
+    base_->gram(*paths_[own], group->base(), products, tile);
+    for (Index i = 0; i < paths_[own]->count(); ++i) {
+      const std::size_t place = row[own * at(tile) + at(i)];
+      if (place < k_) std::copy_n(products + i * tile, m, &group->product[place * m]);
+    }
+  }
+  add_inside_of(*group);
+  group->added.assign(group->product.begin(), group->product.end());
+  apply(group->added.data(), m, false);
+  group->whole.assign(group->product.begin(), group->product.end());
+  const auto add = [&](std::size_t i, std::size_t j, double c) {
+    for (std::size_t q = 0; q < m; ++q) group->whole[i * m + q] += c * group->added[j * m + q];
+  };
+  for (std::size_t i = 0; i < rim_; ++i) {
+    for (std::size_t j = 0; j < rim_; ++j) add(i, j, gram_[i * rim_ + j]);
+  }
+  for (const Entry& entry : entries_) {
+    const Span<const Index> place = inside_before_->position();
+    if (entry.before != 0) add(rim_ + at(place[at(entry.row)]), rim_ + at(place[at(entry.column)]), entry.before);
+  }
+  return group;
 }
 
 // (y_a + Y x_a)'(y_b + Y x_b) = y_a'y_b + (Y'y_a)'x_b + x_a'(Y'(y_b + Y x_b)).

@@ -113,6 +113,18 @@ std::shared_ptr<Analysis> make_analysis(const SymmetricMatrix& matrix, const Fac
   return analysis;
 }
 
+// The pattern of the factor of a matrix with another pattern, in the order of a present factor.
+std::shared_ptr<const Analysis> analysis_like(const SymmetricMatrix& matrix, const Analysis& present, Memory& memory) {
+  require_well_formed(matrix);
+  const std::shared_ptr<Analysis> analysis = make_shared_in<Analysis>(memory);
+  const Buffer<std::int32_t>& order = present.symbolic.order;
+  analyse(matrix, Span<const std::int32_t>(order.data(), order.size()), memory, analysis->symbolic);
+  make_plan(analysis->symbolic, memory, analysis->plan);
+  analysis->pattern_hash = hash_pattern(matrix);
+  analysis->ordering = present.ordering;
+  return analysis;
+}
+
 // Refuses a factorisation before it begins: its flops and bytes are known once the pattern is.
 void require_within_limits(const Analysis& analysis, double flop_limit, const Memory& memory) {
   const Symbolic& symbolic = analysis.symbolic;
@@ -234,19 +246,20 @@ std::shared_ptr<const Factor> Factor::make(const SymmetricMatrix& matrix, Coordi
 std::shared_ptr<const Factor> SupernodalFactor::refactor(const SymmetricMatrix& matrix,
                                                          Span<const std::uint8_t> eliminated, Memory& memory,
                                                          JobRunner& jobs) const {
-  if (matrix.size() != size() || hash_pattern(matrix) != analysis_->pattern_hash) {
-    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX,
-         "refactor takes a matrix of the same pattern; make a new factor instead");
-  }
+  if (matrix.size() != size())
+    fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "refactor takes a matrix of the same size; make a new factor instead");
   if (!eliminated.empty() && eliminated.size() != static_cast<std::size_t>(size())) {
     fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "%zu elimination marks for %d unknowns", eliminated.size(), size());
   }
   require_finite(matrix);
-  if (analysis_->loaded) {
+  std::shared_ptr<const Analysis> analysis = analysis_;
+  if (hash_pattern(matrix) != analysis->pattern_hash) {
+    analysis = analysis_like(matrix, *analysis_, memory);
+  } else if (analysis->loaded) {
     require_well_formed(matrix);
     require_inside(matrix, symbolic(), memory);
   }
-  std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, analysis_, memory);
+  std::shared_ptr<SupernodalFactor> factor = make_shared_in<SupernodalFactor>(memory, std::move(analysis), memory);
   factor->kernels_ = kernels_;
   factor->compute(matrix, eliminated, default_lost_share, jobs);
   return factor;

@@ -109,7 +109,9 @@ class Factor {
   // Sets z to 0 on the elimination paths of these unknowns.
   virtual void clear_at(Span<const std::int32_t> unknowns, double* z, std::int32_t channels) const = 0;
 
-  // Factorises a matrix with the same pattern again, and shares symbolic analysis and ordering with *this. `eliminated`
+  // Factorises a matrix of the same size again. It shares symbolic analysis and ordering with *this if the pattern is
+  // the same. A matrix of another pattern is analysed in the ordering of *this, and the order of the result may differ
+  // from that (position). `eliminated`
   // (per unknown, caller's numbering, may be empty) marks rows and columns that are replaced by the identity, while the
   // pattern stays. The engine calls this a rebase.
   virtual std::shared_ptr<const Factor> refactor(const SymmetricMatrix& matrix, Span<const std::uint8_t> eliminated,
@@ -120,6 +122,17 @@ class Factor {
   virtual void solve_paths(const SparseColumns& columns, Memory& memory, JobRunner& jobs,
                            Vector<std::shared_ptr<const PathGroup>>& out_groups, Span<std::int32_t> out_group,
                            Span<std::int32_t> out_column) const = 0;
+
+  // Turns a group of elimination paths of another factor into paths of this one, without solving them: both are edits
+  // of one factor, or one is the edit of the other (edited_factor.h). Null where they are not. columns: those of the
+  // group, empty where a path is not in use.
+  std::shared_ptr<const PathGroup> take_paths(const Factor& from, std::shared_ptr<const PathGroup> group,
+                                              const SparseColumns& columns, Memory& memory) const {
+    if (&from.path_base() != &path_base()) return nullptr;
+    return own_paths(from.base_paths(std::move(group)), columns, memory);
+  }
+  // The factor that this one is an edit of, or this one.
+  virtual const Factor& path_base() const noexcept { return *this; }
 
   // Writes the rows of G that belong to these unknowns (caller's numbering). Row j as a column is G^-1 P A e_j. Returns
   // false, and writes nothing, if the factor has no sparse rows. Cost: the entries of the rows.
@@ -138,6 +151,15 @@ class Factor {
 
   // Multiplies z by the group's elimination paths: out[i * channels + c] = y_i' z[., c], the transpose of combine.
   virtual void project(const PathGroup& group, const double* z, std::int32_t channels, double* out) const = 0;
+
+ protected:
+  // The paths of path_base() that a group is made of, and the other way round.
+  virtual std::shared_ptr<const PathGroup> base_paths(std::shared_ptr<const PathGroup> group) const { return group; }
+  virtual std::shared_ptr<const PathGroup> own_paths(std::shared_ptr<const PathGroup> base,
+                                                     const SparseColumns& columns, Memory& memory) const {
+    (void)columns, (void)memory;
+    return base;
+  }
 };
 
 class PathGroup {

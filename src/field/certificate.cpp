@@ -107,8 +107,8 @@ SymmetricMatrix given_weights(const Core& core) {
   const Geometry& plain = core.geometry->unlinked();
   if (!core.mesh.is_graph() || core.field_kind != FieldKind::harmonic || core.changed_count == 0)
     return SymmetricMatrix(*core.memory);
-  SymmetricMatrix given = laplacian(plain.topology, plain.weights, *core.memory, core.jobs.get());
-  if (core.stiffness) stiffen(given, *core.stiffness);
+  SymmetricMatrix given = laplacian(plain.topology(), plain.weights(), *core.memory, core.jobs.get());
+  if (core.stiffness) stiffen(given, *core.stiffness, *core.memory);
   return given;
 }
 

@@ -42,9 +42,7 @@ double wrapped(double angle) noexcept { return angle - two_pi * std::nearbyint(a
 }  // namespace
 
 DirectionField::DirectionField(std::shared_ptr<const Core> core, std::int32_t degree, std::uint32_t site_limit)
-    : solver_(std::move(core), degree),
-      site_limit_(site_limit),
-      constraints_(solver_.core().memory.get()) {}
+    : solver_(std::move(core), degree), site_limit_(site_limit), constraints_(solver_.core().memory.get()) {}
 
 DirectionField::DirectionField(const DirectionField& other)
     : solver_(other.solver_),
@@ -52,9 +50,7 @@ DirectionField::DirectionField(const DirectionField& other)
       constraints_(other.constraints_, &other.memory()),
       count_(other.count_) {}
 
-void DirectionField::accept(Vector<DirectionConstraint>& next) noexcept {
-  constraints_.swap(next);
-}
+void DirectionField::accept(Vector<DirectionConstraint>& next) noexcept { constraints_.swap(next); }
 
 void DirectionField::check_site(const Vector<DirectionConstraint>& list, std::uint32_t position,
                                 std::uint32_t site) const {
@@ -158,9 +154,9 @@ void DirectionField::move(std::uint32_t count, const std::uint32_t* sites, const
            i, vertices[i], sites[i]);
     double turn = 0;
     Index here = site.vertex;
-    for (const Index e : edge_path(core.mesh, core.topology, site.vertex, to, memory())) {
-      here = core.topology.first(e) == here ? core.topology.second(e) : core.topology.first(e);
-      turn += solver_.connection().turn(core.topology, e, here);
+    for (const Index e : edge_path(core.mesh, core.topology(), site.vertex, to, memory())) {
+      here = core.topology().first(e) == here ? core.topology().second(e) : core.topology().first(e);
+      turn += solver_.connection().turn(core.topology(), e, here);
     }
     site = {to, vertices[i], site.vector * at_angle(1.0, turn)};
     slots.push_back(static_cast<Index>(sites[i]));
@@ -200,8 +196,7 @@ void DirectionField::rotate(std::uint32_t count, const std::uint32_t* sites, con
 }
 
 Vector<Complex> DirectionField::solved() const {
-  if (count_ == 0)
-    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the field has no constraints; add at least one before solving");
+  if (count_ == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the field has no constraints; add at least one before solving");
   Vector<Complex> values(constraints_.size(), &memory()), field(at(solver_.core().size()), &memory());
   for (std::size_t s = 0; s < values.size(); ++s) values[s] = raised(constraints_[s].vector, solver_.degree());
   solver_.solve(values, field.data());
@@ -247,9 +242,9 @@ Vector<Singularity> DirectionField::singularities() const {
   const Index n = solver_.degree();
   // Stores, for each edge, how much more the field turns along it than a direction that is carried along the edge. Seen
   // from the other end, the number is the same with the opposite sign.
-  Vector<double> turn(at(core.topology.edge_count()), 0.0, &memory());
-  for (Index e = 0; e < core.topology.edge_count(); ++e) {
-    const Complex from = field[at(core.topology.first(e))], to = field[at(core.topology.second(e))];
+  Vector<double> turn(at(core.topology().edge_count()), 0.0, &memory());
+  for (Index e = 0; e < core.topology().edge_count(); ++e) {
+    const Complex from = field[at(core.topology().first(e))], to = field[at(core.topology().second(e))];
     if (from == 0.0 || to == 0.0) continue;
     turn[at(e)] = wrapped(angle_of(to) - angle_of(from) - n * connection.rotation[at(e)]);
   }
@@ -260,11 +255,11 @@ Vector<Singularity> DirectionField::singularities() const {
     double sum = n * connection.curvature[at(t)];
     for (int k = 0; k < 3; ++k) {
       const Index from = v[k], to = v[(k + 1) % 3];
-      const auto begin = core.topology.neighbour.begin() + core.topology.neighbour_start[at(from)],
-                 end = core.topology.neighbour.begin() + core.topology.neighbour_start[at(from) + 1];
-      const Index e = core.topology.neighbour_edge[static_cast<std::size_t>(std::lower_bound(begin, end, to) -
-                                                                            core.topology.neighbour.begin())];
-      sum += to == core.topology.second(e) ? turn[at(e)] : -turn[at(e)];
+      const auto begin = core.topology().neighbour.begin() + core.topology().neighbour_start[at(from)],
+                 end = core.topology().neighbour.begin() + core.topology().neighbour_start[at(from) + 1];
+      const Index e = core.topology().neighbour_edge[static_cast<std::size_t>(std::lower_bound(begin, end, to) -
+                                                                              core.topology().neighbour.begin())];
+      sum += to == core.topology().second(e) ? turn[at(e)] : -turn[at(e)];
     }
     const Index index = static_cast<Index>(std::lround(sum / two_pi));
     if (index == 0) continue;

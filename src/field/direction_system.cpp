@@ -26,9 +26,9 @@ double missing_edges(const Core& core) {
   std::size_t missing = 0;
   for (std::size_t v = 0; v < at(core.size()); ++v) {
     Index i = k.column_start[v];
-    for (Index j = core.topology.neighbour_start[v]; j < core.topology.neighbour_start[v + 1]; ++j) {
-      while (i < k.column_start[v + 1] && k.row[at(i)] < core.topology.neighbour[at(j)]) ++i;
-      missing += i == k.column_start[v + 1] || k.row[at(i)] != core.topology.neighbour[at(j)];
+    for (Index j = core.topology().neighbour_start[v]; j < core.topology().neighbour_start[v + 1]; ++j) {
+      while (i < k.column_start[v + 1] && k.row[at(i)] < core.topology().neighbour[at(j)]) ++i;
+      missing += i == k.column_start[v + 1] || k.row[at(i)] != core.topology().neighbour[at(j)];
     }
   }
   return static_cast<double>(missing / 2);
@@ -39,7 +39,7 @@ double missing_edges(const Core& core) {
 DirectionMatrix::DirectionMatrix(std::shared_ptr<const Core> given, Index n)
     : core(std::move(given)),
       degree(n),
-      connection(Connection::make(core->mesh, core->topology, *core->memory)),
+      connection(Connection::make(core->mesh, core->topology(), *core->memory)),
       position(core->memory.get()),
       order(core->size(), core->memory.get()),
       matrix(*core->memory) {
@@ -84,8 +84,8 @@ PinnedOperator DirectionSystem::pinned_operator() const noexcept {
 void DirectionMatrix::make_order() {
   const Span<const Index> own = core->factor->position();
   position.assign(own.begin(), own.end());
-  if (missing_edges(*core) > missing_share * core->topology.edge_count()) {
-    const SymmetricMatrix graph = laplacian(core->topology, core->weights, *core->memory, core->jobs.get());
+  if (missing_edges(*core) > missing_share * core->topology().edge_count()) {
+    const SymmetricMatrix graph = laplacian(core->topology(), core->weights(), *core->memory, core->jobs.get());
     const Vector<float> coordinates = ordering_coordinates(core->mesh, *core->memory);
     Buffer<Index> made;
     hf_inner::make_order(graph, {coordinates.data(), coordinates.size()}, core->ordering, *core->memory, *core->jobs,
@@ -99,7 +99,7 @@ void DirectionMatrix::make_order() {
 // block between two neighbours is -w R, with w the weight of their edge and R the rotation from the column's frame to
 // the row's frame.
 void DirectionMatrix::make_matrix() {
-  const Topology& topology = core->topology;
+  const Topology& topology = core->topology();
   const std::size_t n = at(core->size());
   const Vector<double> weights =
       edge_weights(core->mesh, topology, OperatorKind::clamped, *core->memory, core->jobs.get());

@@ -20,8 +20,8 @@ Distances::Distances(const Surface& surface, DistanceMethod method, double smoot
   if (method == DistanceMethod::automatic)
     method = g.mesh.vertex_count() <= most_exact_vertices ? DistanceMethod::exact : DistanceMethod::front;
   if (method == DistanceMethod::heat) heat_.emplace(surface.unlinked_core(), smoothing);
-  if (method == DistanceMethod::exact) sides_.emplace(g.mesh, g.topology, *g.memory);
-  if (method == DistanceMethod::front) front_.emplace(g.mesh, g.topology, *g.memory, g.jobs.get());
+  if (method == DistanceMethod::exact) sides_.emplace(g.mesh, g.topology(), *g.memory);
+  if (method == DistanceMethod::front) front_.emplace(g.mesh, g.topology(), *g.memory, g.jobs.get());
 }
 
 void Distances::solve(Span<const Index> sources, double* out) const {

@@ -30,7 +30,7 @@ class Distances {
   template <class Work>
   auto with_sides(Work&& work) const {
     if (sides_) return work(*sides_);
-    const TriangleSides made(geometry_->mesh, geometry_->topology, *geometry_->memory);
+    const TriangleSides made(geometry_->mesh, geometry_->topology(), *geometry_->memory);
     return work(made);
   }
 

@@ -110,7 +110,7 @@ Index last_vertex(const Vector<Vec3>& positions, Index from, const Index* level,
 // The ring is about half as many edges away from there as the last vertex that the search finds, on the way to the
 // farthest of these. The ring is edge-connected.
 void mark_middles(const Core& core, const Vector<double>& total, Vector<std::uint8_t>& middle) {
-  const Topology& topology = core.topology;
+  const Topology& topology = core.topology();
   const std::size_t n = middle.size();
   Vector<Index> levels(n, unseen, core.memory.get()), waiting(n + 1, core.memory.get());
   Index *const level = levels.data(), *const queue = waiting.data();
@@ -171,9 +171,10 @@ double length_of(double fall, bool poisson) noexcept {
 }
 
 // Adds the maxima (tips) of found.field to the list if their limbs are long enough, with the lengths.
-void propose(const Core& core, const Vector<double>& total, double least_length_share, bool poisson, Extremities& found) {
+void propose(const Core& core, const Vector<double>& total, double least_length_share, bool poisson,
+             Extremities& found) {
   const Vector<double>& u = found.field;
-  const Vector<Peak> peaks = find_peaks(core.topology, u, *core.memory);
+  const Vector<Peak> peaks = find_peaks(core.topology(), u, *core.memory);
   // base[c]: level from which the length of the highest tip of component c is measured.
   Vector<double> base(total.size(), 0.0, core.memory.get());
   for_runs(core, [&](std::size_t c, std::size_t begin, std::size_t end) {

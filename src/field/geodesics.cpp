@@ -31,9 +31,9 @@ constexpr float progress_spread = 0.2f, progress_averaged = 0.9f;
 
 double mean_edge(const Core& core) noexcept {
   double sum = 0;
-  for (Index e = 0; e < core.topology.edge_count(); ++e)
-    sum += norm(core.mesh.positions[at(core.topology.first(e))] - core.mesh.positions[at(core.topology.second(e))]);
-  return sum / std::max(1, core.topology.edge_count());
+  for (Index e = 0; e < core.topology().edge_count(); ++e)
+    sum += norm(core.mesh.positions[at(core.topology().first(e))] - core.mesh.positions[at(core.topology().second(e))]);
+  return sum / std::max(1, core.topology().edge_count());
 }
 
 }  // namespace
@@ -147,7 +147,7 @@ void Geodesics::average(Index count, double* out) const {
   const Core& core = *core_;
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size()), components = at(core.mesh.component_count());
-  const SpreadSamples samples = spread_samples(core.mesh, core.topology, core.areas, count, memory);
+  const SpreadSamples samples = spread_samples(core.mesh, core.topology(), core.areas, count, memory);
   report(progress_spread);
   Vector<double> sums(2 * frames_.size(), 0.0, &memory);
   Workspace heat(core.workspaces, n * at(group_size));

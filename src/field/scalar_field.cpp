@@ -142,7 +142,15 @@ void ScalarField::move_to(std::shared_ptr<const Core> core) {
         Screening::make(core, screening_->strength, target.empty() ? nullptr : target.data(), sites_.channels());
     engine = make_owner_in<ScreenedSolver>(core->memory, screening);
   }
-  take_engine(std::move(engine));
+  SiteSet next(sites_, memory());
+  next.take_components(*core);
+  sites_.swap(next);
+  try {
+    take_engine(std::move(engine));
+  } catch (...) {
+    sites_.swap(next);
+    throw;
+  }
   screening_ = std::move(screening);
   core_ = std::move(core);
 }

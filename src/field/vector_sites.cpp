@@ -59,10 +59,10 @@ void move_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t* 
       fail(HF_ERROR_INVALID_ARGUMENT, i,
            "entry %u of the list: vertex %u lies in another component than site %u; remove it there and add it here", i,
            vertices[i], sites[i]);
-    Vec3 vector = value_of(field, sites[i]), normal = vertex_normal(mesh, surface.topology, here);
-    for (const std::int32_t e : edge_path(mesh, surface.topology, here, to, *field.core().memory)) {
-      here = surface.topology.first(e) == here ? surface.topology.second(e) : surface.topology.first(e);
-      const Vec3 next = vertex_normal(mesh, surface.topology, here);
+    Vec3 vector = value_of(field, sites[i]), normal = vertex_normal(mesh, surface.topology(), here);
+    for (const std::int32_t e : edge_path(mesh, surface.topology(), here, to, *field.core().memory)) {
+      here = surface.topology().first(e) == here ? surface.topology().second(e) : surface.topology().first(e);
+      const Vec3 next = vertex_normal(mesh, surface.topology(), here);
       if (norm(next) == 0) continue;  // no normal, because its triangles cancel out: keeps the last tangent plane
       if (norm(normal) > 0) vector = carry(vector, normal, next);
       normal = next;
@@ -88,7 +88,7 @@ void rotate_vectors(ScalarField& field, std::uint32_t count, const std::uint32_t
   for (std::uint32_t i = 0; i < count; ++i) {
     const SiteSet::Slot& slot = vector_site(field, i, sites[i]);
     check_angle(i, angles[i]);
-    const Vec3 normal = vertex_normal(core.mesh, core.topology, vertex_of(slot.site));
+    const Vec3 normal = vertex_normal(core.mesh, core.topology(), vertex_of(slot.site));
     const Vec3 vector = turned(value_of(field, sites[i]), normal, norm(normal) > 0 ? angles[i] : 0.0);
     for (const double x : {vector.x, vector.y, vector.z}) values.push_back(x);
   }

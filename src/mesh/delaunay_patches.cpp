@@ -211,7 +211,7 @@ class Patches {
   }
 
   void find_components() {
-    Vector<Index>& root = sub_.component;
+    SharedVector<Index>& root = sub_.component;
     root.resize(vertices_.size());
     for (std::size_t v = 0; v < root.size(); ++v) root[v] = static_cast<Index>(v);
     const auto find = [&](Index v) {

@@ -149,7 +149,7 @@ Vector<First> first_faces(const Faces& faces, Memory& memory) {
   return first;
 }
 
-void append_doubled(const Mesh& mesh, Index face, Index given, bool mirrored, Vector<Mesh::Doubled>& out) {
+void append_doubled(const Mesh& mesh, Index face, Index given, bool mirrored, SharedVector<Mesh::Doubled>& out) {
   for (Index t = triangles_begin(mesh, face); t < triangles_begin(mesh, face + 1); ++t) {
     const Index* v = mesh.triangle(t);
     out.push_back({given, {v[0], v[1], v[2]}, mirrored});

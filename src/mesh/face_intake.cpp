@@ -72,18 +72,18 @@ void read_corners(const MeshInput& input, const Vector<Index>& representative, s
 }
 
 // Appends the triangles of a cut that have three different corners. Corners of none leave the face.
-void take_cut(const FaceCutter& cutter, Vector<Index>& corner, Vector<Index>& triangles) {
+void take_cut(const FaceCutter& cutter, Vector<Index>& corner, SharedVector<Index>& triangles) {
   const std::size_t first = triangles.size();
   bool skipped = false;
   for (std::size_t t = 0; t < cutter.triangles.size(); t += 3) {
     const Index* const k = cutter.triangles.data() + t;
-    const Index a = corner[at(k[0])], b = corner[at(k[1])], c = corner[at(k[2])];
-    const bool usable = a != b && b != c && c != a;
-    if (usable) triangles.insert(triangles.end(), {a, b, c});
+    const Index v[] = {corner[at(k[0])], corner[at(k[1])], corner[at(k[2])]};
+    const bool usable = v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
+    if (usable) triangles.append(v, v + 3);
     skipped = skipped || !usable;
   }
-  const auto begin = triangles.begin() + static_cast<std::ptrdiff_t>(first);
-  const auto unused = [&](Index v) { return std::find(begin, triangles.end(), v) == triangles.end(); };
+  const Index* const begin = triangles.begin() + first;
+  const auto unused = [&](Index v) { return std::find(begin, std::as_const(triangles).end(), v) == triangles.end(); };
   if (skipped) corner.erase(std::remove_if(corner.begin(), corner.end(), unused), corner.end());
 }
 
@@ -131,7 +131,7 @@ void take_faces(const MeshInput& input, const Vector<Index>& representative, Mes
       return;
     }
     mesh.triangle_of_given[f] = static_cast<Index>(first / 3);
-    out.corner.insert(out.corner.end(), corner.begin(), corner.end());
+    out.corner.append(corner.begin(), corner.end());
     out.corner_start.push_back(static_cast<Index>(out.corner.size()));
     out.triangle_start.push_back(mesh.triangle_count());
     out.given.push_back(static_cast<Index>(f));

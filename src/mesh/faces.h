@@ -5,7 +5,7 @@
 #pragma once
 #include <cstdint>
 
-#include "base/memory.h"
+#include "base/shared_vector.h"
 #include "base/span.h"
 
 namespace hf_inner {
@@ -35,12 +35,12 @@ class FaceRows {
 // The usable faces of a mesh. Empty where the caller gave triangles.
 struct Faces {
   explicit Faces(Memory& memory)
-      : corner_start(&memory),
-        corner(&memory),
-        triangle_start(&memory),
-        given(&memory),
-        second_cut(&memory),
-        given_size(&memory) {}
+      : corner_start(memory),
+        corner(memory),
+        triangle_start(memory),
+        given(memory),
+        second_cut(memory),
+        given_size(memory) {}
   bool empty() const noexcept { return corner_start.empty(); }
   std::int32_t count() const noexcept { return empty() ? 0 : static_cast<std::int32_t>(given.size()); }
   Span<const std::int32_t> corners_of(std::int32_t face) const noexcept {
@@ -50,17 +50,17 @@ struct Faces {
   }
 
   // The corners of face f are corner[corner_start[f] .. corner_start[f + 1]).
-  Vector<std::int32_t> corner_start;
+  SharedVector<std::int32_t> corner_start;
   // Inner vertices. No two neighbours of a face are equal.
-  Vector<std::int32_t> corner;
+  SharedVector<std::int32_t> corner;
   // The triangles of face f are triangle_start[f] .. triangle_start[f + 1] - 1.
-  Vector<std::int32_t> triangle_start;
+  SharedVector<std::int32_t> triangle_start;
   // The number of each face as the caller gave it.
-  Vector<std::int32_t> given;
+  SharedVector<std::int32_t> given;
   // 1 for a quad that is not planar: its operator uses both diagonals as cuts.
-  Vector<std::uint8_t> second_cut;
+  SharedVector<std::uint8_t> second_cut;
   // The number of corners of every face as given.
-  Vector<std::uint32_t> given_size;
+  SharedVector<std::uint32_t> given_size;
   // Faces as given that have four corners or more.
   std::uint32_t polygon_count = 0;
   // Usable faces with a corner far from their mean plane.

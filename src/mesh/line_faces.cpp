@@ -224,7 +224,7 @@ void leave_line_faces_out(const MeshInput& input, Mesh& mesh, Memory& memory, Jo
     if (is_gone(entry) && entry.given != last) --mesh.report.duplicate_triangle_count;
     last = entry.given;
   }
-  mesh.doubled.erase(std::remove_if(mesh.doubled.begin(), mesh.doubled.end(), is_gone), mesh.doubled.end());
+  mesh.doubled.remove_if(is_gone);
   keep_faces(kept, mesh);
 }
 

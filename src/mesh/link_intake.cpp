@@ -110,6 +110,11 @@ void read_pieces(const Mesh& mesh, std::uint32_t count, const std::uint32_t* ver
 
 }  // namespace
 
+void read_link_list(std::uint32_t count, const hf_link* links, const Mesh& mesh, Vector<Link>& out) {
+  if (count > 0) require(links, "links");
+  for (std::uint32_t i = 0; i < count; ++i) out.push_back(read_link(links[i], mesh, i));
+}
+
 void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out) {
   check_choice(desc.mode, 3, "mode");
   LinkOptions& options = out.options;
@@ -133,8 +138,7 @@ void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out) {
       fail(HF_ERROR_INVALID_ARGUMENT, HF_NO_INDEX, "link_count is %u, but mode is not HF_LINK_LIST", desc.link_count);
     return;
   }
-  if (desc.link_count > 0) require(desc.links, "links->links");
-  for (std::uint32_t i = 0; i < desc.link_count; ++i) out.list.push_back(read_link(desc.links[i], mesh, i));
+  read_link_list(desc.link_count, desc.links, mesh, out.list);
   options.list = out.list;
 }
 

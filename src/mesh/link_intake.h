@@ -16,7 +16,8 @@ struct LinksIn {
   LinkOptions options;
 };
 
-// Throws HF_ERROR_OUT_OF_RANGE, _NON_FINITE and _INVALID_ARGUMENT as hf_surface_create says.
+// The next two throw HF_ERROR_OUT_OF_RANGE, _NON_FINITE and _INVALID_ARGUMENT as hf_surface_create says.
+void read_link_list(std::uint32_t count, const hf_link* links, const Mesh& mesh, Vector<Link>& out);
 void read_links(const hf_links_desc& desc, const Mesh& mesh, LinksIn& out);
 
 }  // namespace hf_inner

@@ -31,26 +31,6 @@ void take_list(const Mesh& mesh, const LinkOptions& options, Links& out) {
   }
 }
 
-void find_groups(Links& out, Memory& memory) {
-  const std::size_t pieces = out.light.size();
-  UnionFind sets(pieces, memory);
-  Vector<std::uint8_t> linked(pieces, 0, &memory);
-  for (const Link& link : out.links) {
-    for (const Index corner : link.corner) {
-      if (corner == Mesh::none) continue;
-      const Index a = out.piece[at(link.vertex)], b = out.piece[at(corner)];
-      sets.unite(a, b);
-      if (a != b) linked[at(a)] = linked[at(b)] = 1;
-    }
-  }
-  out.group.resize(pieces);
-  for (std::size_t p = 0; p < pieces; ++p) {
-    const Index root = sets.find(static_cast<Index>(p));
-    out.group[p] = root == static_cast<Index>(p) ? out.group_count++ : out.group[at(root)];
-    out.alone_count += pieces > 1 && !linked[p];
-  }
-}
-
 }  // namespace
 
 double difference(const SkinHint& skin, const Mesh& mesh, Index vertex, const Index* corner, const double* share) {
@@ -80,6 +60,27 @@ double rest_length(const Link& link, const Mesh& mesh) noexcept {
     if (link.share[k] > 0) apart = apart - link.share[k] * mesh.positions[at(link.corner[k])];
   }
   return norm(apart);
+}
+
+void find_groups(Links& out, Memory& memory) {
+  const std::size_t pieces = out.light.size();
+  UnionFind sets(pieces, memory);
+  Vector<std::uint8_t> linked(pieces, 0, &memory);
+  for (const Link& link : out.links) {
+    for (const Index corner : link.corner) {
+      if (corner == Mesh::none) continue;
+      const Index a = out.piece[at(link.vertex)], b = out.piece[at(corner)];
+      sets.unite(a, b);
+      if (a != b) linked[at(a)] = linked[at(b)] = 1;
+    }
+  }
+  out.group.resize(pieces);
+  out.group_count = out.alone_count = 0;
+  for (std::size_t p = 0; p < pieces; ++p) {
+    const Index root = sets.find(static_cast<Index>(p));
+    out.group[p] = root == static_cast<Index>(p) ? out.group_count++ : out.group[at(root)];
+    out.alone_count += pieces > 1 && !linked[p];
+  }
 }
 
 std::shared_ptr<const Links> make_links(const Mesh& mesh, const Vector<double>& areas, const LinkOptions& options,
@@ -131,20 +132,14 @@ Vector<LinkEdge> link_edges(const Links& links, OperatorKind operator_kind, Memo
 }
 
 Mesh linked_mesh(const Mesh& mesh, const Links& links, Memory& memory) {
-  Mesh out(memory);
-  out.positions.assign(mesh.positions.begin(), mesh.positions.end());
-  out.corners.assign(mesh.corners.begin(), mesh.corners.end());
-  out.inner_of_given.assign(mesh.inner_of_given.begin(), mesh.inner_of_given.end());
-  out.given_of_inner.assign(mesh.given_of_inner.begin(), mesh.given_of_inner.end());
-  out.triangle_of_given.assign(mesh.triangle_of_given.begin(), mesh.triangle_of_given.end());
-  out.doubled.assign(mesh.doubled.begin(), mesh.doubled.end());
-  out.turned.assign(mesh.turned.begin(), mesh.turned.end());
-  out.isolated.assign(mesh.isolated.begin(), mesh.isolated.end());
-  out.centre = mesh.centre;
-  out.scale = mesh.scale;
-  out.report = mesh.report;
+  Mesh out = mesh;
+  out.faces = Faces(memory);
+  out.component = SharedVector<Index>(memory);
+  out.component.reserve(links.piece.size());
   // Pieces are numbered by their lowest vertices, so groups are too.
-  for (const Index piece : links.piece) out.component.push_back(links.group[at(piece)]);
+  out.component.change([&](Vector<Index>& component) {
+    for (const Index piece : links.piece) component.push_back(links.group[at(piece)]);
+  });
   out.report.component_count = static_cast<std::uint32_t>(links.group_count);
   return out;
 }

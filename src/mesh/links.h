@@ -76,6 +76,9 @@ double rest_length(const Link& link, const Mesh& mesh) noexcept;
 std::shared_ptr<const Links> make_links(const Mesh& mesh, const Vector<double>& areas, const LinkOptions& options,
                                         Memory& memory, JobRunner* jobs);
 
+// Numbers the groups of linked pieces, and counts pieces without a link. Needs links, pieces and light ones.
+void find_groups(Links& links, Memory& memory);
+
 // The links as edges of the operator, sorted by (first, second), with first < second. No edge is listed twice.
 struct LinkEdge {
   Index first, second;

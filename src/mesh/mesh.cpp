@@ -146,7 +146,7 @@ void take_triangles(const MeshInput& input, const Vector<Index>& representative,
       continue;
     }
     mesh.triangle_of_given[t] = mesh.triangle_count();
-    mesh.corners.insert(mesh.corners.end(), v, v + 3);
+    mesh.corners.append(v, v + 3);
   }
 }
 

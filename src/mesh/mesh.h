@@ -13,6 +13,7 @@
 
 #include "base/jobs.h"
 #include "base/memory.h"
+#include "base/shared_vector.h"
 #include "base/span.h"
 #include "mesh/faces.h"
 
@@ -67,20 +68,21 @@ struct MeshReport {
 // must fit 31 bits.
 constexpr std::uint32_t most_elements = 0x7fffffffu / 6;
 
+// Copies share their arrays.
 struct Mesh {
   static constexpr std::int32_t none = -1;
 
   explicit Mesh(Memory& memory)
-      : positions(&memory),
-        corners(&memory),
-        inner_of_given(&memory),
-        given_of_inner(&memory),
-        triangle_of_given(&memory),
-        doubled(&memory),
-        turned(&memory),
+      : positions(memory),
+        corners(memory),
+        inner_of_given(memory),
+        given_of_inner(memory),
+        triangle_of_given(memory),
+        doubled(memory),
+        turned(memory),
         faces(memory),
-        component(&memory),
-        isolated(&memory) {}
+        component(memory),
+        isolated(memory) {}
 
   // Throws HF_ERROR_EMPTY, HF_ERROR_OUT_OF_RANGE (index = triangle or face), HF_ERROR_NON_FINITE (index = vertex),
   // HF_ERROR_INVALID_ARGUMENT, or std::bad_alloc. jobs: threads to use; null = the calling thread, with the same
@@ -110,17 +112,17 @@ struct Mesh {
   Vec3 to_inner(Vec3 p) const noexcept { return (1.0 / scale) * (p - centre); }
 
   // By inner vertex: its position, centred and scaled.
-  Vector<Vec3> positions;
+  SharedVector<Vec3> positions;
   // The inner vertices of every usable triangle, three each.
-  Vector<std::int32_t> corners;
+  SharedVector<std::int32_t> corners;
   // By given vertex: its inner vertex, or none for an isolated one.
-  Vector<std::int32_t> inner_of_given;
+  SharedVector<std::int32_t> inner_of_given;
   // By inner vertex: the first of the caller's vertices that were welded to it. Ascending, unless the caller's order
   // is bad for the cache (vertex_order.h).
-  Vector<std::int32_t> given_of_inner;
+  SharedVector<std::int32_t> given_of_inner;
   // By given triangle: its usable triangle, or none. By given face: the first triangle of its cut, or none. A doubled
   // one has the triangle of the first.
-  Vector<std::int32_t> triangle_of_given;
+  SharedVector<std::int32_t> triangle_of_given;
   // A given triangle, or one of the cut of a given face, that lies on a usable triangle and was set aside
   // (doubled_faces.h). A first one whose usable triangle was turned round is listed too.
   struct Doubled {
@@ -129,20 +131,20 @@ struct Mesh {
     bool mirrored;           // it runs against the usable triangle
   };
   // Ascending by `given`.
-  Vector<Doubled> doubled;
+  SharedVector<Doubled> doubled;
   // The given vertices whose faces all run against the usable ones, ascending: the copies on the second side of a
   // two-sided sheet. Their normals are the opposite ones.
-  Vector<std::int32_t> turned;
+  SharedVector<std::int32_t> turned;
   // Empty if the caller gave triangles.
   Faces faces;
   // By inner vertex: the number of its component.
-  Vector<std::int32_t> component;
+  SharedVector<std::int32_t> component;
   struct Isolated {
     std::int32_t given;
     Vec3 position;  // as given
   };
   // The given vertices without a usable triangle, ascending. They keep their places when the rest is posed.
-  Vector<Isolated> isolated;
+  SharedVector<Isolated> isolated;
   Vec3 centre;
   double scale = 1;
   MeshReport report;

@@ -35,7 +35,7 @@ double entry(const SymmetricMatrix& matrix, Index row, Index column) {
 
 Vector<Complex> curvature_crosses(const Core& core, const Connection& connection, Index passes) {
   const Mesh& mesh = core.mesh;
-  const Topology& topology = core.topology;
+  const Topology& topology = core.topology();
   Memory& memory = *core.memory;
   const std::size_t n = at(core.size());
   // difference: the difference of the principal curvatures, as a number of the second degree. sum: their sum.

@@ -28,19 +28,19 @@ constexpr double most_cut = 16;
 
 double longest_edge(const Core& core) noexcept {
   double longest = 0;
-  for (Index e = 0; e < core.topology.edge_count(); ++e) {
-    longest = std::max(longest, norm(core.mesh.positions[at(core.topology.second(e))] -
-                                     core.mesh.positions[at(core.topology.first(e))]));
+  for (Index e = 0; e < core.topology().edge_count(); ++e) {
+    longest = std::max(longest, norm(core.mesh.positions[at(core.topology().second(e))] -
+                                     core.mesh.positions[at(core.topology().first(e))]));
   }
   return longest;
 }
 
 double mean_edge(const Core& core) noexcept {
   double sum = 0;
-  for (Index e = 0; e < core.topology.edge_count(); ++e) {
-    sum += norm(core.mesh.positions[at(core.topology.second(e))] - core.mesh.positions[at(core.topology.first(e))]);
+  for (Index e = 0; e < core.topology().edge_count(); ++e) {
+    sum += norm(core.mesh.positions[at(core.topology().second(e))] - core.mesh.positions[at(core.topology().first(e))]);
   }
-  return sum / std::max(core.topology.edge_count(), 1);
+  return sum / std::max(core.topology().edge_count(), 1);
 }
 
 Index most_triangles(const Core& core, double quads) noexcept {
@@ -193,7 +193,7 @@ namespace {
 
 CutMesh cut_checked(const Core& whole, double length, double quads) {
   // Refuses what is no surface. A cut one has more edges, so its faults are a smaller share.
-  FluxSurface::make(whole.mesh, whole.topology, *whole.memory);
+  FluxSurface::make(whole.mesh, whole.topology(), *whole.memory);
   return CutMesh::make(whole, cut_length * length, most_triangles(whole, quads));
 }
 

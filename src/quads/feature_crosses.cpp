@@ -40,7 +40,7 @@ Vector<HardCross> feature_crosses(const Core& core, const FluxSurface& surface, 
       count[at(v)] += 1;
     }
   }
-  const Topology& topology = core.topology;
+  const Topology& topology = core.topology();
   const auto is_border = [&](Index e) {
     return topology.edge_triangle_start[at(e) + 1] - topology.edge_triangle_start[at(e)] == 1;
   };

@@ -259,12 +259,12 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
   const Connection& connection = base.system->connection;
   part.reset();
   Table<std::uint8_t> features = find_features(surface, options.crease > 0 ? options.crease : HUGE_VAL, memory);
-  keep_edges(surface, core.topology, options.crease_edges, features, memory);
+  keep_edges(surface, core.topology(), options.crease_edges, features, memory);
   const SharpCorners corners = SharpCorners::find(surface, features, edge_length, memory);
   Vector<HardCross> hard = feature_crosses(core, surface, connection, features, corners, base.passes);
   const SideCrosses sides = SideCrosses::find(surface, connection, features, corners, hard, memory);
   Vector<Complex> wish(base.curvature.begin(), base.curvature.end(), &memory);
-  leave_out_near(core.mesh, core.topology, sides.turned, edge_length, wish);  // two lie between two turned creases
+  leave_out_near(core.mesh, core.topology(), sides.turned, edge_length, wish);  // two lie between two turned creases
   const Guided guided = read_guides(options.guides, connection, core.size(), memory);
   Vector<QuadPole> poles(options.poles.begin(), options.poles.end(), &memory);
   for (QuadPole& pole : poles) pole.place = base.apart.moved(surface, pole.place);
@@ -278,7 +278,8 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
     return FaceCross::make(surface, connection, crosses, features, corners, sides.of_corner, memory);
   };
   FaceCross faces = face_crosses(field_progress.factored);
-  if (!sides.turned.empty() && part_turns(surface, core.topology, connection, wish, crosses, faces.index, hard, memory))
+  if (!sides.turned.empty() &&
+      part_turns(surface, core.topology(), connection, wish, crosses, faces.index, hard, memory))
     faces = face_crosses(field_progress.smoothed);
   if (!guided.weight.empty()) {
     // The map cannot turn everywhere as the crosses do. Where there are guides, it does.
@@ -426,7 +427,7 @@ QuadResult make_cut_quads(const FieldQuadOptions& options, double area, double l
     if (guide.given != QuadGuide::of_pole) own.add_guide(guide, guide.vertex);
   }
   for (const Index e : options.crease_edges) {
-    base->cut.for_pieces(whole.topology.first(e), whole.topology.second(e),
+    base->cut.for_pieces(whole.topology().first(e), whole.topology().second(e),
                          [&](Index a, Index b) { own.add_crease(a, b); });
   }
   for (const QuadPole& pole : options.poles) own.add_pole(pole);

@@ -110,14 +110,14 @@ void read_crease_edges(const Core& core, const hf_quads_desc& desc, Vector<Index
     return;
   }
   require(desc.crease_edges, "crease_edges");
-  if (desc.crease_count > static_cast<std::uint32_t>(core.topology.edge_count()))
+  if (desc.crease_count > static_cast<std::uint32_t>(core.topology().edge_count()))
     fail(HF_ERROR_TOO_LARGE, HF_NO_INDEX, "crease_count is %u; the mesh has %d edges", desc.crease_count,
-         core.topology.edge_count());
+         core.topology().edge_count());
   for (std::uint32_t i = 0; i < desc.crease_count; ++i) {
     const std::uint32_t* given = desc.crease_edges + std::size_t{2} * i;
     const Index a = usable_vertex(core.mesh, given[0], i, "crease_edges"),
                 b = usable_vertex(core.mesh, given[1], i, "crease_edges");
-    const Index e = a == b ? Mesh::none : core.topology.edge_between(a, b);
+    const Index e = a == b ? Mesh::none : core.topology().edge_between(a, b);
     if (e == Mesh::none)
       fail(HF_ERROR_INVALID_ARGUMENT, i, "crease_edges[%u]: no triangle has an edge from vertex %u to vertex %u", i,
            given[0], given[1]);

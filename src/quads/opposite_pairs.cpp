@@ -40,7 +40,7 @@ Nearest find_nearest(const Core& core, const Table<std::int32_t>& index, double 
     if (index[v] != 0) heap.push_back({0, v, v});
   }
   std::make_heap(heap.begin(), heap.end());
-  const Topology& topology = core.topology;
+  const Topology& topology = core.topology();
   Poller poller;
   while (!heap.empty()) {
     poller.due();
@@ -71,7 +71,7 @@ struct Pair {
 Vector<Pair> find_pairs(const Core& core, const Nearest& nearest, const Table<std::int32_t>& index, double far,
                         Memory& memory) {
   Vector<Pair> all(&memory), out(&memory);
-  const Topology& topology = core.topology;
+  const Topology& topology = core.topology();
   for (Index e = 0; e < topology.edge_count(); ++e) {
     const Index p = topology.first(e), q = topology.second(e), a = nearest.of[at(p)], b = nearest.of[at(q)];
     if (a == none || b == none || index[a] + index[b] != 0 || a == b) continue;

@@ -34,7 +34,7 @@ void OtherOptions::add_guide(const QuadGuide& guide, Index vertex) {
 
 void OtherOptions::add_crease(Index a, Index b) {
   const Mesh& mesh = options_.core->mesh;
-  const Index found = options_.core->topology.edge_between(mesh.inner_of_given[at(a)], mesh.inner_of_given[at(b)]);
+  const Index found = options_.core->topology().edge_between(mesh.inner_of_given[at(a)], mesh.inner_of_given[at(b)]);
   if (found != Mesh::none) lists_.edges.push_back(found);
 }
 

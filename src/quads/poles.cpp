@@ -13,21 +13,21 @@ namespace {
 
 // A direction whose part along the surface is a smaller share of it says little: the noise of the normal decides.
 constexpr double least_along = 0.1;
-// Cosine of the largest turn from the normal of the irregular vertex to that of a vertex of the ring; a turn by 180 degrees has no
-// axis.
+// Cosine of the largest turn from the normal of the irregular vertex to that of a vertex of the ring; a turn by 180
+// degrees has no axis.
 constexpr double largest_turn = -0.9;
 
 // The figures are of the 36 poles of poles_test on a torus and a sphere, without relaxation. The aspect is the mean of
 // the quads within four edges.
 
-// A vertex within this many edges of an irregular vertex is its own. 96 % of poles have one. With half, the vertices of some poles
-// stay up to 0.67 edges away; double gives the same quads.
+// A vertex within this many edges of an irregular vertex is its own. 96 % of poles have one. With half, the vertices of
+// some poles stay up to 0.67 edges away; double gives the same quads.
 constexpr double pole_reach = 1;
-// Walks to the place of an irregular vertex. With one, a vertex ends up to 0.005 edges away; with two, three and six, all are less
-// than 0.00005 away.
+// Walks to the place of an irregular vertex. With one, a vertex ends up to 0.005 edges away; with two, three and six,
+// all are less than 0.00005 away.
 constexpr int pole_walks = 2;
-// Quads around an irregular vertex that move along, and in how many rounds. More are slower. The aspect is 1.38; with 2 and 6 rings
-// it is 1.39 and 1.38, with 2 and 10 rounds 1.38 and 1.43.
+// Quads around an irregular vertex that move along, and in how many rounds. More are slower. The aspect is 1.38; with 2
+// and 6 rings it is 1.39 and 1.38, with 2 and 10 rounds 1.38 and 1.43.
 constexpr std::int32_t pole_rings = 3, pole_rounds = 5;
 
 Index nearest_vertex(const Mesh& mesh, Vec3 place) noexcept {
@@ -57,7 +57,7 @@ void for_triangles(const Topology& topology, Index v, Use&& use) {
 Vec3 onto(const Core& core, Index vertex, Vec3 place) {
   Vec3 nearest = core.mesh.positions[at(vertex)];
   double least = norm(nearest - place);
-  for_triangles(core.topology, vertex, [&](Index t) {
+  for_triangles(core.topology(), vertex, [&](Index t) {
     const Index* corner = core.mesh.triangle(t);
     const Vec3 p[3] = {core.mesh.positions[at(corner[0])], core.mesh.positions[at(corner[1])],
                        core.mesh.positions[at(corner[2])]};
@@ -81,7 +81,7 @@ Vec3 onto(const Core& core, Index vertex, Vec3 place) {
 struct PoleRing {
   PoleRing(const Core& core, Index first, Vec3 point, double radius, Memory& memory)
       : inside(&memory), around(&memory) {
-    const Topology& topology = core.topology;
+    const Topology& topology = core.topology();
     Vector<std::uint8_t> seen(at(core.size()), 0, &memory);
     inside.push_back(first);
     seen[at(first)] = 1;
@@ -126,17 +126,17 @@ void add_pole_guides(const Core& core, Span<const QuadPole> poles, double radius
     const Vec3 point = onto(core, first, pole.place);
     const PoleRing ring(core, first, point, radius, *core.memory);
     Vec3 up;
-    for (const Index v : ring.inside) up = up + core.areas[at(v)] * vertex_normal(core.mesh, core.topology, v);
+    for (const Index v : ring.inside) up = up + core.areas[at(v)] * vertex_normal(core.mesh, core.topology(), v);
     up = unit_vector(up);
     if (!(norm(up) > 0))
-      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i), "the surface has no normal at irregular_points[%zu]",
-           i);
+      fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(i),
+           "the surface has no normal at irregular_points[%zu]", i);
     const Vec3 x = in_plane(up, pole.direction), y = cross(up, x);
     for (const Index v : ring.around) {
       const Vec3 arm = core.mesh.positions[at(v)] - point;
       const double angle = 0.25 * (4 - pole.quads) * arc_tangent(dot(arm, y), dot(arm, x));
       const Vec3 vector = cosine(angle) * x + sine(angle) * y;
-      out.push_back({v, turned(vector, up, vertex_normal(core.mesh, core.topology, v)), 1.0, QuadGuide::of_pole});
+      out.push_back({v, turned(vector, up, vertex_normal(core.mesh, core.topology(), v)), 1.0, QuadGuide::of_pole});
     }
   }
 }

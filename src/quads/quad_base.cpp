@@ -34,11 +34,11 @@ constexpr std::int32_t least_passes = 2, most_passes = 20;
 
 QuadBase::QuadBase(std::shared_ptr<const Core> given)
     : core(std::move(given)),
-      surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
+      surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)),
       apart(surface, *core->memory),
       area(area_of(surface)),
       curvature(core->memory.get()) {
-  const Topology& topology = core->topology;
+  const Topology& topology = core->topology();
   for (Index e = 0; e < topology.edge_count(); ++e)
     mean_edge += norm(core->mesh.positions[at(topology.second(e))] - core->mesh.positions[at(topology.first(e))]);
   mean_edge /= std::max(topology.edge_count(), 1);

@@ -108,7 +108,7 @@ void add_image(const NearestTriangle& nearest, const MirrorPlane& plane, const T
 HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
   Memory& memory = *core.memory;
   const Mesh& mesh = core.mesh;
-  const Topology& topology = core.topology;
+  const Topology& topology = core.topology();
   HalfSurface out(memory);
   Vector<double> height(&memory), shortest(at(core.size()), HUGE_VAL, &memory);
   for (const Vec3& p : mesh.positions) height.push_back(plane.side(p));
@@ -306,7 +306,7 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
     if (v != Mesh::none) own.add_guide(guide, v);
   }
   for (const Index e : options.crease_edges) {
-    Index ends[2] = {half.of_vertex[at(whole.topology.first(e))], half.of_vertex[at(whole.topology.second(e))]};
+    Index ends[2] = {half.of_vertex[at(whole.topology().first(e))], half.of_vertex[at(whole.topology().second(e))]};
     for (Index& end : ends) {
       if (end == Mesh::none) end = half.of_edge[at(e)];
     }

@@ -31,7 +31,7 @@ int spare_exponent(Span<const double> values) {
 
 FlowTracer::FlowTracer(std::shared_ptr<const Core> core)
     : core_(std::move(core)),
-      surface_(FluxSurface::make(core_->mesh, core_->topology, *core_->memory)),
+      surface_(FluxSurface::make(core_->mesh, core_->topology(), *core_->memory)),
       fan_(core_->size(), -1, *core_->memory) {
   for (std::int32_t v = surface_.first_apex; v-- > 0;) fan_[surface_.mesh_vertex[v]] = v;
 }

@@ -154,11 +154,11 @@ void append_edges(const KernelRow& row, const Core& core, EdgeScratch& scratch, 
   Poller poller;
   for (const std::int32_t v : row.vertex) {
     poller.due();
-    for (std::int32_t e = core.topology.neighbour_start[at(v)]; e < core.topology.neighbour_start[at(v) + 1]; ++e) {
-      const std::int32_t u = core.topology.neighbour[at(e)];
+    for (std::int32_t e = core.topology().neighbour_start[at(v)]; e < core.topology().neighbour_start[at(v) + 1]; ++e) {
+      const std::int32_t u = core.topology().neighbour[at(e)];
       if (u < v && kernel[at(u)] > 0) continue;
       const double w =
-          std::clamp(core.weights[at(core.topology.neighbour_edge[at(e)])], flattest_weight, steepest_weight) *
+          std::clamp(core.weights()[at(core.topology().neighbour_edge[at(e)])], flattest_weight, steepest_weight) *
           (kernel[at(v)] + kernel[at(u)]);
       const Vec3 d = core.mesh.positions[at(v)] - core.mesh.positions[at(u)];
       add(v, w * d);

@@ -29,7 +29,7 @@ double normal_weight(double size, Vec3 normal) noexcept {
 }
 
 double edge_weight(const Core& core, std::int32_t entry) noexcept {
-  return std::clamp(core.weights[at(core.topology.neighbour_edge[at(entry)])], flattest_weight, steepest_weight);
+  return std::clamp(core.weights()[at(core.topology().neighbour_edge[at(entry)])], flattest_weight, steepest_weight);
 }
 
 }  // namespace
@@ -53,9 +53,9 @@ void Gradients::prepare(const MatchSide& source, const MatchSide& target, const 
   gradient_.assign(n, Mat3::Identity());
   for (std::size_t v = 0; v < n; ++v) {
     Mat3 moment = Mat3::Zero();
-    for (std::int32_t e = source.core->topology.neighbour_start[v]; e < source.core->topology.neighbour_start[v + 1];
-         ++e) {
-      const Vec3 d = from.positions[v] - from.positions[at(source.core->topology.neighbour[at(e)])];
+    for (std::int32_t e = source.core->topology().neighbour_start[v];
+         e < source.core->topology().neighbour_start[v + 1]; ++e) {
+      const Vec3 d = from.positions[v] - from.positions[at(source.core->topology().neighbour[at(e)])];
       add_outer(moment, edge_weight(*source.core, e), d, d);
     }
     const double size = moment.trace();
@@ -106,8 +106,8 @@ void Gradients::find_gradients(const Frame& frame) {
     for (std::size_t v = std::size_t{b} * vertex_block; v < std::min(n, (std::size_t{b} + 1) * vertex_block); ++v) {
       Mat3 moment = Mat3::Zero();
       double size = 0;
-      for (std::int32_t e = source.topology.neighbour_start[v]; e < source.topology.neighbour_start[v + 1]; ++e) {
-        const std::size_t u = at(source.topology.neighbour[at(e)]);
+      for (std::int32_t e = source.topology().neighbour_start[v]; e < source.topology().neighbour_start[v + 1]; ++e) {
+        const std::size_t u = at(source.topology().neighbour[at(e)]);
         const Vec3 d = source.mesh.positions[v] - source.mesh.positions[u];
         const double w = edge_weight(source, e);
         add_outer(moment, w, frame.posed[v] - frame.posed[u], d);

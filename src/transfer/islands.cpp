@@ -107,12 +107,12 @@ struct Member {
 };
 
 void relax(const Core& core, Span<const Member> free, std::int32_t channels, double* field) {
-  const auto& topology = core.topology;
+  const auto& topology = core.topology();
   const std::size_t width = at(channels);
   Vector<double> mean(width, 0.0, core.memory.get());
   double floor = 0;
-  for (const double w : core.weights) floor += std::abs(w);
-  floor = least_weight_share * floor / static_cast<double>(std::max<std::size_t>(1, core.weights.size()));
+  for (const double w : core.weights()) floor += std::abs(w);
+  floor = least_weight_share * floor / static_cast<double>(std::max<std::size_t>(1, core.weights().size()));
   for (std::int32_t sweep = 0; sweep < most_sweeps; ++sweep) {
     double change = 0;
     for (const Member& member : free) {
@@ -120,7 +120,7 @@ void relax(const Core& core, Span<const Member> free, std::int32_t channels, dou
       double sum = 0;
       for (std::int32_t e = topology.neighbour_start[at(member.vertex)];
            e < topology.neighbour_start[at(member.vertex) + 1]; ++e) {
-        const double w = std::max(floor, core.weights[at(topology.neighbour_edge[at(e)])]);
+        const double w = std::max(floor, core.weights()[at(topology.neighbour_edge[at(e)])]);
         const double* row = field + at(topology.neighbour[at(e)]) * width;
         for (std::size_t j = 0; j < width; ++j) mean[j] += w * row[j];
         sum += w;

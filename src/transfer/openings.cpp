@@ -18,7 +18,7 @@ Border::Border(const Core& core, Memory& memory)
       vertices_(&memory),
       start_(&memory),
       list_(&memory) {
-  const Topology& topology = core.topology;
+  const Topology& topology = core.topology();
   const Vec3* p = positions_;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::int32_t from = topology.edge_triangle_start[at(e)];

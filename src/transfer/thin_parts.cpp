@@ -23,7 +23,7 @@ Vector<std::uint8_t> thin_vertices(const Geometry& geometry, Memory& memory, Job
   });
   // The normals of a rim point along the sheet: there a neighbour tells.
   Vector<std::uint8_t> out(shallow, &memory);
-  const Topology& topology = geometry.topology;
+  const Topology& topology = geometry.topology();
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
     const std::size_t a = at(topology.first(e)), b = at(topology.second(e));
     out[a] |= shallow[b];
@@ -34,7 +34,7 @@ Vector<std::uint8_t> thin_vertices(const Geometry& geometry, Memory& memory, Job
 
 Vector<std::uint8_t> idle_vertices(const Geometry& geometry, const double* field, std::size_t width, Memory& memory) {
   const Mesh& mesh = geometry.mesh;
-  const Topology& topology = geometry.topology;
+  const Topology& topology = geometry.topology();
   Vector<std::uint8_t> out(mesh.positions.size(), std::uint8_t{1}, &memory);
   Poller poller;
   for (std::int32_t e = 0; e < topology.edge_count(); ++e) {

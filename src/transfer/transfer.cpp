@@ -52,26 +52,21 @@ void check_options(const TransferOptions& options) {
 std::shared_ptr<const Core> with_rest(const std::shared_ptr<const Core>& core, Span<const Vec3> rest,
                                       const char* side) {
   if (rest.empty()) return core;
-  auto geometry = make_shared_in<Geometry>(*core->memory, core->memory, core->jobs);
   const Geometry& from = *core->geometry;
-  geometry->mesh = from.mesh;
-  geometry->topology = from.topology;
-  geometry->areas = from.areas;
-  geometry->weights = from.weights;
-  geometry->operator_kind = from.operator_kind;
+  Vector<Vec3> positions(rest.size(), core->memory.get());
   for (std::size_t v = 0; v < rest.size(); ++v) {
     if (!is_finite(rest[v])) {
       const auto given = static_cast<std::uint32_t>(from.mesh.given_of_inner[v]);
       fail(HF_ERROR_NON_FINITE, given, "vertex %u of the %s's rest pose is not finite", given, side);
     }
-    geometry->mesh.positions[v] = from.mesh.to_inner(rest[v]);
-    if (is_too_far(geometry->mesh.positions[v])) {
+    positions[v] = from.mesh.to_inner(rest[v]);
+    if (is_too_far(positions[v])) {
       const std::uint32_t given = given_vertex(from.mesh, static_cast<std::int32_t>(v));
       fail(HF_ERROR_TOO_LARGE, given, "vertex %u of the %s's rest pose is more than %g box diagonals from the surface",
            given, side, farthest_pose);
     }
   }
-  return make_shared_in<Core>(*core->memory, std::shared_ptr<const Geometry>(std::move(geometry)));
+  return make_shared_in<Core>(*core->memory, Geometry::moved(from, positions));
 }
 
 }  // namespace

@@ -52,12 +52,12 @@ SpreadTies spread_ties(const Core& core, const std::int32_t* joint, const float*
                        Memory& memory) {
   SpreadTies out(count, memory);
   double floor = 0;
-  for (const double w : core.weights) floor += std::abs(w);
-  floor = least_weight_share * floor / static_cast<double>(std::max<std::size_t>(1, core.weights.size()));
+  for (const double w : core.weights()) floor += std::abs(w);
+  floor = least_weight_share * floor / static_cast<double>(std::max<std::size_t>(1, core.weights().size()));
   Poller poller;
-  for (std::int32_t e = 0; e < core.topology.edge_count(); ++e) {
+  for (std::int32_t e = 0; e < core.topology().edge_count(); ++e) {
     poller.due();
-    const std::int32_t ends[2] = {core.topology.first(e), core.topology.second(e)};
+    const std::int32_t ends[2] = {core.topology().first(e), core.topology().second(e)};
     // The difference between the cluster weights of the edge's two ends. It has at most eight clusters.
     std::size_t cluster[2 * blend_count];
     double delta[2 * blend_count];
@@ -75,7 +75,7 @@ SpreadTies spread_ties(const Core& core, const std::int32_t* joint, const float*
         delta[k] += (side ? -1.0 : 1.0) * static_cast<double>(weight[i]);
       }
     }
-    const double w = std::clamp(core.weights[at(e)], floor, std::max(floor, steepest_weight));
+    const double w = std::clamp(core.weights()[at(e)], floor, std::max(floor, steepest_weight));
     const Vec3 middle = 0.5 * (core.mesh.positions[at(ends[0])] + core.mesh.positions[at(ends[1])]);
     for (std::size_t i = 0; i < used; ++i) {
       for (std::size_t j = 0; j < used; ++j) {

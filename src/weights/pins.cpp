@@ -30,7 +30,7 @@ PinSites::PinSites(const Pins& pins, const Core& core, Memory& memory) : sites(&
       continue;
     }
     for (const DiscVertex& v :
-         geodesic_disc(core.mesh, core.topology, place.vertex, place.weight, pins.radius[p], memory))
+         geodesic_disc(core.mesh, core.topology(), place.vertex, place.weight, pins.radius[p], memory))
       add(Site::at_vertex(core.mesh, v.vertex), static_cast<Index>(p));
     if (sites.empty() || pin.back() != static_cast<Index>(p)) add(place, static_cast<Index>(p));
   }

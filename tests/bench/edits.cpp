@@ -1,5 +1,6 @@
-// A stroke that makes a patch of vertices stiff, and the field of ten sites after it, beside a fresh surface that does
-// the same. The stroke: hf_surface_edit, hf_solver_move_to and the field, at another place every time.
+// Edits of a surface and the field of ten sites after them, beside a fresh surface that does the same. An edit:
+// hf_surface_edit, hf_solver_move_to and the field, at another place every time. Strokes make a patch of vertices
+// stiff. Links join a small piece to the mesh and let it go again; they stand beside a site more and the field.
 #include <algorithm>
 #include <cstdio>
 
@@ -41,6 +42,103 @@ hf_surface edited(hf_surface surface, const std::vector<uint32_t>& vertices, dou
   hf_surface out = nullptr;
   check(hf_surface_edit(surface, &desc, &out));
   return out;
+}
+
+hf_surface linked(hf_surface surface, const hf_link* in, const uint32_t* out_number) {
+  hf_surface_edit_desc desc = HF_INIT(hf_surface_edit_desc);
+  desc.link_count = in ? 1 : 0;
+  desc.links = in;
+  desc.removed_link_count = out_number ? 1 : 0;
+  desc.removed_links = out_number;
+  hf_surface out = nullptr;
+  check(hf_surface_edit(surface, &desc, &out));
+  return out;
+}
+
+// The mesh with a square of 21 x 21 vertices beside it.
+Mesh with_square(const Mesh& mesh) {
+  constexpr uint32_t side = 21;
+  Mesh out = mesh;
+  const uint32_t first = mesh.vertex_count();
+  for (uint32_t v = 0; v < side * side; ++v)
+    for (const double x : {3 + 0.01 * (v % side), 0.01 * (v / side), 0.0})
+      out.positions.push_back(static_cast<decltype(out.positions)::value_type>(x));
+  for (uint32_t y = 0; y + 1 < side; ++y) {
+    for (uint32_t x = 0; x + 1 < side; ++x) {
+      const uint32_t a = first + y * side + x, b = a + 1, c = a + side, d = c + 1;
+      out.triangles.insert(out.triangles.end(), {a, b, d, a, d, c});
+    }
+  }
+  return out;
+}
+
+void run_links_on(const Mesh& mesh, const Run& run, Report* report, nlohmann::json& row) {
+  const Solver solver(with_square(mesh), own_defaults(run.threads));
+  const uint32_t count = mesh.vertex_count(), none = HF_NO_INDEX;
+  Sites(solver).edit(scattered_vertices(count, 10, 21), {});
+  std::vector<float> field;
+  solver.solve(field);
+  std::vector<double> more, in, out, bytes;
+  const hf_link made_with = {count, {0, none, none}, {1, 0, 0}, 0, 1, 0, 0};
+  hf_links_desc list = HF_INIT(hf_links_desc);
+  list.mode = HF_LINK_LIST;
+  list.link_count = 1;
+  list.links = &made_with;
+  hf_surface whole = nullptr;
+  check(hf_surface_relink(solver.surface(), &list, nullptr, &whole));
+  hf_solver on_whole = nullptr;
+  check(hf_solver_clone(solver.handle(), &on_whole));
+  check(hf_solver_move_to(on_whole, whole));
+  for (uint32_t r = 0; r < 5 * run.repetitions; ++r) {
+    const uint32_t there = scattered_vertices(count, 1, 100 + r)[0];
+    hf_solver copy = nullptr;
+    check(hf_solver_clone(solver.handle(), &copy));
+    const double value = 0.5;
+    hf_sites_desc site = HF_INIT(hf_sites_desc);
+    site.site_count = 1;
+    site.vertices = &there;
+    site.values = &value;
+    uint32_t number = 0;
+    more.push_back(time_ms([&] {
+      check(hf_add_sites(copy, &site, &number));
+      check(hf_solve(copy, field.data(), 0, nullptr));
+    }));
+    hf_solver_destroy(copy);
+    check(hf_solver_clone(solver.handle(), &copy));
+    const hf_link link = {count + r, {there, none, none}, {1, 0, 0}, 0, 1, 0, 0};
+    hf_surface held = nullptr, dropped = nullptr;
+    const double before = solver.surface_statistics().memory_bytes;
+    const double edit_ms = time_ms([&] { held = linked(solver.surface(), &link, nullptr); });
+    bytes.push_back(solver.surface_statistics().memory_bytes - before);
+    in.push_back(edit_ms + time_ms([&] {
+                   check(hf_solver_move_to(copy, held));
+                   check(hf_solve(copy, field.data(), 0, nullptr));
+                 }));
+    hf_solver_destroy(copy);
+    check(hf_solver_clone(on_whole, &copy));
+    const uint32_t first = 0;
+    out.push_back(time_ms([&] {
+      dropped = linked(whole, nullptr, &first);
+      check(hf_solver_move_to(copy, dropped));
+      check(hf_solve(copy, field.data(), 0, nullptr));
+    }));
+    hf_solver_destroy(copy);
+    hf_surface_destroy(held);
+    hf_surface_destroy(dropped);
+  }
+  hf_solver_destroy(on_whole);
+  hf_surface_destroy(whole);
+  const double share = median(bytes) / solver.surface_statistics().memory_bytes;
+  std::printf("%-16s a site more and the field %6.2f ms, a link in %6.2f = %.2fx, out %6.2f = %.2fx; memory %4.1f %%\n",
+              mesh.name.c_str(), median(more), median(in), median(in) / median(more), median(out),
+              median(out) / median(more), 100 * share);
+  row["site_ms"] = median(more);
+  row["link_in_ms"] = median(in);
+  row["link_out_ms"] = median(out);
+  if (!report) return;
+  report->measure("link_in", mesh.name, run.threads, median(in) / median(more));
+  report->measure("link_out", mesh.name, run.threads, median(out) / median(more));
+  report->measure("link_memory", mesh.name, run.threads, share);
 }
 
 nlohmann::json run_edits_on(const Mesh& mesh, const Run& run, Report* report) {
@@ -92,6 +190,7 @@ nlohmann::json run_edits_on(const Mesh& mesh, const Run& run, Report* report) {
     report->measure("edit_100_fresh", mesh.name, run.threads, median(fresh) / median(wholes));
     report->measure("edit_100_memory", mesh.name, run.threads, share);
   }
+  run_links_on(mesh, run, report, row);
   return row;
 }
 

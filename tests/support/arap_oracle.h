@@ -30,7 +30,7 @@ class ArapOracle {
 
   // One iteration on positions in the mesh's own unit; the fixed ones stay.
   void iterate(std::vector<hf_inner::Vec3>& x) {
-    const hf_inner::Topology& topology = core_.topology;
+    const hf_inner::Topology& topology = core_.topology();
     const auto& p = core_.mesh.positions;
     before_ = rotation_;
     hf_inner::for_vertex_pieces(*core_.jobs, core_.size(), [&](std::int32_t first, std::int32_t last) {
@@ -38,7 +38,7 @@ class ArapOracle {
         hf_inner::Mat3 s;
         hf_inner::add_ring(core_, rest_, x.data(), v, s);
         for (std::int32_t k = topology.neighbour_start[v]; smoothness_ > 0 && k < topology.neighbour_start[v + 1]; ++k)
-          s = s + smoothness_ * core_.weights[topology.neighbour_edge[k]] *
+          s = s + smoothness_ * core_.weights()[topology.neighbour_edge[k]] *
                       before_[topology.neighbour[k]].toRotationMatrix();
         rotation_[v] = hf_inner::best_rotation_from(s, rotation_[v]);
       }
@@ -51,7 +51,7 @@ class ArapOracle {
           const hf_inner::Mat3 own = rotation_[v].toRotationMatrix();
           for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
             const std::int32_t u = topology.neighbour[k];
-            const double w = core_.weights[topology.neighbour_edge[k]];
+            const double w = core_.weights()[topology.neighbour_edge[k]];
             const hf_inner::Mat3 r = own + rotation_[u].toRotationMatrix();
             sum = sum + 0.5 * w * (r * (p[v] - p[u]));
             if (fixed_[u]) sum = sum + w * x[u];

@@ -34,7 +34,7 @@ inline void expect_manifold(const hf_inner::Core& core, const hf_inner::QuadMesh
   }
   ASSERT_EQ(static_cast<std::int32_t>(used.size()), mesh.position.size()) << what;
   const std::int64_t surface =
-      std::int64_t{core.mesh.vertex_count()} - core.topology.edge_count() + core.mesh.triangle_count();
+      std::int64_t{core.mesh.vertex_count()} - core.topology().edge_count() + core.mesh.triangle_count();
   EXPECT_EQ(mesh.position.size() - edges / 2 + mesh.face_count(), surface) << what;
   EXPECT_EQ(borders > 0, core.mesh.report.boundary_edge_count > 0) << what;
 }

@@ -2603,24 +2603,36 @@ namespace Hf
             }
         }
 
-        /// <summary>Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the
-        /// factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do.
-        /// The library factorises again with the same ordering where that costs less, and for bi-harmonic fields. A
-        /// surface that is edited back has the fields of the old one.
+        /// <summary>Makes a surface with another stiffness or other links from a surface, which stays as it is. The new
+        /// surface shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its
+        /// rim, as sites do, and a link costs up to six paths. The library factorises again with the same ordering
+        /// where that costs less, and for bi-harmonic fields. A surface that is edited back has the fields of the
+        /// old one.
         ///
         /// Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100
         /// or more. Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not
-        /// change, so regions, transfers, distances, directions and quads do not see stiffness. Solver.MoveTo and
-        /// Pose.MoveTo take sites and handles along. Soft sites keep the unit of their stiffness. Surface.Save is
-        /// refused: save the factor of the surface before its edits. Memory limits hold for both surfaces together.
+        /// change, so regions, transfers, distances, directions and quads do not see stiffness.
+        ///
+        /// A link joins two pieces, and removing the last link between two pieces parts them: a sword that is taken
+        /// up and dropped. The new surface is the one that Surface.Relink makes of the same list of links.
+        /// Surface.Components gives the new components. Light pieces and contacts stay as they are.
+        ///
+        /// Solver.MoveTo and Pose.MoveTo take sites and handles along. Soft sites keep the unit of their stiffness
+        /// while links stay; other links change it as they do for Surface.Relink. Surface.Save is refused: save the
+        /// factor of the surface before its edits. Memory limits hold for both surfaces together.
         ///
         /// vertices: [vertexCount] as given; the others keep what they have. null: all vertices in order
-        /// stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one
+        /// stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. null: no
+        ///     stiffness changes, and vertex_count is 0
+        /// links: [linkCount] links that come in, after those that stay
+        /// removedLinks: [removedLinkCount] links that go out, by their numbers in Surface.Links
         /// progress: an object to poll and cancel through
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT,
-        /// HF_ERROR_NON_FINITE, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE.</summary>
-        public Surface Edit(uint[] vertices = null, double[] stiffness = null, Progress progress = null)
+        /// HF_ERROR_NON_FINITE, HF_ERROR_NOT_FOUND, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE,
+        /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
+        public Surface Edit(uint[] vertices = null, double[] stiffness = null, Link[] links = null,
+                uint[] removedLinks = null, Progress progress = null)
         {
             using (var c = new Call(this))
             {
@@ -2628,8 +2640,14 @@ namespace Hf
                 hf_surface_edit_desc* desc = &descStruct;
                 desc->vertices = (IntPtr)c.Array(vertices, "vertices", "list_vertex_count");
                 desc->stiffness = (IntPtr)c.Array(stiffness, "stiffness", "list_vertex_count");
+                var linksRows = (hf_link*)c.Given(links, "links", sizeof(hf_link), "list_link_count");
+                for (int i = 0; links != null && i < links.Length; ++i) links[i].Write(c, linksRows + i);
+                desc->links = (IntPtr)linksRows;
+                desc->removed_links = (IntPtr)c.Array(removedLinks, "removedLinks", "list_removed_link_count");
                 desc->progress = c.Handle(progress);
                 desc->vertex_count = (uint)c.Count("list_vertex_count", 0);
+                desc->link_count = (uint)c.Count("list_link_count", 0);
+                desc->removed_link_count = (uint)c.Count("list_removed_link_count", 0);
                 var raw = (IntPtr*)c.New(sizeof(IntPtr));
                 HfException.Check(Functions.hf_surface_edit(RawHandle, desc, raw));
                 var made = new Surface();
@@ -3040,7 +3058,8 @@ namespace Hf
 
         /// <summary>Moves a solver to an edited surface: its sites keep their numbers, values and screening.
         ///
-        /// surface: made by Surface.Edit from the solver's surface, or the other way round, in any number of steps.
+        /// surface: made by Surface.Edit or Surface.Relink from the solver's surface, or the other way round, in
+        ///     any number of steps.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.</summary>
         public void MoveTo(Surface surface)
@@ -4195,9 +4214,10 @@ namespace Hf
         }
 
         /// <summary>Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The
-        /// next Pose.Deform shows the surface with its new stiffness.
+        /// next Pose.Deform shows the surface with its new stiffness and links.
         ///
-        /// surface: made by Surface.Edit from the pose's surface, or the other way round, in any number of steps.
+        /// surface: made by Surface.Edit or Surface.Relink from the pose's surface, or the other way round, in any
+        ///     number of steps.
         ///
         /// Throws HF_ERROR_CONFLICT.</summary>
         public void MoveTo(Surface surface)

@@ -408,6 +408,10 @@ namespace Hf.Native
         public uint vertex_count;
         public IntPtr vertices;
         public IntPtr stiffness;
+        public uint link_count;
+        public uint removed_link_count;
+        public IntPtr links;
+        public IntPtr removed_links;
         public IntPtr progress;
     }
 

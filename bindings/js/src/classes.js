@@ -83,13 +83,17 @@ export function makeClasses({ Handle, Recorded, Call, bare, call, direct, handle
   };
 
   const surfaceEditDesc = (c, prefix, options) => {
-    const { vertices = null, stiffness = null, progress = null, ...more } = options;
+    const { vertices = null, stiffness = null, links = null, removedLinks = null, progress = null, ...more } = options;
     none(more);
     const desc = c.struct('hf_surface_edit_desc', {});
     desc.set('vertices', c.array('vertices', vertices, 'u4', [prefix + 'vertex_count']));
     desc.set('stiffness', c.array('stiffness', stiffness, 'f8', [prefix + 'vertex_count']));
+    desc.set('links', c.rows('links', links, [prefix + 'link_count'], (row) => c.struct('hf_link', row)));
+    desc.set('removed_links', c.array('removedLinks', removedLinks, 'u4', [prefix + 'removed_link_count']));
     desc.set('progress', handleOf(progress, Progress, 'progress') || null);
     desc.set('vertex_count', (c.n[prefix + 'vertex_count'] ??= 0));
+    desc.set('link_count', (c.n[prefix + 'link_count'] ??= 0));
+    desc.set('removed_link_count', (c.n[prefix + 'removed_link_count'] ??= 0));
     return desc;
   };
 

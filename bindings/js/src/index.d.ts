@@ -1307,25 +1307,35 @@ export interface Surface extends Handle {
    */
   relink(options?: { joints?: Rows | null; weights?: Rows | null; jointParents?: Rows | null; tags?: Rows | null; links?: Rows | null; lightVertices?: Rows | null; heavyVertices?: Rows | null; mode?: number; distance?: number; stiffness?: number; overlayDistance?: number; progress?: Progress | null }): Surface;
   /**
-   * Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the
-   * factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do. The
-   * library factorises again with the same ordering where that costs less, and for bi-harmonic fields. A surface
-   * that is edited back has the fields of the old one.
+   * Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface
+   * shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites
+   * do, and a link costs up to six paths. The library factorises again with the same ordering where that costs
+   * less, and for bi-harmonic fields. A surface that is edited back has the fields of the old one.
    *
    * Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or
    * more. Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so
-   * regions, transfers, distances, directions and quads do not see stiffness. Solver.moveTo and Pose.moveTo take
-   * sites and handles along. Soft sites keep the unit of their stiffness. Surface.save is refused: save the factor
-   * of the surface before its edits. Memory limits hold for both surfaces together.
+   * regions, transfers, distances, directions and quads do not see stiffness.
+   *
+   * A link joins two pieces, and removing the last link between two pieces parts them: a sword that is taken up
+   * and dropped. The new surface is the one that Surface.relink makes of the same list of links.
+   * Surface.components gives the new components. Light pieces and contacts stay as they are.
+   *
+   * Solver.moveTo and Pose.moveTo take sites and handles along. Soft sites keep the unit of their stiffness while
+   * links stay; other links change it as they do for Surface.relink. Surface.save is refused: save the factor of
+   * the surface before its edits. Memory limits hold for both surfaces together.
    *
    * vertices: [vertexCount] as given; the others keep what they have. null: all vertices in order
-   * stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one
+   * stiffness: [vertexCount] 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. null: no stiffness
+   *     changes, and vertex_count is 0
+   * links: [linkCount] links that come in, after those that stay
+   * removedLinks: [removedLinkCount] links that go out, by their numbers in Surface.links
    * progress: an object to poll and cancel through
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_EMPTY, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE,
-   * HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE.
+   * HF_ERROR_NOT_FOUND, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_OUT_OF_RANGE, HF_ERROR_TOO_LARGE,
+   * HF_ERROR_UNSUPPORTED.
    */
-  edit(options?: { vertices?: Rows | null; stiffness?: Rows | null; progress?: Progress | null }): Surface;
+  edit(options?: { vertices?: Rows | null; stiffness?: Rows | null; links?: Rows | null; removedLinks?: Rows | null; progress?: Progress | null }): Surface;
   /** Writes the stiffness of every vertex of your mesh, and 1 for isolated vertices. */
   stiffness(): Float64Array;
   /** Writes the statistics of a surface and of the factor it was made with. */
@@ -1516,7 +1526,8 @@ export interface Solver extends Recorded {
   /**
    * Moves a solver to an edited surface: its sites keep their numbers, values and screening.
    *
-   * surface: made by Surface.edit from the solver's surface, or the other way round, in any number of steps.
+   * surface: made by Surface.edit or Surface.relink from the solver's surface, or the other way round, in any
+   *     number of steps.
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.
    */
@@ -1893,9 +1904,10 @@ export interface Pose extends Recorded {
   clone(): Pose;
   /**
    * Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
-   * Pose.deform shows the surface with its new stiffness.
+   * Pose.deform shows the surface with its new stiffness and links.
    *
-   * surface: made by Surface.edit from the pose's surface, or the other way round, in any number of steps.
+   * surface: made by Surface.edit or Surface.relink from the pose's surface, or the other way round, in any number
+   *     of steps.
    *
    * Throws HF_ERROR_CONFLICT.
    */

@@ -351,12 +351,16 @@ export const layouts = {
     contact_vertex: ['u32', [40, 40], 0],
     reserved: ['u32', [44, 44], 0],
   } },
-  hf_surface_edit_desc: { size: [20, 32], fields: {
+  hf_surface_edit_desc: { size: [36, 56], fields: {
     struct_size: ['u32', [0, 0], 0],
     vertex_count: ['u32', [4, 4], 0],
     vertices: ['ptr', [8, 8], 0],
     stiffness: ['ptr', [12, 16], 0],
-    progress: ['ptr', [16, 24], 0],
+    link_count: ['u32', [16, 24], 0],
+    removed_link_count: ['u32', [20, 28], 0],
+    links: ['ptr', [24, 32], 0],
+    removed_links: ['ptr', [28, 40], 0],
+    progress: ['ptr', [32, 48], 0],
   } },
   hf_surface_statistics: { size: [112, 112], fields: {
     struct_size: ['u32', [0, 0], 0],

@@ -738,12 +738,17 @@ def _graph_desc(c: Call, prefix: str = '', *, edges: Optional[ArrayLike] = None,
 
 
 def _surface_edit_desc(c: Call, prefix: str = '', *, vertices: Optional[ArrayLike] = None,
-        stiffness: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> Any:
+        stiffness: Optional[ArrayLike] = None, links: Optional[ArrayLike] = None,
+        removed_links: Optional[ArrayLike] = None, progress: Optional[Progress] = None) -> Any:
     desc = c.struct(_raw.hf_surface_edit_desc, {})
     desc.vertices = c.array('vertices', vertices, 'u4', (prefix + 'vertex_count',))
     desc.stiffness = c.array('stiffness', stiffness, 'f8', (prefix + 'vertex_count',))
+    desc.links = c.written('links', links, _raw.hf_link, (prefix + 'link_count',))
+    desc.removed_links = c.array('removed_links', removed_links, 'u4', (prefix + 'removed_link_count',))
     desc.progress = handle_of(progress, Progress, 'progress')
     desc.vertex_count = c.n.setdefault(prefix + 'vertex_count', 0)
+    desc.link_count = c.n.setdefault(prefix + 'link_count', 0)
+    desc.removed_link_count = c.n.setdefault(prefix + 'removed_link_count', 0)
     return desc
 
 
@@ -1363,28 +1368,39 @@ class Surface(Object):
         made._own('hf_surface_relink', c, self._handle, ref(desc), handle_of(progress, Progress, 'progress'))
         return made
 
-    def edit(self, vertices: Optional[ArrayLike] = None, stiffness: Optional[ArrayLike] = None, *,
+    def edit(self, vertices: Optional[ArrayLike] = None, stiffness: Optional[ArrayLike] = None,
+            links: Optional[ArrayLike] = None, removed_links: Optional[ArrayLike] = None, *,
             progress: Optional[Progress] = None) -> "Surface":
-        """Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the
-        factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do. The
-        library factorises again with the same ordering where that costs less, and for bi-harmonic fields. A surface
-        that is edited back has the fields of the old one.
+        """Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface
+        shares the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites
+        do, and a link costs up to six paths. The library factorises again with the same ordering where that costs
+        less, and for bi-harmonic fields. A surface that is edited back has the fields of the old one.
 
         Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or
         more. Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so
-        regions, transfers, distances, directions and quads do not see stiffness. Solver.move_to and Pose.move_to take
-        sites and handles along. Soft sites keep the unit of their stiffness. Surface.save is refused: save the factor
-        of the surface before its edits. Memory limits hold for both surfaces together.
+        regions, transfers, distances, directions and quads do not see stiffness.
+
+        A link joins two pieces, and removing the last link between two pieces parts them: a sword that is taken up
+        and dropped. The new surface is the one that Surface.relink makes of the same list of links.
+        Surface.components gives the new components. Light pieces and contacts stay as they are.
+
+        Solver.move_to and Pose.move_to take sites and handles along. Soft sites keep the unit of their stiffness
+        while links stay; other links change it as they do for Surface.relink. Surface.save is refused: save the
+        factor of the surface before its edits. Memory limits hold for both surfaces together.
 
         vertices: (vertex_count,) as given; the others keep what they have. None: all vertices in order
-        stiffness: (vertex_count,) 1e-4 to 1e4; 1: as the surface was made. Welded copies share one
+        stiffness: (vertex_count,) 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. None: no
+            stiffness changes, and vertex_count is 0
+        links: (link_count,) links that come in, after those that stay
+        removed_links: (removed_link_count,) links that go out, by their numbers in Surface.links
         progress: an object to poll and cancel through
 
-        Raises CancelledError, ConflictError, EmptyError, InvalidArgumentError, NonFiniteError,
-        NotPositiveDefiniteError, OutOfRangeError.
+        Raises CancelledError, ConflictError, EmptyError, InvalidArgumentError, NonFiniteError, NotFoundError,
+        NotPositiveDefiniteError, OutOfRangeError, TooLargeError, UnsupportedError.
         """
         c = Call(self)
-        desc = _surface_edit_desc(c, 'list_', vertices=vertices, stiffness=stiffness, progress=progress)
+        desc = _surface_edit_desc(c, 'list_', vertices=vertices, stiffness=stiffness, links=links,
+                removed_links=removed_links, progress=progress)
         made = type(self).__new__(type(self))
         c.n.update(self._n)
         made._own('hf_surface_edit', c, self._handle, ref(desc))
@@ -1670,7 +1686,8 @@ class Solver(Recorded):
     def move_to(self, surface: Surface) -> None:
         """Moves a solver to an edited surface: its sites keep their numbers, values and screening.
 
-        surface: made by Surface.edit from the solver's surface, or the other way round, in any number of steps.
+        surface: made by Surface.edit or Surface.relink from the solver's surface, or the other way round, in any
+            number of steps.
 
         Raises CancelledError, ConflictError, UnsupportedError.
         """
@@ -2272,9 +2289,10 @@ class Pose(Recorded):
 
     def move_to(self, surface: Surface) -> None:
         """Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
-        Pose.deform shows the surface with its new stiffness.
+        Pose.deform shows the surface with its new stiffness and links.
 
-        surface: made by Surface.edit from the pose's surface, or the other way round, in any number of steps.
+        surface: made by Surface.edit or Surface.relink from the pose's surface, or the other way round, in any number
+            of steps.
 
         Raises ConflictError.
         """

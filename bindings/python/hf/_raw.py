@@ -470,14 +470,19 @@ class hf_gaps_info(Struct):
 
 
 class hf_surface_edit_desc(Struct):
-    """What hf_surface_edit changes."""
+    """What hf_surface_edit changes"""
     struct_size: int
     vertex_count: int
     vertices: int
     stiffness: int
+    link_count: int
+    removed_link_count: int
+    links: int
+    removed_links: int
     progress: int
     _fields_ = [("struct_size", c_uint32), ("vertex_count", c_uint32), ("vertices", c_void_p), ("stiffness",
-                c_void_p), ("progress", c_void_p)]
+                c_void_p), ("link_count", c_uint32), ("removed_link_count", c_uint32), ("links", c_void_p),
+                ("removed_links", c_void_p), ("progress", c_void_p)]
 
 
 class hf_surface_statistics(Struct):

@@ -260,16 +260,21 @@ impl<'a> GraphOptions<'a> {
     }
 }
 
-/// What `Surface::edit` changes. The stiffness of a vertex is a number by which the weights of its edges are multiplied:
-/// an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A region of large stiffness bends
-/// and stretches little and hardly changes its surroundings: a belt, a shield, a shell. A region of small stiffness takes
-/// up the bending around it.
+/// What `Surface::edit` changes: stiffness, links, or both. The stiffness of a vertex is a number by which the weights of
+/// its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A region
+/// of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a shell. A region
+/// of small stiffness takes up the bending around it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceEdit<'a> {
     /// `[vertex_count]` as given; the others keep what they have. `None`: all vertices in order
     pub vertices: Option<&'a [u32]>,
-    /// `[vertex_count]` 1e-4 to 1e4; 1: as the surface was made. Welded copies share one
+    /// `[vertex_count]` 1e-4 to 1e4; 1: as the surface was made. Welded copies share one. `None`: no stiffness changes,
+    /// and vertex_count is 0
     pub stiffness: Option<&'a [f64]>,
+    /// `[link_count]` links that come in, after those that stay
+    pub links: Option<&'a [raw::hf_link]>,
+    /// `[removed_link_count]` links that go out, by their numbers in `Surface::links`
+    pub removed_links: Option<&'a [u32]>,
     /// `None`, or an object to poll and cancel through
     pub progress: Option<&'a Progress>,
 }
@@ -278,8 +283,12 @@ impl<'a> SurfaceEdit<'a> {
         let mut desc = raw::hf_surface_edit_desc { ..Default::default() };
         desc.vertices = c.array(self.vertices, "vertices", &[&format!("{prefix}vertex_count")])?;
         desc.stiffness = c.array(self.stiffness, "stiffness", &[&format!("{prefix}vertex_count")])?;
+        desc.links = c.array(self.links, "links", &[&format!("{prefix}link_count")])?;
+        desc.removed_links = c.array(self.removed_links, "removed_links", &[&format!("{prefix}removed_link_count")])?;
         desc.progress = self.progress.map_or(std::ptr::null_mut(), |o| o.handle);
         desc.vertex_count = c.count(&format!("{prefix}vertex_count"), 0)?;
+        desc.link_count = c.count(&format!("{prefix}link_count"), 0)?;
+        desc.removed_link_count = c.count(&format!("{prefix}removed_link_count"), 0)?;
         Ok(desc)
     }
 }
@@ -1754,20 +1763,27 @@ impl Surface {
         Ok(Surface { handle: handle_, counts: c.counts(&["vertex_count"]) })
     }
 
-    /// Makes a surface with another stiffness from a surface, which stays as it is. The new surface shares the factor: an
-    /// edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do. The library factorises
-    /// again with the same ordering where that costs less, and for bi-harmonic fields. A surface that is edited back has
-    /// the fields of the old one.
+    /// Makes a surface with another stiffness or other links from a surface, which stays as it is. The new surface shares
+    /// the factor: an edit of up to a few thousand vertices costs the elimination paths of its rim, as sites do, and a
+    /// link costs up to six paths. The library factorises again with the same ordering where that costs less, and for bi-
+    /// harmonic fields. A surface that is edited back has the fields of the old one.
     ///
     /// Fields, poses and weights follow the stiffness. A pose keeps lengths to 0.1 % where the stiffness is 100 or more.
     /// Bi-harmonic operators square it, so they count at most 100 and at least 0.01. Lengths do not change, so regions,
-    /// transfers, distances, directions and quads do not see stiffness. `Solver::move_to` and `Pose::move_to` take sites
-    /// and handles along. Soft sites keep the unit of their stiffness. `Surface::save` is refused: save the factor of the
-    /// surface before its edits. Memory limits hold for both surfaces together.
+    /// transfers, distances, directions and quads do not see stiffness.
+    ///
+    /// A link joins two pieces, and removing the last link between two pieces parts them: a sword that is taken up and
+    /// dropped. The new surface is the one that `Surface::relink` makes of the same list of links. `Surface::components`
+    /// gives the new components. Light pieces and contacts stay as they are.
+    ///
+    /// `Solver::move_to` and `Pose::move_to` take sites and handles along. Soft sites keep the unit of their stiffness
+    /// while links stay; other links change it as they do for `Surface::relink`. `Surface::save` is refused: save the
+    /// factor of the surface before its edits. Memory limits hold for both surfaces together.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_EMPTY`],
-    /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`],
-    /// [`raw::HF_ERROR_OUT_OF_RANGE`].
+    /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`],
+    /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
+    /// [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn edit(&self, options: &SurfaceEdit) -> Result<Self> {
         let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let desc = options.fill(&mut c, "list_")?;
@@ -2067,7 +2083,8 @@ impl Solver {
 
     /// Moves a solver to an edited surface: its sites keep their numbers, values and screening.
     ///
-    /// surface: made by `Surface::edit` from the solver's surface, or the other way round, in any number of steps.
+    /// surface: made by `Surface::edit` or `Surface::relink` from the solver's surface, or the other way round, in any
+    /// number of steps.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn move_to(&mut self, surface: &Surface) -> Result<()> {
@@ -2797,9 +2814,10 @@ impl Pose {
     }
 
     /// Moves a pose to an edited surface: its handles keep their numbers, layers, transforms and options. The next
-    /// Pose.deform shows the surface with its new stiffness.
+    /// Pose.deform shows the surface with its new stiffness and links.
     ///
-    /// surface: made by `Surface::edit` from the pose's surface, or the other way round, in any number of steps.
+    /// surface: made by `Surface::edit` or `Surface::relink` from the pose's surface, or the other way round, in any
+    /// number of steps.
     ///
     /// Fails with [`raw::HF_ERROR_CONFLICT`].
     pub fn move_to(&mut self, surface: &Surface) -> Result<()> {

@@ -484,7 +484,7 @@ pub struct hf_gaps_info {
     pub reserved: u32,
 }
 
-/// What hf_surface_edit changes.
+/// What hf_surface_edit changes
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_surface_edit_desc {
@@ -492,6 +492,10 @@ pub struct hf_surface_edit_desc {
     pub vertex_count: u32,
     pub vertices: *const u32,
     pub stiffness: *const f64,
+    pub link_count: u32,
+    pub removed_link_count: u32,
+    pub links: *const hf_link,
+    pub removed_links: *const u32,
     pub progress: hf_progress,
 }
 

@@ -294,8 +294,8 @@ TEST(Bands, AreSplitByConnectedComponent) {
       const std::int32_t v = stack.back();
       stack.pop_back();
       ++reached;
-      for (std::int32_t k = core->topology.neighbour_start[v]; k < core->topology.neighbour_start[v + 1]; ++k) {
-        const std::int32_t u = core->topology.neighbour[k];
+      for (std::int32_t k = core->topology().neighbour_start[v]; k < core->topology().neighbour_start[v + 1]; ++k) {
+        const std::int32_t u = core->topology().neighbour[k];
         if (member[u]) {
           member[u] = 0;
           stack.push_back(u);

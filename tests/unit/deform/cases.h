@@ -292,20 +292,20 @@ inline std::vector<double> mean_curvature(const hf_inner::Mesh& mesh, const std:
 
 inline double arap_energy(const hf_inner::Core& core, const std::vector<Vec3>& rest_positions,
                           const std::vector<Vec3>& x) {
-  const hf_inner::Topology& topology = core.topology;
+  const hf_inner::Topology& topology = core.topology();
   double sum = 0;
   for (std::int32_t v = 0; v < core.size(); ++v) {
     hf_inner::Mat3 s;
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
-      hf_inner::add_outer(s, std::max(core.weights[topology.neighbour_edge[k]], 0.01), x[v] - x[u],
+      hf_inner::add_outer(s, std::max(core.weights()[topology.neighbour_edge[k]], 0.01), x[v] - x[u],
                           rest_positions[v] - rest_positions[u]);
     }
     const hf_inner::Quaternion r = hf_inner::best_rotation(s, {});
     for (std::int32_t k = topology.neighbour_start[v]; k < topology.neighbour_start[v + 1]; ++k) {
       const std::int32_t u = topology.neighbour[k];
       const Vec3 d = x[v] - x[u] - hf_inner::rotate(r, rest_positions[v] - rest_positions[u]);
-      sum += std::max(core.weights[topology.neighbour_edge[k]], 0.01) * hf_inner::dot(d, d);
+      sum += std::max(core.weights()[topology.neighbour_edge[k]], 0.01) * hf_inner::dot(d, d);
     }
   }
   return sum;
@@ -313,7 +313,7 @@ inline double arap_energy(const hf_inner::Core& core, const std::vector<Vec3>& r
 
 inline Quality measure(const hf_inner::Core& core, const std::vector<Vec3>& x) {
   const hf_inner::Mesh& mesh = core.mesh;
-  const hf_inner::Topology& topology = core.topology;
+  const hf_inner::Topology& topology = core.topology();
   const std::vector<Vec3> p = rest(core);
   Quality q;
   q.energy = arap_energy(core, p, x);

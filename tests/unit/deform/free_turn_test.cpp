@@ -134,8 +134,8 @@ class Energy {
  private:
   template <class Use>
   void for_edges(Use&& use) const {
-    for (std::int32_t e = 0; e < core_.topology.edge_count(); ++e) {
-      const std::int32_t i = core_.topology.first(e), j = core_.topology.second(e);
+    for (std::int32_t e = 0; e < core_.topology().edge_count(); ++e) {
+      const std::int32_t i = core_.topology().first(e), j = core_.topology().second(e);
       const double close = std::max(close_[i], close_[j]);
       use(i, j, rest_.stiffness[e] * (1 + gain_ * std::pow(close, 4)));
     }

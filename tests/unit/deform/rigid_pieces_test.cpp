@@ -74,8 +74,8 @@ struct Scene {
   double stretch(const Surface& x) const {
     const Geometry& plain = core->geometry->unlinked();
     double most = 0;
-    for (std::int32_t e = 0; e < plain.topology.edge_count(); ++e) {
-      const std::int32_t i = plain.topology.first(e), j = plain.topology.second(e);
+    for (std::int32_t e = 0; e < plain.topology().edge_count(); ++e) {
+      const std::int32_t i = plain.topology().first(e), j = plain.topology().second(e);
       const Vec3 p = core->mesh.to_given(core->mesh.positions[i]), q = core->mesh.to_given(core->mesh.positions[j]);
       if (p.y > 0.402 && q.y > 0.402) most = std::max(most, std::fabs(norm(x[i] - x[j]) / norm(p - q) - 1));
     }
@@ -205,7 +205,7 @@ TEST(RigidPieces, EveryPieceIsMadeRigid) {
     x.push_back({p.x, p.y + 0.1 * p.x * p.x, p.z});
   }
   pieces.make_rigid(x.data(), scratch.data());
-  const Topology& edges = scene.core->geometry->unlinked().topology;
+  const Topology& edges = scene.core->geometry->unlinked().topology();
   for (std::int32_t e = 0; e < edges.edge_count(); ++e) {
     const std::int32_t i = edges.first(e), j = edges.second(e);
     EXPECT_NEAR(norm(x[i] - x[j]), norm(mesh.to_given(mesh.positions[i]) - mesh.to_given(mesh.positions[j])), 1e-9);

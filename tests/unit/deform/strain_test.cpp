@@ -126,7 +126,7 @@ void expect_equilibrium(const Case& c, double border_stiffness) {
   Dragged d = drag(c, {}, 10, 5);
   for (int i = 0; i < 20; ++i) d.report = d.pose->deform({});
   const Core& core = *d.core;
-  const Topology& topology = core.topology;
+  const Topology& topology = core.topology();
   ASSERT_LT(topology.edge_count(), 50000) << "all edges must be in the sum";
   const ClusterWeights& weights = *d.pose->weights();
   const Rest& rest = d.pose->rest();

@@ -50,9 +50,9 @@ TEST(Curve, PathsAreAsShortAsCanBe) {
   const auto edge = [&](std::size_t a, std::size_t b) {
     return norm(core->mesh.positions[a] - core->mesh.positions[b]);
   };
-  for (std::int32_t e = 0; e < core->topology.edge_count(); ++e) {
-    const std::size_t a = static_cast<std::size_t>(core->topology.first(e)),
-                      b = static_cast<std::size_t>(core->topology.second(e));
+  for (std::int32_t e = 0; e < core->topology().edge_count(); ++e) {
+    const std::size_t a = static_cast<std::size_t>(core->topology().first(e)),
+                      b = static_cast<std::size_t>(core->topology().second(e));
     d[a][b] = d[b][a] = edge(a, b);
   }
   for (std::size_t v = 0; v < n; ++v) d[v][v] = 0;

@@ -60,7 +60,7 @@ CurvePoint draw(const Core& core, std::mt19937& random) {
 TEST(SurfaceCurve, PathsAreShortestAndRunThroughTheirTriangles) {
   for (const PlainMesh& mesh : {torus(28, 18), plain(samples::sphere(3)), grid(12, 9)}) {
     const auto core = make_core(mesh);
-    const Topology& topology = core->geometry->unlinked().topology;
+    const Topology& topology = core->geometry->unlinked().topology();
     const TriangleSides sides(core->mesh, topology, *core->memory);
     std::mt19937 random(3);
     for (int round = 0; round < 60; ++round) {
@@ -143,8 +143,8 @@ TEST(SurfaceCurve, SidesAreThoseOfWindingNumbersInThePlane) {
           if (on[v] || in[v] == ((winding[v] & 1) == k)) continue;
           // A vertex that the region nearly surrounds joined it.
           int outside = 0;
-          for (std::int32_t i = core->topology.neighbour_start[v]; i < core->topology.neighbour_start[v + 1]; ++i)
-            outside += !in[static_cast<std::size_t>(core->topology.neighbour[static_cast<std::size_t>(i)])];
+          for (std::int32_t i = core->topology().neighbour_start[v]; i < core->topology().neighbour_start[v + 1]; ++i)
+            outside += !in[static_cast<std::size_t>(core->topology().neighbour[static_cast<std::size_t>(i)])];
           EXPECT_TRUE(in[v] && outside <= 1) << round << ": vertex " << v;
         }
       } catch (const Error& error) {

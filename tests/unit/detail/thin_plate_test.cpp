@@ -75,7 +75,7 @@ double crease(const RegionSurface& surface, const RegionState& state) {
     const std::int32_t* v = mesh.triangle(t);
     return unit_normal(cross(place(v[1]) - place(v[0]), place(v[2]) - place(v[0])));
   };
-  const Topology& topology = surface.core->topology;
+  const Topology& topology = surface.core->topology();
   double sum = 0, count = 0;
   for (std::size_t e = 0; e < static_cast<std::size_t>(topology.edge_count()); ++e) {
     const std::size_t first = static_cast<std::size_t>(topology.edge_triangle_start[e]);

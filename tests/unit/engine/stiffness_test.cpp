@@ -136,8 +136,8 @@ TEST(Stiffness, LargeStrokesHaveTheFieldsOfANewFactor) {
         std::make_shared<hf_inner::Vector<double>>(*stroke(*plain, nullptr, radius, 40, 5), plain->memory.get());
     ASSERT_GT(std::count(stiffness->begin(), stiffness->end(), 40.0), 800);
     for (std::size_t v = 0; v < stiffness->size(); v += 3) (*stiffness)[v] = (*stiffness)[v] == 40 ? 0.2 : 1;
-    const auto rows = hf_inner::edit_core(plain, stiffness, always_rows),
-               fresh = hf_inner::edit_core(plain, stiffness, never_rows);
+    const auto rows = hf_inner::edit_core(plain, {stiffness}, always_rows),
+               fresh = hf_inner::edit_core(plain, {stiffness}, never_rows);
     ASSERT_EQ(rows->factored, plain);
     const std::vector<double> a = field_of(rows), b = field_of(fresh);
     for (std::size_t v = 0; v < a.size(); ++v) ASSERT_NEAR(a[v], b[v], 1e-11) << v;
@@ -163,7 +163,7 @@ TEST(Stiffness, ManyStrokesLoseNoDigits) {
     }
   }
   EXPECT_EQ(factors, 3u);
-  EXPECT_EQ(hf_inner::edit_core(core, nullptr), first);
+  EXPECT_EQ(hf_inner::edit_core(core, {}), first);
 }
 
 // Ribbons whose fields lose digits, needles, books of sheets on one edge, holes, faults, and a doubled sheet.
@@ -184,8 +184,8 @@ TEST(Stiffness, HardMeshesAreEditedToo) {
     for (const double s : {0.01, 100.0, 1e4}) {
       Stiffness stiffness = stroke(*plain, nullptr, 0.1, s, 11);
       stiffness = stroke(*plain, stiffness, 0.07, 1 / s, 77);
-      const auto rows = hf_inner::edit_core(plain, stiffness, always_rows),
-                 fresh = hf_inner::edit_core(plain, stiffness, never_rows);
+      const auto rows = hf_inner::edit_core(plain, {stiffness}, always_rows),
+                 fresh = hf_inner::edit_core(plain, {stiffness}, never_rows);
       const double error = error_of(rows), least = error_of(fresh);
       EXPECT_LT(error, std::max(1e-10, 20 * least)) << i << " " << s << " fresh " << least;
     }

@@ -27,7 +27,7 @@ std::shared_ptr<const hf_inner::Core> bare(const PlainMesh& mesh) {
 
 CriticalPoints find(const hf_inner::Core& core, const std::vector<double>& field) {
   static hf_inner::Memory memory;  // outlives the core
-  return hf_inner::find_critical_points(core.mesh, core.topology, field, memory);
+  return hf_inner::find_critical_points(core.mesh, core.topology(), field, memory);
 }
 
 // index by the sign changes around the ring of an inner manifold vertex: 1 - changes / 2
@@ -256,8 +256,8 @@ std::vector<std::uint32_t> scattered_vertices(const hf_inner::Core& core, std::s
       return std::find(vertices.begin(), vertices.end(), w) != vertices.end();
     };
     bool free = !taken(v);
-    for (int i = core.topology.neighbour_start[v]; i < core.topology.neighbour_start[v + 1]; ++i)
-      free = free && !taken(static_cast<std::uint32_t>(core.topology.neighbour[static_cast<std::size_t>(i)]));
+    for (int i = core.topology().neighbour_start[v]; i < core.topology().neighbour_start[v + 1]; ++i)
+      free = free && !taken(static_cast<std::uint32_t>(core.topology().neighbour[static_cast<std::size_t>(i)]));
     if (free) vertices.push_back(v);
   }
   return vertices;

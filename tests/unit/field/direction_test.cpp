@@ -92,7 +92,7 @@ PlainMesh plate_with_holes(int holes) {
 }
 
 int euler_characteristic(const hf_inner::Core& core) {
-  return core.size() - core.topology.edge_count() + core.mesh.triangle_count();
+  return core.size() - core.topology().edge_count() + core.mesh.triangle_count();
 }
 
 TEST(Connection, curvature_of_a_closed_surface_sums_to_its_euler_characteristic) {
@@ -101,7 +101,7 @@ TEST(Connection, curvature_of_a_closed_surface_sums_to_its_euler_characteristic)
   for (const auto& [mesh, euler] : cases) {
     const auto core = hf_test::make_core(mesh);
     ASSERT_EQ(euler_characteristic(*core), euler);
-    const hf_inner::Connection connection = hf_inner::Connection::make(core->mesh, core->topology, *core->memory);
+    const hf_inner::Connection connection = hf_inner::Connection::make(core->mesh, core->topology(), *core->memory);
     EXPECT_EQ(connection.irregular_count, 0u);
     EXPECT_EQ(connection.closed[0], 1);
     double sum = 0;
@@ -112,11 +112,11 @@ TEST(Connection, curvature_of_a_closed_surface_sums_to_its_euler_characteristic)
       const std::int32_t* v = core->mesh.triangle(t);
       Complex trip = 1;
       for (int k = 0; k < 3; ++k) {
-        for (std::int32_t i = core->topology.neighbour_start[at(v[k])];
-             i < core->topology.neighbour_start[at(v[k]) + 1]; ++i) {
-          if (core->topology.neighbour[at(i)] == v[(k + 1) % 3])
-            trip *=
-                std::polar(1.0, connection.turn(core->topology, core->topology.neighbour_edge[at(i)], v[(k + 1) % 3]));
+        for (std::int32_t i = core->topology().neighbour_start[at(v[k])];
+             i < core->topology().neighbour_start[at(v[k]) + 1]; ++i) {
+          if (core->topology().neighbour[at(i)] == v[(k + 1) % 3])
+            trip *= std::polar(
+                1.0, connection.turn(core->topology(), core->topology().neighbour_edge[at(i)], v[(k + 1) % 3]));
         }
       }
       EXPECT_LE(std::abs(trip - std::polar(1.0, connection.curvature[at(t)])), 1e-12);
@@ -128,7 +128,7 @@ TEST(Connection, frames_are_tangent_and_right_handed_on_any_surface) {
   for (const auto& [name, mesh] : hf_test::dirty_meshes()) {
     SCOPED_TRACE(name);
     const auto core = hf_test::make_core(mesh);
-    const hf_inner::Connection c = hf_inner::Connection::make(core->mesh, core->topology, *core->memory);
+    const hf_inner::Connection c = hf_inner::Connection::make(core->mesh, core->topology(), *core->memory);
     for (std::size_t v = 0; v < c.x.size(); ++v) {
       EXPECT_NEAR(norm(c.normal[v]), 1, 1e-14);
       EXPECT_NEAR(norm(c.x[v]), 1, 1e-14);

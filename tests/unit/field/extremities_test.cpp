@@ -228,10 +228,10 @@ TEST(Peaks, have_the_persistence_that_flooding_from_the_top_finds) {
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), higher);
     for (const int v : order) {
-      const auto& start = core->topology.neighbour_start;
+      const auto& start = core->topology().neighbour_start;
       std::vector<int> around;
       for (int i = start[static_cast<std::size_t>(v)]; i < start[static_cast<std::size_t>(v) + 1]; ++i) {
-        const int w = core->topology.neighbour[static_cast<std::size_t>(i)];
+        const int w = core->topology().neighbour[static_cast<std::size_t>(i)];
         if (name[static_cast<std::size_t>(w)] >= 0) around.push_back(name[static_cast<std::size_t>(w)]);
       }
       std::sort(around.begin(), around.end(), higher);
@@ -247,7 +247,7 @@ TEST(Peaks, have_the_persistence_that_flooding_from_the_top_finds) {
       }
       name[static_cast<std::size_t>(v)] = around[0];
     }
-    const auto peaks = hf_inner::find_peaks(core->topology, u, *core->memory);
+    const auto peaks = hf_inner::find_peaks(core->topology(), u, *core->memory);
     ASSERT_EQ(peaks.size(), expected.size());
     for (const hf_inner::Peak& peak : peaks) EXPECT_EQ(peak.saddle, expected.at(peak.vertex)) << "peak " << peak.vertex;
   }

@@ -51,7 +51,7 @@ TEST(GeodesicDisc, is_exact_on_a_plane) {
   const std::int32_t point[3] = {middle, -1, -1};
   const double weight[3] = {1, 0, 0};
   const auto disc =
-      hf_inner::geodesic_disc(core->mesh, core->topology, point, weight, 2.0 / core->mesh.scale, *core->memory);
+      hf_inner::geodesic_disc(core->mesh, core->topology(), point, weight, 2.0 / core->mesh.scale, *core->memory);
   ASSERT_GT(disc.size(), 1000u);
   double last = 0;
   for (const hf_inner::DiscVertex& v : disc) {
@@ -74,7 +74,7 @@ TEST(GeodesicDisc, follows_great_circles_from_a_point_in_a_face) {
   }
   const double radius = norm(core->mesh.positions[0]);
   source = (radius / norm(source)) * source;
-  const auto disc = hf_inner::geodesic_disc(core->mesh, core->topology, point, weight, radius, *core->memory);
+  const auto disc = hf_inner::geodesic_disc(core->mesh, core->topology(), point, weight, radius, *core->memory);
   for (const hf_inner::DiscVertex& v : disc) {
     const double arc = radius * std::atan2(norm(cross(source, core->mesh.positions[at(v.vertex)])),
                                            dot(source, core->mesh.positions[at(v.vertex)]));

@@ -99,7 +99,7 @@ TEST(SpreadSamples, are_far_apart_cover_every_component_and_share_its_area) {
   hf_test::append(mesh, hf_test::grid(1, 1), 10);
   const auto core = hf_test::make_core(mesh);
   const auto areas = hf_inner::vertex_areas(core->mesh, *core->memory);
-  const auto samples = hf_inner::spread_samples(core->mesh, core->topology, areas, 12, *core->memory);
+  const auto samples = hf_inner::spread_samples(core->mesh, core->topology(), areas, 12, *core->memory);
   for (int c = 0; c < 2; ++c) {
     double sum = 0;
     std::vector<int> chosen;
@@ -190,9 +190,9 @@ std::vector<double> edge_distance(const hf_inner::Core& core, const std::vector<
   for (const std::int32_t s : sources) d[static_cast<std::size_t>(s)] = 0;
   for (bool again = true; again;) {
     again = false;
-    for (std::int32_t e = 0; e < core.topology.edge_count(); ++e) {
-      const std::size_t a = static_cast<std::size_t>(core.topology.first(e));
-      const std::size_t b = static_cast<std::size_t>(core.topology.second(e));
+    for (std::int32_t e = 0; e < core.topology().edge_count(); ++e) {
+      const std::size_t a = static_cast<std::size_t>(core.topology().first(e));
+      const std::size_t b = static_cast<std::size_t>(core.topology().second(e));
       const double length = norm(core.mesh.positions[a] - core.mesh.positions[b]);
       if (d[a] + length < d[b]) {
         d[b] = d[a] + length;
@@ -213,7 +213,7 @@ TEST(SpreadSamples, lie_as_far_apart_as_the_surface_is_from_them_by_patches_too)
   const PlainMesh mesh = hf_test::torus(125, 80);
   const auto core = hf_test::make_core(mesh);
   for (const std::int32_t count : {12, 30}) {
-    const auto samples = hf_inner::spread_samples(core->mesh, core->topology, core->areas, count, *core->memory);
+    const auto samples = hf_inner::spread_samples(core->mesh, core->topology(), core->areas, count, *core->memory);
     const std::vector<std::int32_t> chosen(samples.vertex.begin(), samples.vertex.end());
     const std::vector<double> nearest = edge_distance(*core, chosen);
     const double radius = *std::max_element(nearest.begin(), nearest.end());
@@ -239,7 +239,7 @@ TEST(SpreadSamples, share_out_the_area_of_every_vertex_of_a_patch) {
   hf_inner::Vector<double> areas(core->areas.size(), 0.0, core->memory.get());
   areas[1] = 2;  // beside the middle of the first patch
   double sum = 0;
-  for (const double share : hf_inner::spread_samples(core->mesh, core->topology, areas, 6, *core->memory).share)
+  for (const double share : hf_inner::spread_samples(core->mesh, core->topology(), areas, 6, *core->memory).share)
     sum += share;
   EXPECT_EQ(sum, 1);
 }
@@ -254,7 +254,7 @@ TEST(SpreadSamples, are_as_many_as_asked_for_around_a_vertex_of_ten_thousand_edg
     fan.triangles.insert(fan.triangles.end(), {0, i + 1, (i + 1) % around + 1});
   }
   const auto core = hf_test::make_core(fan);
-  const auto samples = hf_inner::spread_samples(core->mesh, core->topology, core->areas, 8, *core->memory);
+  const auto samples = hf_inner::spread_samples(core->mesh, core->topology(), core->areas, 8, *core->memory);
   double sum = 0;
   for (const double share : samples.share) sum += share;
   EXPECT_NEAR(sum, 1, 1e-12);

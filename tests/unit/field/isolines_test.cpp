@@ -34,10 +34,10 @@ struct Surface {
       triangles.insert(corners);
       for (int k = 0; k < 3; ++k) edges.insert({v[k], v[(k + 1) % 3]});
     }
-    for (int e = 0; e < core->topology.edge_count(); ++e) {
-      const auto& start = core->topology.edge_triangle_start;
+    for (int e = 0; e < core->topology().edge_count(); ++e) {
+      const auto& start = core->topology().edge_triangle_start;
       const std::size_t i = static_cast<std::size_t>(e);
-      if (start[i + 1] - start[i] == 1) border.insert({core->topology.first(e), core->topology.second(e)});
+      if (start[i + 1] - start[i] == 1) border.insert({core->topology().first(e), core->topology().second(e)});
     }
   }
   static hf_inner::CoreOptions without_factor() {
@@ -92,7 +92,7 @@ struct Surface {
 };
 
 Isolines trace(const Surface& s, const std::vector<double>& field, const std::vector<double>& levels) {
-  return hf_inner::trace_isolines(s.core->mesh, s.core->topology, field, levels, memory());
+  return hf_inner::trace_isolines(s.core->mesh, s.core->topology(), field, levels, memory());
 }
 
 // Every line is closed or ends at borders, steps inside triangles, and nothing is missing. Returns the lines seen.

@@ -126,7 +126,7 @@ TEST(Rebase, of_a_surface_that_was_left_meanwhile_is_dropped) {
   const auto plain = hf_test::make_core(hf_test::torus(80, 60), 1, {}, memory);
   auto stiffness = std::make_shared<hf_inner::Vector<double>>(at(plain->size()), 1.0, memory.get());
   for (std::size_t v = 400; v < 450; ++v) (*stiffness)[v] = 50;
-  const auto edited = hf_inner::edit_core(plain, stiffness);
+  const auto edited = hf_inner::edit_core(plain, {stiffness});
   hf_inner::ScalarField field(plain, 1, 100000);
   add(field, every(0, 4800, 50));
   interrupt.meanwhile = [&] { field.move_to(edited); };

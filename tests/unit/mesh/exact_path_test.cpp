@@ -23,7 +23,7 @@ struct Shape {
   explicit Shape(const PlainMesh& plain)
       : core(hf_test::make_core(plain)),
         mesh(core->geometry->unlinked().mesh),
-        topology(core->geometry->unlinked().topology),
+        topology(core->geometry->unlinked().topology()),
         sides(mesh, topology, memory) {}
   GeodesicPoint point(const Index* corners, const double* weights) const {
     return GeodesicPoint(sides, corners, weights, memory);

@@ -23,7 +23,7 @@ using hf_test::PlainMesh;
 struct Surface {
   explicit Surface(const PlainMesh& mesh, std::uint32_t threads = 1) : core(core_of(mesh, threads)) {
     triangulation.emplace(
-        hf_inner::IntrinsicTriangulation::make(core->mesh, core->topology, *core->memory, core->jobs.get()));
+        hf_inner::IntrinsicTriangulation::make(core->mesh, core->topology(), *core->memory, core->jobs.get()));
   }
   static std::shared_ptr<const hf_inner::Core> core_of(const PlainMesh& mesh, std::uint32_t threads) {
     hf_inner::CoreOptions options;
@@ -68,7 +68,7 @@ double energy(const hf_inner::SymmetricMatrix& k, const std::vector<double>& u) 
 TEST(Topology, sides_name_their_corner_and_direction) {
   for (const PlainMesh& mesh : {hf_test::turned_over(hf_test::grid(5, 4), 3), hf_test::book(3, 4, 3, 0.2)}) {
     const std::shared_ptr<const hf_inner::Core> core = Surface::core_of(mesh, 1);
-    const hf_inner::Topology& topology = core->topology;
+    const hf_inner::Topology& topology = core->topology();
     std::vector<int> seen(core->mesh.corners.size(), 0);
     for (std::int32_t e = 0; e < topology.edge_count(); ++e) {
       for (std::int32_t i = topology.edge_triangle_start[at(e)]; i < topology.edge_triangle_start[at(e) + 1]; ++i) {
@@ -176,7 +176,7 @@ TEST(Intrinsic, flips_keep_the_area) {
     Surface surface(mesh);
     const auto area = [&] {
       const hf_inner::Vector<double> areas =
-          surface.triangulation->vertex_areas(surface.core->mesh, surface.core->topology, *surface.core->memory);
+          surface.triangulation->vertex_areas(surface.core->mesh, surface.core->topology(), *surface.core->memory);
       return std::accumulate(areas.begin(), areas.end(), 0.0);
     };
     const double whole = area();
@@ -260,7 +260,7 @@ std::pair<Entries, Entries> operator_as_given(const PlainMesh& mesh, const std::
   for (const auto& [ij, value] : entries_of(surface.laplacian()))
     out.first[{given(ij.first), given(ij.second)}] = value;
   const auto areas =
-      surface.triangulation->vertex_areas(surface.core->mesh, surface.core->topology, *surface.core->memory);
+      surface.triangulation->vertex_areas(surface.core->mesh, surface.core->topology(), *surface.core->memory);
   for (int v = 0; v < surface.core->size(); ++v) out.second[{given(v), given(v)}] = areas[at(v)];
   return out;
 }
@@ -371,7 +371,7 @@ struct TwoWays {
   explicit TwoWays(const PlainMesh& mesh, std::uint32_t threads = 1) : surface(mesh, threads) {
     const hf_inner::Core& core = *surface.core;
     patches.emplace(
-        hf_inner::delaunay_operator(core.mesh, core.topology, core.weights, true, *core.memory, core.jobs.get()));
+        hf_inner::delaunay_operator(core.mesh, core.topology(), core.weights(), true, *core.memory, core.jobs.get()));
     flips = surface.triangulation->flip_to_delaunay();
   }
   double share() const { return patches->patch_triangles / static_cast<double>(surface.core->mesh.triangle_count()); }
@@ -419,7 +419,7 @@ TEST(DelaunayPatches, give_the_operator_and_areas_of_the_whole_triangulation) {
     for (const auto& entry : whole) size = std::max(size, std::fabs(entry.second));
     EXPECT_LE(largest_difference(whole, patched), 1e-9 * size);
     const hf_inner::Vector<double> areas =
-        ways.surface.triangulation->vertex_areas(core.mesh, core.topology, *core.memory);
+        ways.surface.triangulation->vertex_areas(core.mesh, core.topology(), *core.memory);
     double largest = 0, worst = 0;
     for (const double a : areas) largest = std::max(largest, a);
     if (hf_test::is_generic(name) || name.find("disk") != std::string::npos || name.find("sphere") == 0) {

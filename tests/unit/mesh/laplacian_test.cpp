@@ -90,7 +90,7 @@ TEST(Laplacian, stays_finite_and_factors_on_zero_area_triangles) {
   for (std::uint32_t i = 0; i + 2 < 20; ++i) strip.triangles.insert(strip.triangles.end(), {i, i + 1, i + 2});
   const auto core = hf_test::make_core(strip);
   EXPECT_EQ(core->mesh.report.degenerate_triangle_count, 18u);
-  for (const double w : core->weights) EXPECT_TRUE(std::isfinite(w));
+  for (const double w : core->weights()) EXPECT_TRUE(std::isfinite(w));
 }
 
 TEST(Laplacian, clamped_weights_are_positive_on_obtuse_meshes) {
@@ -100,7 +100,7 @@ TEST(Laplacian, clamped_weights_are_positive_on_obtuse_meshes) {
   options.operator_kind = hf_inner::OperatorKind::clamped;
   const auto core = hf_test::make_core(mesh, 1, options);
   EXPECT_GT(core->mesh.report.negative_edge_count, 0u);
-  for (const double w : core->weights) EXPECT_GT(w, 0);
+  for (const double w : core->weights()) EXPECT_GT(w, 0);
 }
 
 }  // namespace

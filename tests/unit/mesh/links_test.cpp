@@ -92,11 +92,11 @@ TEST(Links, join_two_cubes_into_one_component) {
   EXPECT_NEAR(linked->links->longest_tree_link * plain->mesh.scale, 0.01, 1e-12);
   EXPECT_EQ(&linked->unlinked(), plain.get());
   // The topology has the links as edges without triangles, and lists neighbours both ways.
-  const hf_inner::Topology& t = linked->topology;
+  const hf_inner::Topology& t = linked->topology();
   Index without = 0;
   for (Index e = 0; e < t.edge_count(); ++e)
     without += t.edge_triangle_start[at(e)] == t.edge_triangle_start[at(e) + 1];
-  EXPECT_EQ(without, t.edge_count() - plain->topology.edge_count());
+  EXPECT_EQ(without, t.edge_count() - plain->topology().edge_count());
   std::set<std::pair<Index, Index>> springs;
   for (const hf_inner::Link& link : linked->links->links) {
     for (const Index corner : link.corner) {

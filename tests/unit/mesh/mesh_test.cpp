@@ -201,8 +201,8 @@ TEST(Mesh, a_vertex_without_a_triangle_changes_nothing) {
         EXPECT_EQ(mesh.scale, first.scale);
         EXPECT_EQ(mesh.report.bounding_box_diagonal, first.report.bounding_box_diagonal);
         EXPECT_EQ(mesh.report.isolated_vertex_count, 1u);
-        EXPECT_EQ(mesh.isolated.at(0).given, static_cast<std::int32_t>(stray));
-        EXPECT_EQ(mesh.isolated.at(0).position.x, far);
+        EXPECT_EQ(mesh.isolated[0].given, static_cast<std::int32_t>(stray));
+        EXPECT_EQ(mesh.isolated[0].position.x, far);
       }
     }
   }

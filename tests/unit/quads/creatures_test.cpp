@@ -91,10 +91,10 @@ TEST(Quads, OpenBordersAreFollowedAndComponentsStayApart) {
   expect_valid(*core, result, "plane and sphere");
   // border vertices lie on the border
   std::map<std::int32_t, bool> rim;
-  for (std::int32_t e = 0; e < core->topology.edge_count(); ++e) {
+  for (std::int32_t e = 0; e < core->topology().edge_count(); ++e) {
     const std::size_t i = static_cast<std::size_t>(e);
-    if (core->topology.edge_triangle_start[i + 1] - core->topology.edge_triangle_start[i] == 1)
-      rim[core->topology.first(e)] = rim[core->topology.second(e)] = true;
+    if (core->topology().edge_triangle_start[i + 1] - core->topology().edge_triangle_start[i] == 1)
+      rim[core->topology().first(e)] = rim[core->topology().second(e)] = true;
   }
   std::int32_t on_border = 0;
   for (std::int32_t v = 0; v < result.mesh.position.size(); ++v) {
@@ -199,7 +199,7 @@ TEST(Quads, TheSameFromAnyNumberOfThreads) {
 
 TEST(Relax, WalksStraightOverEdgesAndStopsAtABorder) {
   const auto core = hf_test::make_core(hf_test::grid(10, 10, 1, 0.3));
-  const FluxSurface s = FluxSurface::make(core->mesh, core->topology, *core->memory);
+  const FluxSurface s = FluxSurface::make(core->mesh, core->topology(), *core->memory);
   SurfacePoint start;
   start.triangle = 101;
   start.weight[0] = 0.5;

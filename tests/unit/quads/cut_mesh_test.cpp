@@ -60,21 +60,21 @@ TEST(CutMesh, is_the_same_surface_with_short_edges) {
     fine.triangles.assign(cut.corner.begin(), cut.corner.end());
     const auto fine_core = hf_test::make_core(fine);
     const auto euler = [](const Core& c) {
-      return c.mesh.vertex_count() - c.topology.edge_count() + c.mesh.triangle_count();
+      return c.mesh.vertex_count() - c.topology().edge_count() + c.mesh.triangle_count();
     };
     const auto border = [](const Core& c) {
       double sum = 0;
-      for (Index e = 0; e < c.topology.edge_count(); ++e) {
-        if (c.topology.edge_triangle_start[at(e) + 1] - c.topology.edge_triangle_start[at(e)] != 1) continue;
-        sum += norm(c.mesh.positions[at(c.topology.first(e))] - c.mesh.positions[at(c.topology.second(e))]);
+      for (Index e = 0; e < c.topology().edge_count(); ++e) {
+        if (c.topology().edge_triangle_start[at(e) + 1] - c.topology().edge_triangle_start[at(e)] != 1) continue;
+        sum += norm(c.mesh.positions[at(c.topology().first(e))] - c.mesh.positions[at(c.topology().second(e))]);
       }
       return sum * c.mesh.scale;
     };
     EXPECT_EQ(euler(*fine_core), euler(*core));
     EXPECT_NEAR(border(*fine_core), border(*core) / core->mesh.scale, 1e-12);
     // The pieces of every edge, from one end to the other.
-    for (Index e = 0; e < core->topology.edge_count(); ++e) {
-      const Index first = core->topology.first(e), last = core->topology.second(e);
+    for (Index e = 0; e < core->topology().edge_count(); ++e) {
+      const Index first = core->topology().first(e), last = core->topology().second(e);
       Index here = first;
       double length = 0;
       cut.for_pieces(first, last, [&](Index a, Index b) {
@@ -180,7 +180,7 @@ TEST(CutQuads, of_an_update_are_those_of_a_new_mesh) {
   same("alone");
   guides.push_back({0, {1, 0.4, 0}, 1, 0});
   same("with a guide");
-  creases.push_back(core->topology.edge_between(core->mesh.inner_of_given[0], core->mesh.inner_of_given[1]));
+  creases.push_back(core->topology().edge_between(core->mesh.inner_of_given[0], core->mesh.inner_of_given[1]));
   ASSERT_GE(creases[0], 0);
   same("with a crease");
   options.faces = 900;

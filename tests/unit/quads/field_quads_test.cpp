@@ -31,7 +31,7 @@ std::shared_ptr<const Core> core_of(const samples::ShapeMesh& shape) {
 struct Stages {
   explicit Stages(std::shared_ptr<const Core> given, double radius = 0.1)
       : core(std::move(given)),
-        surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
+        surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)),
         system(core, 4),
         features(find_features(surface, 100, *core->memory)),
         faces([&] {
@@ -441,12 +441,12 @@ QuadComplex torus_of(const FluxSurface& surface, std::int32_t rows, std::int32_t
 TEST(FieldQuads, quads_of_triangles_share_their_vertices_and_hold_the_border) {
   const auto core = core_of(samples::plane(6, 5));
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
   const Table<std::uint8_t> features = find_features(surface, 100, memory);
   const QuadComplex quads = split_triangles(surface, features, Table<std::uint8_t>(1, 1, memory), memory);
   EXPECT_EQ(quads.quad_count(), 3 * surface.real_triangles);
   EXPECT_EQ(quads.vertices.position.size(),
-            core->mesh.vertex_count() + core->topology.edge_count() + core->mesh.triangle_count());
+            core->mesh.vertex_count() + core->topology().edge_count() + core->mesh.triangle_count());
   std::int32_t at_border = 0;
   for (std::int32_t v = 0; v < quads.vertices.position.size(); ++v) {
     EXPECT_EQ(quads.vertices.pinned[v] == QuadMesh::feature, quads.vertices.border[v] != 0) << v;
@@ -490,7 +490,7 @@ TEST(FieldQuads, the_check_refuses_each_fault) {
 TEST(FieldQuads, one_or_two_edges_around_a_thin_part_become_three) {
   const auto core = core_of(samples::sphere(8));
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
   for (const std::int32_t columns : {1, 2, 3}) {
     QuadComplex quads = torus_of(surface, 6, columns, memory);
     EXPECT_EQ(quads.vertices.position.size(), 6 * columns);
@@ -505,7 +505,7 @@ TEST(FieldQuads, one_or_two_edges_around_a_thin_part_become_three) {
 TEST(FieldQuads, chords_are_removed_until_the_number_is_reached_or_rings_of_four_are_left) {
   const auto core = core_of(samples::sphere(8));
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
   QuadComplex quads = torus_of(surface, 12, 8, memory);
   collapse_chords(quads, 64, 0, memory);
   EXPECT_LE(quads.quad_count(), 64);
@@ -519,7 +519,7 @@ TEST(FieldQuads, chords_are_removed_until_the_number_is_reached_or_rings_of_four
 TEST(FieldQuads, chords_go_where_the_mesh_stays_valid_only) {
   for (const auto& [name, core] : shapes()) {
     Memory& memory = *core->memory;
-    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
     const Table<std::uint8_t> all(surface.component_count, 1, memory);
     const Table<std::uint8_t> features(surface.half_count(), 0, memory);
     QuadComplex quads = split_triangles(surface, features, all, memory);
@@ -565,7 +565,7 @@ TEST(FieldQuads, chords_beside_hubs_leave_valid_meshes_too) {
   meshes.emplace_back("three rings", core_of(fan_of(300, 3)));
   for (const auto& [name, core] : meshes) {
     Memory& memory = *core->memory;
-    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
     const Table<std::uint8_t> all(surface.component_count, 1, memory);
     const Table<std::uint8_t> features = find_features(surface, HUGE_VAL, memory);
     std::int32_t removed[2] = {0, 0};

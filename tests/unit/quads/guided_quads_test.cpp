@@ -133,8 +133,8 @@ TEST(GuidedQuads, crease_edges_of_any_angle_become_edges_of_quads) {
   const Vec3 x = unit_vector(mesh.positions[1] - mesh.positions[0]);
   const auto in_middle = [&](Vec3 a, Vec3 b) { return std::fabs(dot(a, x)) < 1e-9 && std::fabs(dot(b, x)) < 1e-9; };
   std::vector<Index> creases;
-  for (Index e = 0; e < core->topology.edge_count(); ++e) {
-    if (in_middle(mesh.positions[at(core->topology.first(e))], mesh.positions[at(core->topology.second(e))]))
+  for (Index e = 0; e < core->topology().edge_count(); ++e) {
+    if (in_middle(mesh.positions[at(core->topology().first(e))], mesh.positions[at(core->topology().second(e))]))
       creases.push_back(e);
   }
   ASSERT_EQ(creases.size(), 24u);
@@ -152,7 +152,7 @@ TEST(GuidedQuads, crease_edges_of_any_angle_become_edges_of_quads) {
   EXPECT_EQ(covered(make_field_quads(options).mesh), 0);
   double height = 0;
   for (const Index e : creases)
-    height += norm(mesh.positions[at(core->topology.second(e))] - mesh.positions[at(core->topology.first(e))]);
+    height += norm(mesh.positions[at(core->topology().second(e))] - mesh.positions[at(core->topology().first(e))]);
   options.crease_edges = {creases.data(), creases.size()};
   const QuadMesh kept = make_field_quads(options).mesh;
   hf_test::expect_manifold(*core, kept, "kept");

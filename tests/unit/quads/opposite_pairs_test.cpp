@@ -38,7 +38,7 @@ struct BumpedRing {
           }
           return mesh;
         }())),
-        surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
+        surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)),
         system(core, 4),
         smoother(system, 2 * edge_length),
         features(find_features(surface, 100, *core->memory)),

@@ -76,7 +76,7 @@ TEST(Poles, GuidesMakeAQuarterTurnAndBeginAlongTheDirection) {
   const auto core = torus();
   for (const std::int32_t quads : {3, 5}) {
     const Vec3 place = core->mesh.positions[700];
-    const Vec3 up = vertex_normal(core->mesh, core->topology, 700);
+    const Vec3 up = vertex_normal(core->mesh, core->topology(), 700);
     const Vec3 direction = cross(up, Vec3{0.2, 0.7, 0.4});
     Vector<QuadGuide> guides(core->memory.get());
     const QuadPole pole{place, quads, direction};
@@ -91,14 +91,14 @@ TEST(Poles, GuidesMakeAQuarterTurnAndBeginAlongTheDirection) {
       const double wanted = 0.25 * (4 - quads) * at_arm;
       const double found = std::atan2(dot(guide.vector, y), dot(guide.vector, x));
       EXPECT_NEAR(std::remainder(found - wanted, 2 * std::acos(-1.0)), 0, 0.2);
-      EXPECT_NEAR(dot(guide.vector, vertex_normal(core->mesh, core->topology, guide.vertex)), 0, 1e-9);
+      EXPECT_NEAR(dot(guide.vector, vertex_normal(core->mesh, core->topology(), guide.vertex)), 0, 1e-9);
     }
   }
 }
 
 TEST(Poles, APlaceBesideTheSurfaceIsTakenOntoIt) {
   const auto core = torus();
-  const Vec3 place = core->mesh.positions[900], up = vertex_normal(core->mesh, core->topology, 900);
+  const Vec3 place = core->mesh.positions[900], up = vertex_normal(core->mesh, core->topology(), 900);
   Vector<QuadGuide> on(core->memory.get()), beside(core->memory.get());
   const QuadPole first{place, 3, {1, 0, 0}}, second{place + 0.01 * up, 3, {1, 0, 0}};
   add_pole_guides(*core, {&first, 1}, 0.04, on);

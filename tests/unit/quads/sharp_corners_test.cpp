@@ -175,7 +175,7 @@ TEST(SharpCorners, crosses_stay_turned_only_where_two_quads_have_no_room) {
   wedge.triangles.insert(wedge.triangles.end(), {0, below, below + 1, 0, below + 1, 1});
   Memory memory;
   const auto core = hf_test::make_core(wedge);
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
   const Table<std::uint8_t> features = find_features(surface, turn / 12, memory);
   for (const double length : {0.5, 3.0}) {
     const SharpCorners corners = SharpCorners::find(surface, features, length / core->mesh.scale, memory);
@@ -199,8 +199,8 @@ TEST(SharpCorners, crosses_stay_turned_only_where_two_quads_have_no_room) {
 TEST(SharpCorners, each_side_of_a_crease_at_a_tip_has_its_own_cross) {
   Memory memory;
   const auto core = hf_test::make_core(saw(40));
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
-  const Connection connection = Connection::make(core->mesh, core->topology, memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
+  const Connection connection = Connection::make(core->mesh, core->topology(), memory);
   const Table<std::uint8_t> features = find_features(surface, turn / 12, memory);
   const SharpCorners corners = SharpCorners::find(surface, features, 0.05, memory);
   Vector<HardCross> hard = feature_crosses(*core, surface, connection, features, corners, 2);
@@ -232,7 +232,7 @@ TEST(SharpCorners, a_corner_below_45_degrees_is_opened_to_a_right_angle) {
   Memory memory;
   for (const std::uint32_t teeth : {12u, 40u}) {
     const auto core = hf_test::make_core(saw(teeth, true));
-    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+    const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
     const Table<std::uint8_t> features = find_features(surface, HUGE_VAL, memory);
     const SharpCorners corners = SharpCorners::find(surface, features, coarse, memory);
     EXPECT_EQ(corners.count, teeth == 12 ? 0 : static_cast<std::int32_t>(teeth));

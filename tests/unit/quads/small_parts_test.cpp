@@ -129,7 +129,7 @@ struct Extent {
 TEST(SmallParts, limbs_that_few_lines_run_round_are_kept) {
   const samples::ShapeMesh shape = samples::welded_surface(samples::make_creature("horse", 3000));
   const auto core = hf_test::make_core({shape.positions, shape.triangles});
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, *core->memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), *core->memory);
   const QuadDistance distance(surface, 0.01, *core->memory);
   for (const auto& [length, rounds] : {std::pair(0.026, 20), {0.03, 20}, {0.03, 60}}) {
     FieldQuadOptions options;

@@ -1,4 +1,6 @@
 // Fitting a quad mesh to its surface: refined, coarsened, snapped and measured, it stays a mesh of quads.
+#include "remesh/fit.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include "assets/shapes.h"
 #include "quads/field_quads.h"
 #include "remesh/coarsen.h"
-#include "remesh/fit.h"
 #include "remesh/quad_faults.h"
 #include "remesh/refine.h"
 #include "remesh/relax.h"
@@ -26,7 +27,7 @@ hf_test::PlainMesh plain(const samples::ShapeMesh& shape) { return {shape.positi
 struct Made {
   explicit Made(const hf_test::PlainMesh& mesh, double edge_length = 0.05, std::int32_t relax = 0)
       : core(hf_test::make_core(mesh)),
-        surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
+        surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)),
         result([&] {
           FieldQuadOptions options;
           options.core = core;
@@ -282,7 +283,7 @@ TEST(QuadDistance, OfAPeakIsItsHeightAndIsFoundAtTheQuadBelow) {
   sheet.positions[3 * peak + static_cast<std::uint32_t>(across)] += 0.2 * (highest[across == 0] - lowest[across == 0]);
   const auto core = hf_test::make_core(sheet);
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300}, top;
   auto component = [](Vec3& p, int k) -> double& { return k == 0 ? p.x : k == 1 ? p.y : p.z; };
   for (Vec3 p : core->mesh.positions)
@@ -312,7 +313,7 @@ TEST(QuadDistance, OfAPeakIsItsHeightAndIsFoundAtTheQuadBelow) {
 TEST(TurnQuads, AQuadBeginsAtItsReflexCornerOrAtTheDiagonalOnTheSurface) {
   const auto core = hf_test::make_core(hf_test::grid(10, 10, 1, 0));
   Memory& memory = *core->memory;
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), memory);
   const QuadDistance distance(surface, 0.05, memory);
   const std::int32_t t[3] = {surface.tail[0], surface.tail[1], surface.tail[2]};
   const Vec3 a = surface.position[t[0]], b = surface.position[t[1]], c = surface.position[t[2]];

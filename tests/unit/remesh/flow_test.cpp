@@ -21,7 +21,7 @@ struct Flow {
   explicit Flow(const hf_test::PlainMesh& mesh)
       : core(hf_test::make_core(mesh)),
         memory(*core->memory),
-        surface(FluxSurface::make(core->mesh, core->topology, *core->memory)) {
+        surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)) {
     const std::int32_t n = surface.vertex_count();
     sites = {0, n / 2, n - 1};
     std::vector<hf_test::SparseEntry> entries;
@@ -110,7 +110,7 @@ TEST(FluxSurface, ClosesBordersTurnsTrianglesAndPartsFans) {
   mesh.positions.insert(mesh.positions.end(), {-1, 0, 0, -1, -1, 0});
   mesh.triangles.insert(mesh.triangles.end(), {0, n, n + 1});
   const auto core = hf_test::make_core(mesh);
-  const FluxSurface s = FluxSurface::make(core->mesh, core->topology, *core->memory);
+  const FluxSurface s = FluxSurface::make(core->mesh, core->topology(), *core->memory);
   EXPECT_EQ(s.first_apex, static_cast<std::int32_t>(n) + 2 + 1);  // the shared vertex is two
   EXPECT_EQ(s.vertex_count() - s.first_apex, 2);                  // a border each
   EXPECT_EQ(s.component_count, 2);
@@ -130,7 +130,7 @@ TEST(FluxSurface, JoinsTheFlattestTrianglesOfAnEdgeHoweverFarTheyLean) {
   mesh.positions.insert(mesh.positions.end(), {5, 0, 0, 5.1, 0, 0, 6, 0.2, 0, 6, -0.2, 0, 4, 0, 0.2});
   mesh.triangles.insert(mesh.triangles.end(), {n, n + 1, n + 2, n + 1, n, n + 3, n, n + 1, n + 4});
   const auto core = hf_test::make_core(mesh);
-  const FluxSurface s = FluxSurface::make(core->mesh, core->topology, *core->memory);
+  const FluxSurface s = FluxSurface::make(core->mesh, core->topology(), *core->memory);
   const auto place = [&](std::int32_t v) { return core->mesh.to_given(s.position[v]); };
   int flat = 0, standing = 0;
   for (std::int32_t h = 0; h < 3 * s.real_triangles; ++h) {
@@ -165,7 +165,7 @@ TEST(FluxSurface, AMoebiusBandIsPartedOnceWhereItsTrianglesDisagree) {
     hf_test::PlainMesh mesh = moebius_band(12);
     std::rotate(mesh.triangles.begin(), mesh.triangles.begin() + 3 * begin, mesh.triangles.end());
     const auto core = hf_test::make_core(mesh);
-    const FluxSurface s = FluxSurface::make(core->mesh, core->topology, *core->memory);
+    const FluxSurface s = FluxSurface::make(core->mesh, core->topology(), *core->memory);
     EXPECT_EQ(s.euler_characteristic, 1);           // a disc
     EXPECT_EQ(s.vertex_count() - s.first_apex, 1);  // with one border
     EXPECT_EQ(s.first_apex, 2 * 12 + 2);            // the two vertices where it is parted are there twice
@@ -186,7 +186,7 @@ TEST(FluxSurface, ASurfaceThatIsMostlyMoebiusBandsIsRefused) {
   for (int k = 0; k < 3; ++k) hf_test::append(mesh, moebius_band(5), 3.0 * k);
   const auto core = hf_test::make_core(mesh);
   try {
-    FluxSurface::make(core->mesh, core->topology, *core->memory);
+    FluxSurface::make(core->mesh, core->topology(), *core->memory);
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), HF_ERROR_UNSUPPORTED);

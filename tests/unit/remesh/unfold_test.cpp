@@ -20,7 +20,7 @@ constexpr double edge_length = 0.05;
 struct Thrown {
   Thrown()
       : core(hf_test::make_core({shape.positions, shape.triangles})),
-        surface(FluxSurface::make(core->mesh, core->topology, *core->memory)),
+        surface(FluxSurface::make(core->mesh, core->topology(), *core->memory)),
         distance(surface, 0.25 * edge_length, *core->memory),
         mesh([&] {
           FieldQuadOptions options;
@@ -94,7 +94,7 @@ TEST(UnfoldQuads, FeaturesStayAndAMeshWithoutTurnedCornersKeepsItsBits) {
 // A vertex of a border that passed its neighbour comes back along the border. Corners of the border stay.
 TEST(UnfoldQuads, VerticesOfABorderSlideAlongIt) {
   const auto core = hf_test::make_core(hf_test::grid(20, 20));
-  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology, *core->memory);
+  const FluxSurface surface = FluxSurface::make(core->mesh, core->topology(), *core->memory);
   FieldQuadOptions options;
   options.core = core;
   options.edge_length = edge_length;

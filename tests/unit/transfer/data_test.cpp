@@ -95,9 +95,9 @@ CrossFigures cross(const Body& horse, const Body& other, const Pairs& pairs, boo
         ++count;
       }
       std::vector<double> stretch;
-      for (int32_t e = 0; e < other.core->topology.edge_count(); ++e) {
-        const auto i = static_cast<size_t>(other.core->topology.first(e)),
-                   j = static_cast<size_t>(other.core->topology.second(e));
+      for (int32_t e = 0; e < other.core->topology().edge_count(); ++e) {
+        const auto i = static_cast<size_t>(other.core->topology().first(e)),
+                   j = static_cast<size_t>(other.core->topology().second(e));
         stretch.push_back(std::abs(hf_inner::norm(frame[i] - frame[j]) / hf_inner::norm(rest[i] - rest[j]) - 1));
       }
       std::nth_element(stretch.begin(), stretch.begin() + static_cast<std::ptrdiff_t>(stretch.size() * 95 / 100),

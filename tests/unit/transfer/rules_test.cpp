@@ -113,7 +113,7 @@ TEST(TransferRules, TheTargetIsNotStretchedByAStretchedSource) {
   std::vector<Vec3> posed = a.horse.rest();
   for (Vec3& p : posed) p = 2.0 * p;
   const std::vector<Vec3> out = frame_of(transfer, posed), rest = a.bull.rest();
-  const hf_inner::Topology& topology = a.bull.core->topology;
+  const hf_inner::Topology& topology = a.bull.core->topology();
   for (int32_t e = 0; e < topology.edge_count(); ++e) {
     const auto i = static_cast<size_t>(topology.first(e)), j = static_cast<size_t>(topology.second(e));
     ASSERT_NEAR(hf_inner::norm(out[i] - out[j]), hf_inner::norm(rest[i] - rest[j]), 1e-6 * a.box);

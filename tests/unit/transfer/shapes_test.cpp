@@ -202,10 +202,10 @@ TEST(TransferShapes, AnIslandTakesTheRowsOfTheNearestVerticesAndIsRelaxedBetween
     }
     Vec3 mean;
     double sum = 0;
-    for (int32_t e = core.topology.neighbour_start[static_cast<size_t>(v)];
-         e < core.topology.neighbour_start[static_cast<size_t>(v) + 1]; ++e) {
-      const double w = core.weights[static_cast<size_t>(core.topology.neighbour_edge[static_cast<size_t>(e)])];
-      mean = mean + w * row(core.topology.neighbour[static_cast<size_t>(e)]);
+    for (int32_t e = core.topology().neighbour_start[static_cast<size_t>(v)];
+         e < core.topology().neighbour_start[static_cast<size_t>(v) + 1]; ++e) {
+      const double w = core.weights()[static_cast<size_t>(core.topology().neighbour_edge[static_cast<size_t>(e)])];
+      mean = mean + w * row(core.topology().neighbour[static_cast<size_t>(e)]);
       sum += w;
     }
     EXPECT_LT(hf_inner::norm(row(v) - (1 / sum) * mean), 1e-3 * core.mesh.scale) << given;
