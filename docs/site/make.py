@@ -87,16 +87,20 @@ class Layout:
         elif at.suffix == ".md":
             to.write_text(self.page(at.read_text(), path))
         elif self.made[path] == path[:-2] + ".md":
-            to.write_text(self.page(reference.page(at.name, self.sources[at.name], self.api), path, linked=False))
+            to.write_text(self.page(reference.page(at.name, self.sources[at.name], self.api, self.names), path, linked=False))
         else:
             language = LANGUAGES.get(at.suffix, "text")
             to.write_text(f"# {at.name}\n\n`{path}`\n\n````{language}\n{at.read_text()}\n````\n")
 
     def listing(self, path):
         inside = sorted({line[len(path) + 1:].split("/")[0] for line in self.tracked if line.startswith(path + "/")})
-        shown = {name: (self.root / path / name) for name in inside}
-        return f"# {path}\n\n" + "".join(f"- [{name}]({name})\n" if at.suffix in {".md", *LANGUAGES} or (at / "README.md").exists()
-            else f"- {name}\n" for name, at in shown.items())
+        out = f"# {path}\n\n"
+        for name in inside:
+            at = self.root / path / name
+            shown = at.suffix in {".md", *LANGUAGES} or (at / "README.md").exists()
+            use = ": " + reference.use(at.read_text()) if path == "include/hf" and name in self.sources else ""
+            out += (f"- [{name}]({name})" if shown else f"- {name}") + use + "\n"
+        return out
 
     def page(self, text, path, linked=True):
         """A page with links that mkdocs follows."""

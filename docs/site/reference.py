@@ -6,15 +6,14 @@ import re
 PARTS = re.compile(r"(?<=[.)]) (?=(?:Cost|Errors|Thread safety|Since)\b)")
 
 
-def text(doc):
-    """A comment as Markdown: signs that Markdown would read are escaped."""
-    doc = html.escape(doc or "", quote=False)
-    return re.sub(r"([*\\|])", r"\\\1", re.sub(r"`([^`]*)`", r"\1", doc))
+def linked(doc, names):
+    """A comment as Markdown: signs that Markdown would read are escaped, names of the library lead to their places."""
+    doc = re.sub(r"([*\\|])", r"\\\1", html.escape(re.sub(r"`([^`]*)`", r"\1", doc or ""), quote=False))
+    return re.sub(r"\bhf_\w+", lambda m: f"[{m[0]}]({names[m[0]]}#{m[0]})" if m[0] in names else m[0], doc)
 
 
 def c_type(item):
-    words = ("const " if item.get("const") else "") + item["type"] + "*" * item.get("pointer", 0)
-    return words
+    return ("const " if item.get("const") else "") + item["type"] + "*" * item.get("pointer", 0)
 
 
 def declarator(item):
@@ -31,13 +30,21 @@ def head(source):
     return re.sub(r"([<*])", r"\\\1", "\n".join(lines))
 
 
-def table(names, rows):
-    return "\n".join([" | ".join([""] + names + [""]).strip(), "|---" * len(names) + "|"]
+def use(source):
+    """The use of a header: the first sentence of its first comment."""
+    return head(source).split("\n")[0]
+
+
+def table(columns, rows):
+    return "\n".join([" | ".join([""] + columns + [""]).strip(), "|---" * len(columns) + "|"]
         + ["| " + " | ".join(row) + " |" for row in rows])
 
 
-def page(header, source, api):
-    """The page of include/hf/HEADER."""
+def page(header, source, api, names):
+    """The page of include/hf/HEADER. names: the header of each name."""
+    def text(doc):
+        return linked(doc, names)
+
     out = [f"# hf/{header}", head(source)]
     handles = [h for h in api["handles"] if f"typedef struct {h['object']}* {h['name']};" in source]
     for handle in handles:
