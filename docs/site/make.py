@@ -93,7 +93,7 @@ class Layout:
             to.write_text(f"# {at.name}\n\n`{path}`\n\n````{language}\n{at.read_text()}\n````\n")
 
     def listing(self, path):
-        inside = sorted({line[len(path) + 1:].split("/")[0] for line in self.tracked if line.startswith(path + "/")})
+        inside = sorted({line[len(path) + 1:].split("/")[0] for line in self.tracked if line.startswith(path + "/")}) or sorted(os.listdir(self.root / path))
         out = f"# {path}\n\n"
         for name in inside:
             at = self.root / path / name
@@ -118,7 +118,7 @@ class Layout:
                 continue
             listed = bool(re.match(r" *([-*]|\d+\.) ", line)) or listed and (not line or line.startswith(" "))
             if re.match(r"```+", line):
-                fence, block = re.match(r"`+", line).group(), [line]
+                fence, block = re.match(r"`+", line).group(), [re.sub(r"[ ,].*", "", line)]
                 continue
             item = re.match(r"( *)([-*]|\d+\.) ", line)
             if item and out and out[-1].strip() and not re.match(r" *([-*]|\d+\.) |  ", out[-1]):
@@ -132,7 +132,7 @@ class Layout:
 
     def link(self, match, path, linked):
         label, target, name, rest = match.groups()
-        folder = os.path.dirname(path)
+        folder = os.path.dirname(path) or "."
         if name:
             if name not in self.names or not linked:
                 return match.group()
@@ -142,7 +142,7 @@ class Layout:
             return match.group()
         file, _, anchor = target.partition("#")
         to = self.need(os.path.join(folder, file))
-        return f"{label}({os.path.relpath(to, folder or '.')}" + (f"#{anchor})" if anchor else ")")
+        return f"{label}({os.path.relpath(to, folder)}" + (f"#{anchor})" if anchor else ")")
 
     def finish(self):
         while self.queue:
