@@ -6,8 +6,8 @@ cd "$1/docs" || exit 1
 status=0 count=0
 for page in $(sed -n '/- Abilities:/,/^  - /s/.*docs\/\(.*\.md\)/\1/p' site/mkdocs.yml); do
   count=$((count + 1))
-  parts=('^!\[.*](.*)' '^## Code' '^## How it works' '^## Limits' '](\.\./include/')
-  [ "$page" = files.md ] || parts+=('^## Cost') # a file is read once
+  parts=('^!\[.*](.*)' '^## Code' '^## How it works$' '^## Limits$' '](\.\./include/')
+  [ "$page" = files.md ] || parts+=('^## Cost$') # a file is read once
   for part in "${parts[@]}"; do
     grep -q -- "$part" "$page" || { echo "docs/$page has no line $part"; status=1; }
   done
