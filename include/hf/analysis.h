@@ -105,7 +105,7 @@ HF_API hf_result hf_surface_find_critical_points(hf_surface surface, const hf_ar
 /* Computes geodesic distances on one surface: the lengths of shortest paths along it. */
 typedef struct hf_geodesics_object* hf_geodesics;
 
-/* Selects how distances are computed. docs/benchmarks.md has the errors of each. */
+/* Selects how distances are computed. docs/geodesics.md has the errors of each. */
 enum hf_distance_method {
   HF_GEODESICS_AUTO = 0,  /* EXACT up to 10,000 vertices, FRONT beyond */
   HF_GEODESICS_FRONT = 1, /* fast: circular fronts on the intrinsic Delaunay triangulation (Novotni and Klein 2002) */

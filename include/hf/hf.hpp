@@ -80,10 +80,10 @@ struct Links {
 //
 // No field depends on how you would cut a face into triangles. HF_OPERATOR_INTRINSIC_DELAUNAY takes the mean of both
 // cuts of a bent quad. It moves this mean towards the polygon Laplacian of Bunge and others 2020 until a weight would
-// become negative; docs/studies/polygons.md compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED use that
-// polygon Laplacian. HF_OPERATOR_UNIFORM uses the sides of the faces. Directions, distances, iso-lines, streamlines and
-// quads work on triangles: the library cuts the faces. Its cut does not depend on the order of the corners. Normals of
-// poses are sums of the area vectors of faces.
+// become negative; docs/surfaces.md compares errors. HF_OPERATOR_COTANGENT and HF_OPERATOR_CLAMPED use that polygon
+// Laplacian. HF_OPERATOR_UNIFORM uses the sides of the faces. Directions, distances, iso-lines, streamlines and quads
+// work on triangles: the library cuts the faces. Its cut does not depend on the order of the corners. Normals of poses
+// are sums of the area vectors of faces.
 struct Faces {
   // `[corner_count]` of uint32_t: vertices, counter-clockwise seen from outside
   std::vector<uint32_t> corners{};

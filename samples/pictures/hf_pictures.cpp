@@ -81,6 +81,8 @@ void run(const Command& options) {
   const int width = pixels(320), height = pixels(240);
   write("ability_field.png", {field.draw(width, height, 0)});
   write("ability_pose.png", {pose.draw(width, height, 1)});
+  write("ability_surface.png", {draw_surface(Body("horse", std::min(options.vertices, 1600u)), 2 * width, 2 * height)});
+  write("ability_geodesics.png", {draw_geodesics(horse, 2 * width, 2 * height)});
   write("ability_quads.png", {draw_quads(horse, width, height)});
   write("ability_detail.png", {draw_detail(horse, width, height)});
   write("ability_direction.png", {draw_direction(horse, width, height)});

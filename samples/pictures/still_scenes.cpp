@@ -1,4 +1,5 @@
-// See scenes.h: quads, detail and directions.
+// See scenes.h: surfaces, quads, detail, directions and geodesics.
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 
@@ -11,7 +12,52 @@ namespace {
 
 Point point_of(const std::vector<double>& xyz, size_t v) { return {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]}; }
 
+Polyline outline_of(const std::vector<double>& xyz, const uint32_t* corners, uint32_t count) {
+  Polyline outline;
+  outline.width = 0.7;
+  outline.color = {0.16, 0.22, 0.36};
+  for (uint32_t k = 0; k <= count; ++k) outline.points.push_back(point_of(xyz, corners[k % count]));
+  return outline;
+}
+
 }  // namespace
+
+Picture draw_surface(const Body& body, int width, int height) {
+  Marks marks;
+  for (size_t i = 0; i < body.mesh.triangles.size(); i += 3)
+    marks.lines.push_back(outline_of(body.mesh.positions, &body.mesh.triangles[i], 3));
+  View view = side_view(width, height);
+  view.fixed_box = false;
+  SurfaceLook look;
+  look.fill = Fill::colors;
+  return render(body.drawn(), view, look, marks);
+}
+
+Picture draw_geodesics(const Body& body, int width, int height) {
+  const uint32_t muzzle = body.vertex_at(0, 1.45, 1.6), hoof = body.vertex_at(-0.15, 0, -0.6);
+  const hf::Geodesics geodesics(body.surface);
+  Surface drawn = body.drawn();
+  drawn.scalars = geodesics.solve_f64({muzzle});
+  Polyline line;
+  line.width = 2;
+  line.color = {0.75, 0.08, 0.08};
+  const std::vector<double> points = geodesics
+                                         .find_path(hf_place{{muzzle, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}},
+                                                    hf_place{{hoof, HF_NO_INDEX, HF_NO_INDEX}, 0, {1, 0, 0}})
+                                         .positions;
+  for (size_t i = 0; i < points.size() / 3; ++i) line.points.push_back(point_of(points, i));
+  Marks marks;
+  marks.lines.push_back(line);
+  for (const uint32_t end : {muzzle, hoof}) marks.dots.push_back({point_of(body.mesh.positions, end), 0.014});
+  View view = side_view(width, height);
+  view.fixed_box = false;
+  SurfaceLook look;
+  look.fill = Fill::iso_strips;
+  look.scalar_low = 0;
+  look.scalar_high = *std::max_element(drawn.scalars.begin(), drawn.scalars.end());
+  look.strips = 32;
+  return render(drawn, view, look, marks);
+}
 
 Picture draw_quads(const Body& body, int width, int height) {
   const hf::QuadsMesh quads = hf::Quads(body.surface).mesh();
@@ -22,11 +68,7 @@ Picture draw_quads(const Body& body, int width, int height) {
   FaceTriangles cut;
   for (size_t i = 0; i < quads.faces.size(); i += 4) {
     cut.append(places, &quads.faces[i], 4, drawn.triangles);
-    Polyline outline;
-    outline.width = 0.7;
-    outline.color = {0.16, 0.22, 0.36};
-    for (uint32_t k = 0; k <= 4; ++k) outline.points.push_back(point_of(quads.positions, quads.faces[i + k % 4]));
-    marks.lines.push_back(outline);
+    marks.lines.push_back(outline_of(quads.positions, &quads.faces[i], 4));
   }
   View view = side_view(width, height);
   view.fixed_box = false;

@@ -1,7 +1,7 @@
 // The chosen numbers of poses: what each trades, and on what it was chosen. Limits that callers meet come first.
 //
 // The benchmark is the program hf_bench deform-quality: planes, bars, a cylinder, a cactus and a scan
-// (docs/studies/poses.md). "Twelve poses" are seven of a tube and five of meshes. The tube is twisted by 450 degrees,
+// (docs/poses.md). "Twelve poses" are seven of a tube and five of meshes. The tube is twisted by 450 degrees,
 // turned by 149 at once, or turned by 30 and left alone. It is bent, also refined, in the paper's mode, and with a
 // handle on a second layer. The meshes are a cat, a scorpion, a triceratops, an anchor and a machine of 47 pieces, with
 // 6 to 39 handles that turn and move. Lengths of edges are shares of those at rest.
@@ -53,7 +53,7 @@ constexpr float shortest_sum = 1e-15f, longest_sum = 1e15f;
 // is 8 to 18 % larger. With 20 it is 6 % smaller, but the largest edge stretch grows from 1.29 to 1.42.
 constexpr std::uint32_t default_pose_bands = 10;
 // Iterations per frame. They trade time for a surface that stands still when a drag stops. On 36 poses of 12 shapes,
-// dragged as in docs/studies/poses.md, it creeps on by 6.5e-5 of the box in the mean, with 8 by 1.1e-4, with 6 by
+// dragged as in docs/poses.md, it creeps on by 6.5e-5 of the box in the mean, with 8 by 1.1e-4, with 6 by
 // 5.1e-4. Each takes 0.16 ms with five handles.
 constexpr std::uint32_t default_pose_iterations = 10;
 // Groups of vertices that share a rotation: more of them fit better but make each iteration slower. With 125, the
@@ -120,7 +120,7 @@ struct StrainLimits {
 };
 // Limits of stretch for components with two handles, and for those with more. They were fitted on two planes and two
 // poses of a scan. Settings close to these keep the same share of edges within the wanted stretch. In 15 of 16 poses of
-// eight other meshes, more edges keep a stretch within [0.8, 1.25] (docs/studies/poses.md).
+// eight other meshes, more edges keep a stretch within [0.8, 1.25] (docs/poses.md).
 constexpr StrainLimits strain_limits[] = {{0.8, 1.24, 4.0, 0.25, 0.0, 0.28}, {0.92, 1.14, 8.0, 0.5, 0.2, 0.16}};
 // A group of vertices whose second moment is below this share of its first is a line, and a line has no stress. Halving
 // or doubling it changes no energy or stretch in the benchmark.
@@ -136,7 +136,7 @@ constexpr double largest_strain = 1e150;
 constexpr double rigidity = 1e-3;
 // Extra weight of edges at a handle's border, for components with two handles and with more. 0.25 raises the smallest
 // edge stretch of a bent cactus from 0.786 to 0.801, and its elastic energy by 0.1 %. 3.5 was fitted together with
-// strain_limits (docs/studies/poses.md).
+// strain_limits (docs/poses.md).
 constexpr double border_stiffness[] = {0.25, 3.5};
 // Edges sampled for the elastic energy: fewer make the first solve with new handles faster. Halving or doubling it
 // changes the energy of a scan by 1 %.

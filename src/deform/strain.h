@@ -12,7 +12,7 @@
 // times stiffer outside the limits. At the stress c it yields instead of crumpling its neighbours. n is a contraction
 // across the pull (Poisson's ratio), which keeps the volume of a pulled limb. A common rotation of surface and groups
 // does not change U, and X = 0 at rest. In each iteration X moves towards its new value by the share r < 2 / (1 + k);
-// then the iterations converge. Figures: docs/studies/poses.md.
+// then the iterations converge. Figures: docs/poses.md.
 //
 // Allocates nothing and cannot fail.
 #pragma once

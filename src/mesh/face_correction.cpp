@@ -12,15 +12,15 @@ namespace hf_inner {
 namespace {
 
 // The largest part of the polygon Laplacian. On squares its hourglass energy is 1/2 of the cut's, and 2/3 cancels the
-// error of fourth order (docs/studies/polygons.md). Half of it leaves half of that error; 5/6 gives a quarter of it
+// error of fourth order (docs/surfaces.md). Half of it leaves half of that error; 5/6 gives a quarter of it
 // with the other sign.
 constexpr double largest_part = 2.0 / 3.0;
 // Larger faces are not corrected: their corners would form a dense block. 8 corners have 28 pairs, of which a cut joins
 // 13. Half would correct quads alone: jittered hexagons then have an error of 328e-6 instead of 193e-6
-// (docs/studies/polygons.md). The double gives 120 pairs for 29.
+// (docs/surfaces.md). The double gives 120 pairs for 29.
 constexpr std::size_t most_corrected = 8;
 // Rounds in which faces take equal parts of what is left of the weights: trades passes over the faces for what a
-// neighbour with a lower limit did not take. On the 12 sheets of quads of docs/studies/polygons.md one round has errors
+// neighbour with a lower limit did not take. On the 12 sheets of quads of docs/surfaces.md one round has errors
 // up to 0.4 % larger, two rounds up to 0.08 %. Six and twelve rounds change no error by more than 0.02 %.
 constexpr int share_rounds = 3;
 // Faces or rows that one thread's job takes; the figures of polygon_laplacian.cpp hold.

@@ -3,7 +3,7 @@
 // Intrinsic Delaunay: a planar face has one intrinsic Delaunay triangulation, whatever its cut. A quad that is not
 // planar has two cuts. The mean of the two Laplacians that take one cut and the other of every such quad is corrected
 // by the polygon Laplacian (face_correction.h). No weight is negative, so fields keep within their site values.
-// docs/studies/polygons.md compares it with the other operators.
+// docs/surfaces.md compares it with the other operators.
 //
 // Cotangents: the polygon Laplacian of polygon_laplacian.h; clamped: the same with its weights raised; uniform: 1 for
 // every side of a face.

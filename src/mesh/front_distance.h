@@ -1,4 +1,4 @@
-// Computes geodesic distances fast, within about 1 % (docs/benchmarks.md).
+// Computes geodesic distances fast, within about 1 % (docs/geodesics.md).
 //
 // The method is fast marching with circular fronts (Kimmel and Sethian 1998; Novotni and Klein 2002) on the intrinsic
 // Delaunay triangulation (intrinsic.h), whose triangles have no sharp angle between long edges. Two vertices with known

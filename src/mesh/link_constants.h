@@ -1,6 +1,6 @@
 // The chosen numbers of the search for links. Lengths are shares of the diagonal of the box.
 //
-// Each was tried at half and at double on six models, the choosing half of docs/studies/links.md. Figures are means
+// Each was tried at half and at double on six models, the choosing half of docs/links.md. Figures are means
 // over them: the gap at 95 % of the contacts and the worst, in % of the box; entries of the factor against the surface
 // without links; false links; light pieces. As chosen: gap .072 / .36, entries 1.190, false 0.7 %, 54 light pieces.
 #pragma once

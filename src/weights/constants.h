@@ -87,7 +87,7 @@ constexpr double rigid_size = 0.15;
 
 // --- piece_bones.cpp, piece_contacts.cpp, rigid_pieces.cpp ---
 //
-// Figures are means of logarithms of the 95 % distances on the third table of docs/studies/weights.md, 29 models, in %
+// Figures are means of logarithms of the 95 % distances on the third table of docs/weights.md, 29 models, in %
 // of the box; distances below 0.001 count as 0.001. As chosen: 0.226. Without these rules: 0.814. Rows that say "from
 // 0.249" were measured when two of the constants stood at their doubles.
 

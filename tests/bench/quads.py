@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Quads over meshes: the figures of docs/studies/quads_field.md.
+"""Quads over meshes: the figures of docs/quads.md.
 
     python3 tests/bench/quads.py HF_QUADS OUT.csv MESH... [--faces 500,5000,50000] [--limit SECONDS] [--crease DEG]
                                    [--peer "COMMAND {mesh} {faces} {out}"]

@@ -27,8 +27,8 @@ flags=$(PKG_CONFIG_PATH=$(dirname "$found") pkg-config --cflags --libs hf hf_glt
 # shellcheck disable=SC2086
 quiet cc -std=c99 "$source/samples/walk/hf_walk.c" $flags -lm -o "$work/by_pkg_config"
 LD_LIBRARY_PATH=$(dirname "$(dirname "$found")") says "$work/by_pkg_config"
-# the block of the guide compiles and poses a model
-{ printf '#include <hf_gltf/gltf.h>\n#include <stdlib.h>\nint main() {\n'; awk '$0 == "```c++" {on = 1; next} /^```/ {on = 0} on' "$source/docs/guide.md"; printf 'free(posed);\nhf_gltf_model_destroy(model);\nreturn 0;\n}\n'; } >"$work/guide.cpp"
+# the block of docs/files.md compiles and poses a model
+{ printf '#include <hf_gltf/gltf.h>\n#include <stdlib.h>\nint main() {\n'; awk '$0 == "```c++" {on = 1; next} /^```/ {on = 0} on' "$source/docs/files.md"; printf 'free(posed);\nhf_gltf_model_destroy(model);\nreturn 0;\n}\n'; } >"$work/files.cpp"
 # shellcheck disable=SC2086
-quiet c++ -std=c++17 -Wall -Wextra -Werror "$work/guide.cpp" $flags -o "$work/guide"
-echo "hf_walk and the guide: built by CMake and by pkg-config"
+quiet c++ -std=c++17 -Wall -Wextra -Werror "$work/files.cpp" $flags -o "$work/files"
+echo "hf_walk and the block of docs/files.md: built by CMake and by pkg-config"

@@ -5,12 +5,16 @@ set -eu
 source=$1 work=$2 library=$3 compiler=$4 page=$5
 mkdir -p "$work"
 blocks=$(awk '$0 == "```c" {on = 1; next} /^```/ {on = 0} on' "$source/docs/$page.md")
-[ "$(printf '%s\n' "$blocks" | wc -l)" -gt 60 ] || { echo "docs/$page.md has lost its C"; exit 1; }
-# what a page takes as given
+[ "$(printf '%s\n' "$blocks" | wc -l)" -ge 8 ] || { echo "docs/$page.md has lost its C"; exit 1; }
+# the lines before a page: the guide makes the surface itself, the others begin after its first lines
 begin='Mesh mesh = mesh_leg();' end='mesh_free(&mesh);'
+if [ "$page" != guide ]; then
+  begin="$begin hf_surface surface = mesh_surface(&mesh);"
+  end="hf_surface_destroy(surface); $end"
+fi
 if [ "$page" = renderer ]; then
-  begin="$begin hf_surface surface = mesh_surface(&mesh); hf_pose pose; uint32_t low_handle, high; mesh_pose(&mesh, surface, &pose, &low_handle, &high);"
-  end="hf_pose_destroy(pose); hf_surface_destroy(surface); $end"
+  begin="$begin hf_pose pose; uint32_t low_handle, high; mesh_pose(&mesh, surface, &pose, &low_handle, &high);"
+  end="hf_pose_destroy(pose); $end"
 fi
 {
   printf '#include "mesh.h"\nstatic void upload(const char* name, const void* data, size_t bytes) { printf("%%s %%p %%zu\\n", name, data, bytes); }\n'

@@ -68,7 +68,7 @@ void write_page(const Table& table, const std::vector<Body>& bodies, const std::
   std::ofstream out(file);
   if (!out) throw std::runtime_error("cannot write " + file);
   out << "# What changes nothing\n\n"
-         "A vertex in no triangle, another order of the vertices or another unit are no reason for another result. "
+         "A vertex in no triangle, another order of the vertices and another unit give the same result. "
          "`tests/invariance` gives every noun\nof the library sound bodies and changed copies of them. It takes the "
          "results back to the body and compares. `build/dev/bin/invariance --full --page docs/invariance.md`\nwrites "
          "this page; `ctest -R invariance` runs a quick form, and `tests/run --full` all bodies.\n\n"

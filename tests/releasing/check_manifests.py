@@ -77,7 +77,7 @@ others = {
     "bindings/rust/Cargo.lock": r'name = "hf"\nversion = "(.*)"',
     "bindings/js/src/raw.js": r'headerVersion = "(.*)"',
     "CHANGELOG.md": r"\n## (\d+\.\d+\.\d+)",
-    "README.md": r"`hf-(\d+\.\d+\.\d+)-linux-x64",
+    "docs/platforms.md": r"`hf-(\d+\.\d+\.\d+)-linux-x64",
 }
 for path, pattern in others.items():
     if (has := shown(path, pattern)[0]) != version:

@@ -102,7 +102,7 @@ namespace Hf
         Saddle = Constants.HF_CRITICAL_SADDLE,
     }
 
-    /// <summary>Selects how distances are computed. docs/benchmarks.md has the errors of each.</summary>
+    /// <summary>Selects how distances are computed. docs/geodesics.md has the errors of each.</summary>
     public enum DistanceMethod
     {
         /// <summary>EXACT up to 10,000 vertices, FRONT beyond</summary>
@@ -2044,10 +2044,10 @@ namespace Hf
     ///
     /// No field depends on how you would cut a face into triangles. Operator.IntrinsicDelaunay takes the mean of
     /// both cuts of a bent quad. It moves this mean towards the polygon Laplacian of Bunge and others 2020 until a
-    /// weight would become negative; docs/studies/polygons.md compares errors. Operator.Cotangent and
-    /// Operator.Clamped use that polygon Laplacian. Operator.Uniform uses the sides of the faces. Directions,
-    /// distances, iso-lines, streamlines and quads work on triangles: the library cuts the faces. Its cut does not
-    /// depend on the order of the corners. Normals of poses are sums of the area vectors of faces.</summary>
+    /// weight would become negative; docs/surfaces.md compares errors. Operator.Cotangent and Operator.Clamped use
+    /// that polygon Laplacian. Operator.Uniform uses the sides of the faces. Directions, distances, iso-lines,
+    /// streamlines and quads work on triangles: the library cuts the faces. Its cut does not depend on the order of
+    /// the corners. Normals of poses are sums of the area vectors of faces.</summary>
     public sealed unsafe class FacesDesc
     {
         /// <summary>[cornerCount] of uint32_t: vertices, counter-clockwise seen from outside</summary>

@@ -173,7 +173,7 @@ class Critical(IntEnum):
 
 
 class DistanceMethod(IntEnum):
-    """Selects how distances are computed. docs/benchmarks.md has the errors of each."""
+    """Selects how distances are computed. docs/geodesics.md has the errors of each."""
 
     AUTO = _raw.HF_GEODESICS_AUTO
     """EXACT up to 10,000 vertices, FRONT beyond"""

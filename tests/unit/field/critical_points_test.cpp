@@ -222,7 +222,7 @@ TEST(MaximumPrinciple, holds_along_the_edges_of_the_intrinsic_operator) {
   std::printf("%d extrema off the sites on the mesh's edges, 200 fields of 10 sites\n", seeming);
 }
 
-// ---- the paper's open question (docs/studies/critical_points.md)
+// ---- the paper's open question (docs/fields.md)
 
 std::vector<double> solve(const std::shared_ptr<const hf_inner::Core>& core, hf_test::EngineKind engine,
                           double stiffness, const std::vector<std::uint32_t>& vertices,
