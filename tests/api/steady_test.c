@@ -148,6 +148,9 @@ static void create_world(void) {
   stiff.vertex_count = 200;
   stiff.vertices = stroke;
   stiff.stiffness = stiffness;
+  const hf_link link = {10, {VERTICES / 3, NO_INDEX, NO_INDEX}, {1, 0, 0}, 0, 1, 0, 0};
+  stiff.link_count = 1;
+  stiff.links = &link;
   hf_surface edited;
   assert_ok(hf_surface_edit(w.surface, &stiff, &edited));
   assert_ok(hf_create(edited, NULL, &w.edited));

@@ -166,6 +166,13 @@ if (surface.edit) {
   moved.addSites([0, 150], [0, 1]);
   assert.equal(moved.solve().length, n);
   assert.throws(() => surface.edit({ vertices: [3, 4], stiffness: [2] }), /stiffness/);
+  const link = { vertex: 3, corners: [90, 91, 92], barycentrics: [0.5, 0.25, 0.25], weight: 2 };
+  const linked = surface.edit({ links: [link] });
+  assert.deepEqual(linked.links().map((l) => [l.vertex, ...l.corners, l.weight]), [[3, 90, 91, 92, 2]]);
+  moved.moveTo(linked);
+  assert.ok(moved.solve().some((u, v) => u !== 0 && v > 0));
+  assert.equal(linked.edit({ removedLinks: [0] }).links().length, 0);
+  assert.throws(() => linked.edit({ removedLinks: [1] }), /the surface has 1 links/);
 }
 
 // ---- objects are cloned or refuse to be copied, sent and written, by name

@@ -496,6 +496,25 @@ class Given(unittest.TestCase):
         with self.assertRaisesRegex(hf.InvalidArgumentError, "links must be records"):
             self.surface.relink(mode=hf.LinkMode.LIST, links=[[0, 1]])
 
+    def test_links_come_in_and_go_out_by_an_edit(self):
+        """The second torus follows while links hold it."""
+        links = self.surface.links()
+        solver = hf.Solver(self.surface)
+        solver.add_sites([0, 150], [0, 1])
+        held = solver.solve()
+        parted = self.surface.edit(removed_links=range(len(links)))
+        self.assertEqual(parted.links_info.link_count, 0)
+        self.assertEqual(parted.report.component_count, self.surface.report.component_count + 1)
+        solver.move_to(parted)
+        np.testing.assert_array_equal(solver.solve()[len(self.points) // 2:], 0)
+        joined = parted.edit(links=links[:2])
+        np.testing.assert_array_equal(joined.links()["vertex"], links["vertex"][:2])
+        solver.move_to(joined.edit(links=links[2:]))
+        np.testing.assert_allclose(solver.solve(), held, atol=1e-10)
+        with self.assertRaisesRegex(hf.NotFoundError, "entry 1 of removed_links is 2; the surface has 2 links") as caught:
+            joined.edit(removed_links=[1, 2])
+        self.assertEqual(caught.exception.index, 1)
+
     def test_a_list_of_vertices_is_edited_on_a_mesh_of_more(self):
         """The desc counts its list as the surface counts its vertices: both are vertex_count."""
         solver = hf.Solver(self.surface)

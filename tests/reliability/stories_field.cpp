@@ -137,6 +137,9 @@ void edited(Story& s, const Tube& tube, Allocator& memory) {
   edit.vertex_count = 4;
   edit.vertices = belt;
   edit.stiffness = stiffness;
+  const hf_link link = {50, {2, HF_NO_INDEX, HF_NO_INDEX}, {1, 0, 0}, 0, 2, 0, 0};
+  edit.link_count = 1;
+  edit.links = &link;
   s.make("hf_surface_edit", stiff, [&] { return hf_surface_edit(surface, &edit, &stiff); });
   const hf_surface way[2] = {stiff, surface};
   for (const hf_surface to : way) {

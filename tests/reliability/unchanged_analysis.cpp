@@ -253,6 +253,20 @@ struct AnalysisCalls {
     desc.vertices = list.data();
     desc.stiffness = stiffness.data();
     desc.progress = s.world.progress();
+    hf_link link{};
+    link.vertex = random.index(s.world.shape->vertices());
+    for (std::uint32_t& corner : link.corners) corner = random.index(s.world.shape->vertices());
+    link.barycentrics[0] = link.weight = random.one_in(12) ? random.number() : 1;
+    const std::uint32_t removed = random.below(3);
+    desc.link_count = random.below(2);
+    desc.links = &link;
+    desc.removed_link_count = random.one_in(3);
+    desc.removed_links = &removed;
+    if (desc.link_count + desc.removed_link_count > 0 && random.one_in(2)) {
+      desc.vertex_count = 0;
+      desc.vertices = nullptr;
+      desc.stiffness = nullptr;
+    }
     hf_surface made = s.world.surface;
     const hf_result result = hf_surface_edit(s.world.surface, random.spoiled(desc), &made);
     if (result != HF_OK) s.expect(made == nullptr, "a refused surface is no NULL");
