@@ -249,9 +249,8 @@ Index ConstraintEdit::known_column(Index row, std::size_t group) const noexcept 
   return same ? there.path.column : -1;
 }
 
-// Takes the paths that another system has, and returns the rows that are left.
-Vector<Index> ConstraintEdit::take_known_paths(Span<const Index> rows) {
-  Vector<Index> left(rows.begin(), rows.end(), &memory());
+// Takes the paths that another system has, and leaves the other rows.
+void ConstraintEdit::take_known_paths(Vector<Index>& left) {
   for (std::size_t g = 0; known_.state && g < known_.state->groups.size(); ++g) {
     const PathGroup& paths = *known_.state->groups[g].paths;
     ConstraintState::Group taken;
@@ -271,14 +270,13 @@ Vector<Index> ConstraintEdit::take_known_paths(Span<const Index> rows) {
         columns.append(state_.entries[at(taken.row[c])].site, nullptr);
     }
     taken.paths = factor().take_paths(*known_.factor, known_.state->groups[g].paths, columns.view(), memory());
-    if (!taken.paths) return left;
+    if (!taken.paths) return;
     const auto is_taken = [&](Index row) { return known_column(row, g) >= 0; };
     left.erase(std::remove_if(left.begin(), left.end(), is_taken), left.end());
     for (Index c = 0; c < paths.count(); ++c)
       if (taken.row[c] != no_row) state_.path_of(taken.row[c]) = {static_cast<Index>(state_.groups.size()), c};
     state_.groups.push_back(std::move(taken));
   }
-  return left;
 }
 
 void ConstraintEdit::solve_part(Part& part) const {
@@ -317,7 +315,8 @@ void ConstraintEdit::add_rows(Span<const Row> rows) {
   Vector<Index> ids(&memory());
   for (const Row& row : rows) ids.push_back(row.row);
   const std::size_t first_group = state_.groups.size();
-  add_paths(state_.base ? ids : take_known_paths(ids));
+  if (!state_.base) take_known_paths(ids);
+  add_paths(ids);
   state_.rows += static_cast<Index>(rows.size());
   if (operator_.paths) project_pins(first_group);
   Batch batch(state_, rows, memory());

@@ -35,7 +35,7 @@ class ConstraintEdit {
   void remove_rows(Span<const Row> rows);
   void add_rows(Span<const Row> rows);
   void add_paths(Span<const Index> rows);
-  Vector<Index> take_known_paths(Span<const Index> rows);
+  void take_known_paths(Vector<Index>& left);
   Index known_column(Index row, std::size_t group) const noexcept;
   void solve_part(Part& part) const;
   void take_part(Part& part);

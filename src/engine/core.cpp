@@ -28,8 +28,8 @@ Core::Core(std::shared_ptr<const Geometry> shape)
       inverse_mass(memory.get()),
       ground(memory.get()),
       mean_diagonal(memory.get()),
-      workspaces(geometry->workspaces),
-      zeroed_workspaces(geometry->zeroed_workspaces) {}
+      workspaces(geometry->unlinked().workspaces),
+      zeroed_workspaces(geometry->unlinked().zeroed_workspaces) {}
 
 namespace {
 

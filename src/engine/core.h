@@ -129,7 +129,7 @@ struct Core {
   mutable std::mutex pieces_guard;  // of `pieces`, which edits of links make when they first need it
   mutable std::shared_ptr<const PieceDiagonals> pieces;
   mutable PreviewCache preview;  // the factor in single precision; not for a core with `factored`
-  WorkspacePool& workspaces;     // the geometry's
+  WorkspacePool& workspaces;     // those of the geometry without links
   WorkspacePool& zeroed_workspaces;
 };
 

@@ -131,7 +131,9 @@ std::shared_ptr<const Geometry> Geometry::relinked(std::shared_ptr<const Geometr
     shape->given_count.assign(from->given_count.begin(), from->given_count.end());
   } else {
     shape->mesh = linked_mesh(shape->plain->mesh, *links, *shape->memory);
-    count_given(*shape);
+    shape->given_count.assign(static_cast<std::size_t>(links->group_count), 0);
+    for (std::size_t piece = 0; piece < links->group.size(); ++piece)
+      shape->given_count[at(links->group[piece])] += shape->plain->given_count[piece];
   }
   shape->weld_ms = from->weld_ms;
   shape->weights_ms = from->weights_ms;

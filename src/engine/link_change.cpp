@@ -52,15 +52,14 @@ Span<const LinkEnd> LinkChange::at_vertex(Index v) const noexcept {
 std::shared_ptr<const Links> edited_links(const Mesh& mesh, const Links* links, Span<const std::uint8_t> removed,
                                           Span<const Link> added, Memory& memory) {
   const auto made = make_shared_in<Links>(memory, memory);
+  made->piece = mesh.component;
   if (links) {
     made->stiffness = links->stiffness;
     made->open.assign(links->open.begin(), links->open.end());
-    made->piece.assign(links->piece.begin(), links->piece.end());
     made->light.assign(links->light.begin(), links->light.end());
     for (std::size_t i = 0; i < links->links.size(); ++i)
       if (!removed[i]) made->links.push_back(links->links[i]);
   } else {
-    made->piece.assign(mesh.component.begin(), mesh.component.end());
     made->light.assign(at(mesh.component_count()), 0);
   }
   for (Link link : added) {

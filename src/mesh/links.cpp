@@ -88,7 +88,7 @@ std::shared_ptr<const Links> make_links(const Mesh& mesh, const Vector<double>& 
   const std::shared_ptr<Links> made = make_shared_in<Links>(memory, memory);
   Links& out = *made;
   out.stiffness = options.stiffness;
-  out.piece.assign(mesh.component.begin(), mesh.component.end());
+  out.piece = mesh.component;
   out.light.assign(at(mesh.component_count()), 0);
   Vector<std::uint8_t> light(out.light.size(), 0, &memory);
   mark(options.light, out, light);

@@ -52,10 +52,10 @@ struct LinkOptions {
 };
 
 struct Links {
-  explicit Links(Memory& memory) : links(&memory), open(&memory), piece(&memory), light(&memory), group(&memory) {}
+  explicit Links(Memory& memory) : links(&memory), open(&memory), piece(memory), light(&memory), group(&memory) {}
   Vector<Link> links;
   Vector<Link> open;           // contacts of joints far apart in the skeleton: measured, but no springs
-  Vector<Index> piece;         // by vertex
+  SharedVector<Index> piece;   // by vertex: the components of the mesh without links
   Vector<std::uint8_t> light;  // by piece
   Vector<Index> group;         // by piece, numbered by their first pieces
   Index group_count = 0;

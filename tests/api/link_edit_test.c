@@ -130,7 +130,8 @@ static void a_solver_follows_links_that_come_and_go(void** state) {
     assert_true(worst_difference(e, d) < 1e-11);
     hf_solver_destroy(copy);
     hf_solver_destroy(same);
-    free(a), free(b), free(c), free(d), free(e);
+    double* const fields[] = {a, b, c, d, e};
+    for (size_t k = 0; k < COUNT_OF(fields); ++k) free(fields[k]);
   }
   double* const after = field_of(solver, VERTICES);
   assert_true(same_bits(before, after, VERTICES * sizeof *before));

@@ -396,7 +396,16 @@ TEST_F(FactorTest, refactor_solves_the_matrix_with_eliminated_rows) {
     }
   }
   expect_residual(expected, *reduced, 1e-14);
-  EXPECT_THROW(factor->refactor(hf_test::grid_laplacian(memory, 20, 25), {}, memory, one), hf_inner::Error);
+  EXPECT_THROW(factor->refactor(hf_test::grid_laplacian(memory, 20, 26), {}, memory, one), hf_inner::Error);
+}
+
+// Links add entries to a matrix; the ordering of the factor before stays.
+TEST_F(FactorTest, refactor_takes_a_matrix_of_another_pattern) {
+  const auto factor = make(hf_test::grid_laplacian(memory, 25, 20, 1.0));
+  const hf_inner::SymmetricMatrix other = hf_test::grid_laplacian(memory, 20, 25, 1.0);
+  const auto again = factor->refactor(other, {}, memory, two);
+  expect_residual(other, *again, 1e-14);
+  expect_residual(other, *again->refactor(other, {}, memory, one), 1e-14);
 }
 
 struct Batch {
