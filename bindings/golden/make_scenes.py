@@ -17,7 +17,7 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "tests" / "bindings"), str(HERE
 import golden  # noqa: E402
 import hf  # noqa: E402
 from bad_scenes import bad_scenes  # noqa: E402
-from oracle import (agree, cast_ray, expect, expect_all, expect_rows, field, graph_field, inside_polygon, rotation,  # noqa: E402
+from oracle import (agree, cast_ray, edited, expect, expect_all, expect_rows, field, graph_field, inside_polygon, rotation,  # noqa: E402
                     straight_path)
 from shapes import bar, pair, strip, torus  # noqa: E402
 
@@ -331,6 +331,7 @@ def scenes(meshes):
     graphs(scene, solver, solve)
     faces(scene, solver, solve)
     links(scene, surface, solver)
+    edits_of_surfaces(scene, meshes["pair"], surface, solver)
     skin_weights(scene, surface)
     carried_weights(scene, meshes["strip"], surface)
     return found
@@ -429,6 +430,37 @@ def links(scene, surface, solver):
     scene("links_tags", "Pieces of different tags stay apart.",
           {**surface("pair", link_pieces=1), "tags": [3] * 25 + [4] * 25}, look(component_count=2), solver(),
           alone, {"do": "solve", "on": "s", "expect": expect(zeros)})
+
+
+def edits_of_surfaces(scene, mesh, surface, solver):
+    rows = [[4, 25, 26, 31, 0.5, 0.25, 0.25, 2.0], [24, 45, 40, 41, 1.0, 0.0, 0.0, 1.0]]
+    belt, stiff = [1, 6, 11, 16, 21, 27], [100.0, 100.0, 0.01, 100.0, 100.0, 5.0]
+    stiffness, ones = np.ones(50), np.ones(50)
+    stiffness[belt] = stiff
+    sites, values = [0, 20, 49], [0.0, 1.0, 3.0]
+    look = lambda links, s, tolerance=1e-9: {"do": "solve", "on": "s", "expect": expect(
+        field(mesh, sites, values, change=lambda matrix: edited(matrix, links, s)), tolerance)}
+    edit = lambda on, name, **more: {"do": "edit_surface", "on": on, "as": name, **more}
+    move = lambda to, on="s", **more: {"do": "move_to", "on": on, "to": to, **more}
+    flat = [x for row in rows for x in row]
+    handles = {"do": "add_handles", "on": "p", "regions": [[0, 5, 10, 15, 20], [39, 44, 49]]}
+    turn = {"do": "set_transforms", "on": "p", "handles": [0, 1], "rotations": [0, 0, 0, 1, 0, 0, 0.2, 0.98],
+        "translations": [0, 0, 0, 0.1, 0.2, 0.1]}
+    deform = {"do": "deform", "on": "p", "options": {"restart": 1, "iteration_count": 100}, "expect": agree(1e-6)}
+    report = lambda name, count: {"do": "report", "on": name, "expect": {"component_count": count}}
+    scene("edited_surfaces", "Stiffness and links come and go while sites and handles stay (dense oracle).",
+          surface("pair", operator_kind=hf.constants.HF_OPERATOR_COTANGENT), solver(),
+          {"do": "add_sites", "on": "s", "vertices": sites, "values": values}, {"do": "pose", "on": "m", "as": "p"}, handles, turn,
+          edit("m", "held", links=flat), report("held", 1), move("held"), look(rows, ones), move("held", "p"), deform,
+          edit("held", "stiff", vertices=belt, stiffness=stiff), move("stiff"), look(rows, stiffness), move("stiff", "p"), deform,
+          edit("stiff", "one", removed_links=[0]), move("one"), look(rows[1:], stiffness),
+          edit("one", "none", removed_links=[0], vertices=belt, stiffness=[1.0] * 6), report("none", 2), move("none"),
+          {"do": "components", "on": "none", "expect": expect(np.repeat([0.0, 1.0], 25))},
+          edit("none", "e", removed_links=[0], error="HF_ERROR_NOT_FOUND", index=0),
+          edit("held", "e", removed_links=[1, 1], error="HF_ERROR_CONFLICT", index=1),
+          edit("held", "e", links=flat[:7] + [-1.0], error="HF_ERROR_INVALID_ARGUMENT", index=0),
+          edit("held", "e", error="HF_ERROR_EMPTY"),
+          surface("strip", "other"), move("other", error="HF_ERROR_CONFLICT"), move("held"), look(rows, ones))
 
 
 def skin_weights(scene, surface):

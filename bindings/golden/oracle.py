@@ -20,9 +20,20 @@ def laplacian(mesh):
     return matrix
 
 
-def field(mesh, rows, values, stiffness=None, power=1):
+def edited(matrix, links, stiffness):
+    """A Laplacian with links (vertex, three corners, three shares, weight), and edges of the stiffness of their ends."""
+    edges = -matrix
+    for vertex, *rest in links:
+        for corner, share in zip(rest[:3], rest[3:6]):
+            edges[[vertex, corner], [corner, vertex]] += share * rest[6] / np.sqrt(3)  # two equilateral triangles
+    edges *= 2 * np.outer(stiffness, stiffness) / np.add.outer(stiffness, stiffness)
+    np.fill_diagonal(edges, 0)
+    return np.diag(edges.sum(1)) - edges
+
+
+def field(mesh, rows, values, stiffness=None, power=1, change=lambda matrix: matrix):
     """rows: per site a vertex or {vertex: weight}; power 2: bi-harmonic on the graph, K = L^2."""
-    matrix = np.linalg.matrix_power(laplacian(mesh), power)
+    matrix = np.linalg.matrix_power(change(laplacian(mesh)), power)
     n, k = len(matrix), len(rows)
     system, right = np.zeros((n + k, n + k)), np.zeros(n + k)
     system[:n, :n], right[n:] = matrix, values

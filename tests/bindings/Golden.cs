@@ -221,6 +221,26 @@ class Scene
                     return null;
                 }
             case "clone": objects[name] = solver.Clone(); return null;
+            case "edit_surface":
+                {
+                    double[] rows = Doubles(step, "links");
+                    Link[] links = rows == null ? null : Enumerable.Range(0, rows.Length / 8).Select(i => new Link
+                    {
+                        Vertex = (uint)rows[8 * i],
+                        Corners = rows.Skip(8 * i + 1).Take(3).Select(v => (uint)v).ToArray(),
+                        Barycentrics = rows.Skip(8 * i + 4).Take(3).ToArray(),
+                        Weight = rows[8 * i + 7],
+                    }).ToArray();
+                    objects[name] = surface.Edit(vertices, Doubles(step, "stiffness"), links, Numbers(Get(step, "removed_links")));
+                    return null;
+                }
+            case "move_to":
+                {
+                    var edited = (Surface)objects[(string)step["to"]];
+                    if (pose != null) pose.MoveTo(edited);
+                    else solver.MoveTo(edited);
+                    return null;
+                }
             case "dispose": on.Dispose(); return null;
             case "add_sites": return solver.AddSites(vertices, Doubles(step, "values"), PlacesOf(step),
                 stiffness: Doubles(step, "stiffness"), radii: Doubles(step, "radii"));

@@ -121,6 +121,25 @@ function runStep(hf, step, meshes, objects, kept) {
     case 'clone':
       objects[step.as] = on.clone();
       return {};
+    case 'edit_surface': {
+      const rows = get('links') ?? [];
+      const links = [...Array(rows.length / 8).keys()].map((i) => ({
+        vertex: rows[8 * i],
+        corners: rows.slice(8 * i + 1, 8 * i + 4),
+        barycentrics: rows.slice(8 * i + 4, 8 * i + 7),
+        weight: rows[8 * i + 7],
+      }));
+      objects[step.as] = on.edit({
+        vertices: get('vertices'),
+        stiffness: get('stiffness'),
+        links: links.length ? links : null,
+        removedLinks: get('removed_links'),
+      });
+      return {};
+    }
+    case 'move_to':
+      on.moveTo(objects[step.to]);
+      return {};
     case 'dispose':
       on.close();
       return {};

@@ -102,6 +102,14 @@ class Scene:
             self.objects[step["as"]] = hf.Solver(on, **options)
         elif do == "clone":
             self.objects[step["as"]] = on.clone()
+        elif do == "edit_surface":
+            rows = np.reshape(get("links", []), (-1, 8))
+            links = np.zeros(len(rows), np.dtype(hf._raw.hf_link)) if len(rows) else None
+            for link, row in zip(() if links is None else links, rows):
+                link["vertex"], link["corners"], link["barycentrics"], link["weight"] = row[0], row[1:4], row[4:7], row[7]
+            self.objects[step["as"]] = on.edit(get("vertices"), get("stiffness"), links, get("removed_links"))
+        elif do == "move_to":
+            on.move_to(self.objects[step["to"]])
         elif do == "dispose":
             on.close()
         elif do == "add_sites":

@@ -311,6 +311,18 @@ impl Scene<'_> {
         Ok(Answer::Nothing)
     }
 
+    fn move_step(&mut self, step: &Value) -> Outcome {
+        let (on, to) = (step["on"].as_str().unwrap(), step["to"].as_str().unwrap());
+        let mut moving = self.objects.remove(on).unwrap();
+        let moved = match (&mut moving, &self.objects[to]) {
+            (Object::Solver(solver), Object::Surface(surface)) => solver.move_to(surface),
+            (Object::Pose(pose), Object::Surface(surface)) => pose.move_to(surface),
+            _ => panic!("{} cannot move", step["on"]),
+        };
+        self.objects.insert(on.into(), moving);
+        moved.map(|()| Answer::Nothing)
+    }
+
     fn surface_step(&mut self, what: &str, step: &Value) -> Outcome {
         let (field, posed) = (
             self.doubles(step, "field").unwrap_or_default(),
@@ -373,6 +385,30 @@ impl Scene<'_> {
             Ok(Answer::Array(list.into_iter().map(f64::from).collect()))
         };
         let made = match what {
+            "edit_surface" => {
+                let rows = self.doubles(step, "links").unwrap_or_default();
+                let links: Vec<raw::hf_link> = rows
+                    .chunks(8)
+                    .map(|row| raw::hf_link {
+                        vertex: row[0] as u32,
+                        corners: [row[1] as u32, row[2] as u32, row[3] as u32],
+                        barycentrics: [row[4], row[5], row[6]],
+                        weight: row[7],
+                        ..Default::default()
+                    })
+                    .collect();
+                let (vertices, removed) =
+                    (self.integers(step, "vertices"), self.integers(step, "removed_links"));
+                let stiffness = self.doubles(step, "stiffness");
+                let edited = on!(self, step, Surface).edit(&SurfaceEdit {
+                    vertices: vertices.as_deref(),
+                    stiffness: stiffness.as_deref(),
+                    links: if links.is_empty() { None } else { Some(&links) },
+                    removed_links: removed.as_deref(),
+                    progress: None,
+                })?;
+                return self.keep(step, Object::Surface(edited));
+            }
             "report" => return figures!(surface.report()),
             "surface_info" => return figures!(surface.info()),
             "surface_statistics" => return figures!(surface.statistics()),
@@ -837,6 +873,7 @@ impl Scene<'_> {
             "add_sites" | "add_site" | "remove_sites" | "move_sites" | "set_values" | "edit"
             | "record" | "undo" | "redo" | "solve" | "solve_f32" | "preview" | "solve_at"
             | "statistics" | "solver_info" | "certify" | "clone" => self.solver_step(what, step),
+            "move_to" => self.move_step(step),
             "add_vectors" | "remove_vectors" | "move_vectors" | "set_vectors" | "rotate"
             | "record_vectors" | "undo_vectors" | "redo_vectors" | "vectors" | "directions"
             | "singularities" | "clone_vectors" => self.direction_step(what, step),

@@ -190,6 +190,7 @@ class Scene {
   Result run_solver(const Json& step);
   Result run_surface(const Json& step);
   Result run_graph(const Json& step);
+  void edit_surface(const Json& step, hf_surface surface);
   Result run_mesh(const Json& step, const std::string& what, hf_surface surface);
   Result run_picking(const Json& step, const std::string& what, hf_surface surface, size_t n);
   Result run_looking(const Json& step, const std::string& what, hf_surface surface, size_t n);

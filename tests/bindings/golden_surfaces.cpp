@@ -136,6 +136,41 @@ Result Scene::run_picking(const Json& step, const std::string& what, hf_surface 
   return result;
 }
 
+void Scene::edit_surface(const Json& step, hf_surface surface) {
+  const auto vertices = numbers(step, "vertices"), removed = numbers(step, "removed_links");
+  const auto stiffness = doubles(step, "stiffness");
+  const size_t link_count = step.contains("links") ? step["links"].size() / 8 : 0;
+  const auto rows = doubles(step, "links", 8 * link_count);
+  std::vector<hf_link> links(link_count);
+  for (size_t i = 0; i < link_count; ++i) {
+    const double* row = rows->data() + 8 * i;
+    links[i] = {};
+    links[i].vertex = static_cast<uint32_t>(row[0]);
+    for (int k = 0; k < 3; ++k) links[i].corners[k] = static_cast<uint32_t>(row[1 + k]);
+    std::copy_n(row + 4, 3, links[i].barycentrics);
+    links[i].weight = row[7];
+  }
+  auto desc = make<hf_surface_edit_desc>();
+  if (vertices) {
+    desc.vertex_count = count(vertices);
+    desc.vertices = data(vertices);
+    desc.stiffness = data(stiffness);
+  }
+  desc.link_count = static_cast<uint32_t>(link_count);
+  if (link_count) desc.links = links.data();
+  if (removed) {
+    desc.removed_link_count = count(removed);
+    desc.removed_links = data(removed);
+  }
+  const size_t n = objects_[step["on"]].vertex_count;
+  hf_surface raw = nullptr;
+  check(hf_surface_edit(surface, &desc, &raw));
+  Object& object = objects_[step["as"]];
+  object = {};
+  object.surface = hf::Handle<hf_surface, hf_surface_destroy>(raw);
+  object.vertex_count = n;
+}
+
 Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface surface) {
   Result result;
   if (what == "report") {
@@ -161,6 +196,8 @@ Result Scene::run_mesh(const Json& step, const std::string& what, hf_surface sur
     Numbers components(size);
     check(hf_surface_get_components(surface, size, components.data(), &size));
     result.array.emplace(components.begin(), components.end());
+  } else if (what == "edit_surface") {
+    edit_surface(step, surface);
   } else {  // save
     const int32_t kind = step.value("field_kind", 0);
     size_t size = 0;
