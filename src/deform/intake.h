@@ -34,7 +34,7 @@ void check_following(double following);
 std::uint32_t read_refine(std::int32_t refine);
 HandleTransform read_transform(const hf_transform& given) noexcept;
 
-// The vertices as given that hf_pose_deform writes.
+// The vertices of the caller's mesh that hf_pose_deform writes.
 struct VertexRange {
   std::uint32_t first, count;
   bool whole;

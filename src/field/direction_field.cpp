@@ -212,7 +212,7 @@ void DirectionField::solve(Vec3* out) const {
   const Vector<Complex> field = solved();
   for (std::size_t v = 0; v < field.size(); ++v)
     out[v] = solver_.connection().to_space(static_cast<Index>(v), root(field[v], solver_.degree()));
-  // Constrained vertices get their own vectors bit for bit, whichever of its `degree` directions the field takes
+  // Constrained vertices get their own vectors bit for bit, whichever of its `degree` directions the field has
   // elsewhere.
   for (const DirectionConstraint& c : constraints_) {
     if (c.vertex >= 0) out[c.vertex] = solver_.connection().to_space(c.vertex, c.vector);
@@ -221,7 +221,7 @@ void DirectionField::solve(Vec3* out) const {
 
 namespace {
 
-// Adds up the singularities of the triangles that one face is cut into. Those of a surface of triangles stay.
+// Adds up the singularities of the triangles that one face is cut into. The numbers of a surface of triangles stay.
 Vector<Singularity> by_face(const Mesh& mesh, Vector<Singularity> found) {
   if (mesh.faces.empty()) return found;
   std::size_t count = 0;
