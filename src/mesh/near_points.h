@@ -1,7 +1,7 @@
 // Tells whether two sets of points come within a tolerance of each other.
 //
 // Distances are computed on differences scaled by a power of two that brings the tolerance near 1, so that no tolerance
-// overflows or underflows. Every answer is that of comparing all pairs with Nearness::near, to the last bit.
+// overflows or underflows. Comparing all pairs with Nearness::near gives the same answers, to the last bit.
 #pragma once
 #include <algorithm>
 #include <cmath>

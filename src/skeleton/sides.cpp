@@ -26,7 +26,7 @@ bool is_straight(Vec3 v) noexcept {
                      [&](Vec3 axis) { return std::fabs(dot(v, axis)) == 1; });
 }
 
-// Joints with one name but for the side, one on each side.
+// Two joints, one on each side, whose names differ only in the side.
 void pair_names(Body& body) {
   Vector<std::pair<std::uint64_t, Index>> keys(&body.memory);
   for (Index j = 0; j < body.count; ++j) {
