@@ -106,7 +106,7 @@ bool percent_decode(const std::string& text, std::string& out) {
   return true;
 }
 
-// One sentence on what is wrong with a decoded relative name, or empty.
+// One sentence on the fault of a decoded relative name, or empty.
 std::string name_fault(const std::string& name) {
   if (name.empty()) return "the name is empty";
   if (name.size() > 1024) return "the name is longer than 1024 bytes";

@@ -230,7 +230,7 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
   const Pose rest = target.rest_of();
   std::vector<double> trs(10 * rest.size());
   Riders riders = in_->riders;
-  if (retarget.report().same_skeleton) {  // what the clip itself moves is copied
+  if (retarget.report().same_skeleton) {  // nodes that the clip itself moves are copied
     const std::vector<uint8_t> moved = moved_by_clip(source.side.model, clip);
     std::vector<std::uint32_t> partners(rest.size(), HF_NO_INDEX);
     retarget.partners(partners.data());

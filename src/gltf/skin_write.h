@@ -25,8 +25,8 @@ struct SkinJoint {
   glm::dquat axes{1, 0, 0, 0};
 };
 
-// rotations[f * joints + j], translations the same: the motion x -> R x + t of joint j at times[f]. scales the same, or
-// none: what is stretched about the pivot before.
+// rotations[f * joints + j], translations the same: the motion x -> R x + t of joint j at times[f]. The array scales is
+// the same, or none: the stretch about the pivot before.
 struct SkinClip {
   std::string name;
   std::vector<double> times;  // increasing, from 0
@@ -47,8 +47,8 @@ struct SkinDescription {
 // Throws std::runtime_error naming the joint, vertex or frame that does not fit.
 Model skin_model(const Model& source, const FlatMesh& mesh, const SkinDescription& skin);
 
-// What a file says beside its shape: copyright, extras, cameras, lights. Nodes that carry them stand where they stood
-// at rest, at the top of the scene.
+// The contents of a file beside its shape: copyright, extras, cameras, lights. Nodes that carry them stand where they
+// stood at rest, at the top of the scene.
 void keep_carried(const Model& from, Model& out);
 
 // Gives the only mesh of `out`, the flat mesh of `from` vertex by vertex, the morph targets of `from`. Targets of equal

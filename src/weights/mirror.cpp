@@ -113,7 +113,7 @@ MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& g
     fill.known.close();
   }
   const Vector<std::uint8_t> known = known_pieces(mesh, fill.known, memory);
-  // Pieces of the side that gives, without any weight, take those of the nearest points of that side.
+  // Pieces without any weight on the side to copy from get the weights of the nearest points of that side.
   const Vector<Match> beside = find_matches(shape, *core, options.carry, true, [&](Index v, Probe& to) {
     to.place = mesh.positions[at(v)];
     return role[at(v)] == Role::keeps && !known[at(mesh.component[at(v)])];
