@@ -59,8 +59,8 @@ extern "C" {
 #define HF_VERSION_MINOR 1
 #define HF_VERSION_PATCH 0
 
-/* Result of a call. The codes -1 to -99 report arguments and state, -100 to -199 resources, -200 to -299 numerical
- * failures, and codes from -300 down internal faults. */
+/* Result of a call. The codes -1 to -99 report arguments and state, -100 to -199 resources. The codes -200 to -299
+ * report numerical failures, and codes from -300 down internal faults. */
 typedef int32_t hf_result;
 enum {
   HF_OK = 0,

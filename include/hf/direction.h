@@ -57,7 +57,7 @@ HF_API hf_result hf_direction_add_sites(hf_direction direction, uint32_t site_co
 HF_API hf_result hf_direction_remove_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites);
 
 /* Moves constraints to other vertices of the same component. sites, vertices: uint32_t[site_count]. The connection
- * carries each vector along the shortest path of edges, from tangent plane to tangent plane. Errors: as
+ * transports each vector along the shortest path of edges, from tangent plane to tangent plane. Errors: as
  * hf_solver_move_vectors. Thread safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_move_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites,
                                          const uint32_t* vertices);

@@ -1928,7 +1928,7 @@ class Direction {
     check(hf_direction_remove_sites(get(), c.count("site_count", 1), sites_));
   }
 
-  // Moves constraints to other vertices of the same component. The connection carries each vector along the shortest
+  // Moves constraints to other vertices of the same component. The connection transports each vector along the shortest
   // path of edges, from tangent plane to tangent plane.
   //
   // sites: `[site_count]`.

@@ -142,7 +142,7 @@ typedef struct hf_surface_desc {
   const hf_faces_desc* faces; /* NULL, or faces instead of triangles */
   double weld_tolerance;      /* for HF_WELD_TOLERANCE, in the unit of the positions, > 0 */
   int32_t operator_kind;      /* HF_OPERATOR_* */
-  int32_t field_kind;         /* HF_FIELD_*: the factor made now. Others are made when a solver or region asks */
+  int32_t field_kind;         /* HF_FIELD_*: the factor made now. Others are made when a solver or region needs one */
   int32_t ordering;           /* HF_ORDERING_* */
   uint32_t thread_count;      /* threads the library may use, yours included, 1 to 256; 0 = 1 */
   uint32_t vertex_limit;      /* refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941

@@ -29,8 +29,8 @@ enum hf_transfer_mode {
 };
 
 enum hf_ground {
-  HF_GROUND_KEEP = 0, /* feet are held at the ground. A part sinks no deeper than the source's part; thin parts may. The
-                         default */
+  HF_GROUND_KEEP = 0, /* feet are held at the ground. A part goes no deeper under the ground than on the source; thin
+                         parts may. The default */
   HF_GROUND_OFF = 1   /* there is no ground: for flying and swimming, or where the host has its own */
 };
 

@@ -94,14 +94,14 @@ HF_API hf_result hf_weights_set_locks(hf_weights weights, uint32_t lock_count, c
 
 /* How the weights of a vertex were found. */
 enum hf_weights_origin {
-  HF_WEIGHTS_INFORMED = 0, /* it sees its nearest joint */
+  HF_WEIGHTS_INFORMED = 0, /* its nearest joint is in sight */
   HF_WEIGHTS_SOLVED = 1,   /* from the vertices around it */
   HF_WEIGHTS_PINNED = 2,   /* given by a pin */
   HF_WEIGHTS_NEAREST = 3,  /* guessed: its piece has no information; from the nearest vertices of others */
   HF_WEIGHTS_RIGID = 4,    /* guessed, as NEAREST: one mean for all vertices of a small piece */
   HF_WEIGHTS_ISOLATED = 5, /* guessed: it belongs to no triangle; from the nearest vertex */
   HF_WEIGHTS_MATCHED = 6,  /* transferred or mirrored: from a near point whose normal agrees */
-  HF_WEIGHTS_KEPT = 7      /* mirrored: it is on the side that gives */
+  HF_WEIGHTS_KEPT = 7      /* mirrored: it is on the side to copy from */
 };
 
 /* Receives the weights. The arrays are yours; each may be NULL. */

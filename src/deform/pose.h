@@ -219,7 +219,7 @@ class Pose {
     double share = 0;                          // of the offsets of the crossfade, in the last frame
     double last_change = 0;
     std::uint32_t idle_iterations = 0;           // iterations since the last change
-    std::shared_ptr<const Crossfade> crossfade;  // null: the surface is that of the transforms
+    std::shared_ptr<const Crossfade> crossfade;  // null: the surface follows from the transforms
     std::shared_ptr<Followed> followed;          // null: full-mesh steps begin at the blended pose
     std::shared_ptr<const Limbs> limbs;          // null: no limb takes steps of its own
     std::shared_ptr<Pose> without;  // without the handles that are held back; null: nothing is, or rest is meant

@@ -76,7 +76,7 @@ Complex DirectionField::projected(std::uint32_t position, Index vertex, const do
   const Complex z = solver_.connection().to_frame(vertex, (1 / most) * v);
   if (!(length_of(z) > least_tangent))
     fail(HF_ERROR_INVALID_ARGUMENT, position,
-         "entry %u of the list: the vector stands on the surface and has no part along it; give a direction in the "
+         "entry %u of the list: the vector is normal to the surface; give a direction in the "
          "tangent plane",
          position);
   return most * z;
@@ -87,7 +87,7 @@ void DirectionField::check_free(const Vector<DirectionConstraint>& list, std::ui
   for (std::size_t s = 0; s < list.size(); ++s) {
     if (s == own || list[s].vertex != list[own].vertex) continue;
     fail(HF_ERROR_DUPLICATE, position,
-         "entry %u of the list: vertex %u carries constraint %zu already; set its vector or move it", position,
+         "entry %u of the list: vertex %u has constraint %zu already; set its vector or move it", position,
          list[own].given_vertex, s);
   }
 }

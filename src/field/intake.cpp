@@ -130,7 +130,7 @@ PointOnSurface point_on_surface(const TriangleSides& sides, const hf_place* give
   require(given, name);
   const SurfacePlace place = read_place(sides.mesh, *given, index, name);
   GeodesicPoint point(sides, place.vertex, place.weight, memory);
-  if (!point.found()) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: its corners are not those of one triangle", name);
+  if (!point.found()) fail(HF_ERROR_INVALID_ARGUMENT, index, "%s: its corners do not belong to one triangle", name);
   return {place, std::move(point)};
 }
 

@@ -369,8 +369,9 @@ void scatter(Model& model, const FlatMesh& mesh, const std::vector<glm::dvec3>& 
                            changed.meshes[m].primitives[static_cast<size_t>(part.primitive)]);
   }
   if (stayed > 0) {
-    changed.warnings.push_back(std::to_string(stayed) +
-                               " vertices stay as stored: a scale of 0 in their node or joints lets nothing move them");
+    changed.warnings.push_back(
+        std::to_string(stayed) +
+        " vertices keep their stored positions: a scale of 0 in their node or joints fixes them");
   }
   model = std::move(changed);
 }

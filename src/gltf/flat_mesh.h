@@ -123,7 +123,7 @@ void scatter(Model& model, const FlatMesh& mesh, const std::vector<glm::dvec3>& 
              const ScatterOptions& options = {});
 
 // A still model with the given world positions: the same primitives and looks, no skins, animations or morph targets.
-// Every node stands at the offset of the whole (node_offset).
+// Every node is at the offset of the whole (node_offset).
 Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec3>& positions,
            const ScatterOptions& options = {});
 

@@ -102,7 +102,7 @@ class DocumentCheck : private TreeCheck {
       fail("asset.version", "is \"" + version.substr(0, 20) + "\"; only glTF 2.x is read, convert the file first");
     }
     if (text(*asset, "minVersion", "asset", false) && (*asset)["minVersion"] != "2.0") {
-      fail("asset.minVersion", "asks for more than glTF 2.0");
+      fail("asset.minVersion", "needs a newer glTF than 2.0");
     }
     json kept = *asset;
     for (const char* key : {"version", "minVersion", "generator"}) kept.erase(key);

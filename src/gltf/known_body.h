@@ -25,7 +25,7 @@ struct KnownBody {
   std::string up_why, forward_why;  // a few words
   std::vector<std::string> why;     // sentences
   std::vector<KnownNode> nodes;     // as the model's; empty: there is no skeleton
-  // Of what is upright, along the joints to the ground; else how high the hind legs begin. 0: there are no legs.
+  // of an upright body, along the joints to the ground; else how high the hind legs begin. 0: there are no legs.
   double leg_length = 0;
   bool upright = false;  // the way from the hips to the head leads up
   bool knows_axes() const;

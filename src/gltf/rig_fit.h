@@ -83,7 +83,7 @@ class RigFit {
     int node = -1, parent = -1;           // node: in nodes_; parent: in joints_, -1 at the top
     int rotation = -1, translation = -1;  // first unknown
   };
-  struct Slot {                 // what moves vertices: a joint of a skin, or a node
+  struct Slot {                 // movers of vertices: a joint of a skin, or a node
     int node = -1, joint = -1;  // node: in nodes_; joint: in joints_, the lowest that may move; -1 when none above does
     glm::dmat4 bind{1};
   };
@@ -133,7 +133,7 @@ class RigFit {
 
   const Model& model_;
   Pose whole_rest_;          // of every node of the model
-  std::vector<Kept> nodes_;  // those of RigPose, parents first
+  std::vector<Kept> nodes_;  // joints of RigPose, parents first
   RigPose rest_;
   std::vector<Joint> joints_;
   std::vector<int> joint_of_node_;

@@ -49,11 +49,10 @@ void check_named(const SkeletonBody& a, const SkeletonBody& b) {
     if (to == others.end() || from.part == role_name(Role::other)) continue;
     const Chain *one = chain_of(a, from.node), *two = chain_of(b, to->node);
     if (one && two && one->role == two->role && one->side == two->side && one->number == two->number) continue;
-    throw std::runtime_error(
-        "chain \"" + from.chain + "\": on " + a.side.model.name + " it is " + chain_text(one) + ", on " +
-        b.side.model.name + " " + chain_text(two) +
-        ". Legs count from the front, other parts in the order of their joints: name all chains of this part, and what "
-        "is none of them as \"other\"");
+    throw std::runtime_error("chain \"" + from.chain + "\": on " + a.side.model.name + " it is " + chain_text(one) +
+                             ", on " + b.side.model.name + " " + chain_text(two) +
+                             ". Legs count from the front, other parts in the order of their joints. Name all chains "
+                             "of this part, and call the other chains \"other\"");
   }
 }
 

@@ -1,8 +1,8 @@
 // A computed motion as a skinned glTF: per-frame rigid joint motions and per-vertex weights become a skin and a clip.
 //
-// The joints stand flat under one root node, each with its pivot c at the point given. A joint's motion takes x to
-// R x + t. Its node has translation R c + t, rotation R and inverse bind matrix translate(-c). So interpolation between
-// keys turns about the pivot and not about the origin. A joint that stretches by s along its axes B takes x to
+// The joints are direct children of one root node, each with its pivot c at the given point. A joint's motion takes x
+// to R x + t. Its node has translation R c + t, rotation R and inverse bind matrix translate(-c). So interpolation
+// between keys turns about the pivot and not about the origin. A joint that stretches by s along its axes B takes x to
 // R B diag(s) B' (x - c) + R c + t. Its node has rotation R B, scale s and inverse bind matrix B' translate(-c). Keys
 // are LINEAR. Quaternion signs are made continuous. Vertex positions are the rest positions in world space. Materials
 // and texture coordinates of every primitive are kept. Neighbouring primitives of one look become one.

@@ -1,5 +1,5 @@
-// Finds the standing pose of a body. In most files the nodes stand in that pose. Some files store the middle of a clip,
-// or a pose that no clip uses: the skeleton is then hard to understand, and motion counts from the wrong pose.
+// Finds the standing pose of a body. In most files the nodes have that pose. Some files store the middle of a clip, or
+// a pose that no clip uses: the skeleton is then hard to understand, and motion counts from the wrong pose.
 #ifndef HF_GLTF_STANCE_H
 #define HF_GLTF_STANCE_H
 

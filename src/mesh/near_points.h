@@ -26,7 +26,7 @@ class Nearness {
   Vec3 scaled(Vec3 difference) const noexcept { return scale_ * difference; }
   double scaled(double difference) const noexcept { return scale_ * difference; }
   double tolerance() const noexcept { return tolerance_; }  // scaled
-  // Of a scaled difference.
+  // d: a scaled difference.
   bool near(Vec3 d) const noexcept { return !(dot(d, d) > square_); }
 
  private:

@@ -93,9 +93,8 @@ constexpr double most_stretched = 1.5;
 constexpr double least_evened = 0.6;
 
 // Maps for at least so many quads are untangled (untangle.h). Below, lines that run to and fro in a fold are often the
-// only ones around a limb. By a twentieth or more, of 40 meshes: at 5,000 quads irregular vertices are fewer on 12 and
-// more on 5, distances smaller on 11 and larger on 7; at 50,000 9 and 7, 5 and 9, and one more mesh is valid; at 1,500
-// quads 13 and 4, 11 and 7; at 500 quads 11 and 12, 5 and 17.
+// only ones around a limb. At 5,000 quads irregular vertices are a twentieth fewer on 12 of 40 meshes and more on 5.
+// Distances are smaller on 11 and larger on 7. At 500 quads distances are smaller on 5 and larger on 17.
 constexpr double untangled_from = 1000;
 
 // The guides by vertex: the mean of their crosses, to the fourth degree, and the largest weight.
@@ -118,7 +117,7 @@ Guided read_guides(Span<const QuadGuide> guides, const Connection& connection, I
     if (!(length_of(z) > least_tangent) && guide.given == QuadGuide::of_pole) continue;
     if (!(length_of(z) > least_tangent))
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(guide.given),
-           "guide_vectors[%d] stands on the surface; give a direction along it", guide.given);
+           "guide_vectors[%d] is normal to the surface; give a direction along it", guide.given);
     z /= length_of(z);
     z *= z;
     z *= z;

@@ -60,7 +60,7 @@ struct FieldQuadReport {
   std::int32_t removed = 0;      // quads of folds
   std::int32_t added = 0;        // quads around thin parts
   std::int32_t chords = 0;       // that were removed
-  std::int32_t substitutes = 0;  // components with other quads than those of the map
+  std::int32_t substitutes = 0;  // components whose quads are not from the map
   std::int32_t split = 0;        // components with quads of their triangles
   std::int32_t tries = 0;
   double edge_length = 0;

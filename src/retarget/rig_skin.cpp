@@ -44,7 +44,7 @@ void fasten(SkinPoint& p, Vec3 place, const Stance& rest) noexcept {
   for (std::size_t k = 0; k < SkinPoint::most && p.joints[k] >= 0; ++k) {
     const Linear& m = rest.linear[at(p.joints[k])];
     const double size = norm(m.x) * norm(m.y) * norm(m.z);
-    if (!(std::fabs(determinant(m)) > 1e-9 * size)) p.weights[k] = 0;  // a flat joint carries nothing
+    if (!(std::fabs(determinant(m)) > 1e-9 * size)) p.weights[k] = 0;  // a flat joint moves no vertex
     if (p.weights[k] > 0) p.local[k] = solve(m, place - rest.place[at(p.joints[k])]);
     sum += p.weights[k];
   }

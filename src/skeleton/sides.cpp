@@ -286,8 +286,8 @@ void find_plane(Body& body, MirrorSearch& search) {
     const Vec3 across = level ? across_travels(body) : Vec3{};
     const bool led = norm(across) > 0;
     choice.left = led ? snap(across) : narrowest(body, candidates, level);
-    body.say(led ? "No joints mirror each other: the side is across the way that clips lead."
-                 : "No joints mirror each other: the side is where the joints spread least.");
+    body.say(led ? "No joints mirror each other: the side axis is at a right angle to the travel of clips."
+                 : "No joints mirror each other: the side axis is where the joints spread least.");
   }
   body.left = choice.left;
   body.mirror_score = choice.score;

@@ -135,7 +135,7 @@ void take_declared_up(Body& body, const Evidence& evidence, Vec3 found) {
     body.up = found;
     body.up_confidence = 0.6;
     body.say(lies ? "Legs and head say the body lies at rest: up is its own."
-                  : "Up as declared lies across the plane of symmetry: it is not taken.");
+                  : "Up as declared lies across the plane of symmetry: it is not used.");
     return;
   }
   const bool legs_known = norm(evidence.legs) > 0;
@@ -155,8 +155,8 @@ void find_up(Body& body) {
   } else {
     body.up = found;
     body.up_confidence = std::min(0.95, 0.5 + margin);
-    body.say("Up is found by how the body stands%s: ahead of the next axis by %.2f.",
-             norm(evidence.legs) > 0 ? " and by its legs" : "", margin);
+    body.say("Up comes from the balance of the body%s: ahead of the next axis by %.2f.",
+             norm(evidence.legs) > 0 ? " and from its legs" : "", margin);
   }
   if (-dot(evidence.legs, body.up) > 0.5) add_reason(body.up_why, "legs down");
   if (dot(evidence.head, body.up) > 0.5) add_reason(body.up_why, "head up");

@@ -39,14 +39,14 @@ constexpr double meet_length = 1.5;
 // 0.557, 1 gives 0.488.
 constexpr double hub_length = 0.5;
 // It is at most this many times as far as its nearest child: a short root of a spine would lie along the whole spine.
-// On the 28 shared rigs, in the mean of logarithms, 2 and 3 give 0.459. 1 gives 0.477, 4 gives 0.460.
+// On the 28 shared rigs, in the mean of logarithms, 2 and 3 give 0.459. The values 1 and 4 give 0.477 and 0.460.
 constexpr double hub_reach = 2;
 
 // --- informants.cpp ---
 
 // Strength of the screening H = strength / d^2, d the distance to the nearest bone. A larger number makes weights
-// follow the nearest bone more closely. On 14 rigs, 2 and 6 pose vertices 44 % and 19 % farther from the artist's pose
-// (95 % of them). 3 and 5 pose them 14 % and 8 % farther.
+// follow the nearest bone more closely. On 14 rigs, 2 and 6 pose vertices 44 % and 19 % farther from the artist's pose.
+// With 3 and 5 it is 14 % and 8 %.
 constexpr double screening_strength = 4;
 // A distance is divided by half the cosine to the normal plus this. The excess over 1 bounds the division: a bone
 // behind the skin counts 2,000 times as far. An excess of 0.5 poses the rigs 6 % worse.

@@ -15,7 +15,7 @@ struct Informants {
   Vector<double> screening;         // H by vertex, 0 without a bone
   Vector<std::uint32_t> by_piece;  // vertices with information
   std::uint32_t informed = 0;       // of all
-  bool blind = false;               // some piece sees none of its bones and asks for them unseen
+  bool blind = false;               // some piece has none of its bones in sight and uses them unseen
 };
 
 // A vertex has its nearest bone as its constraint, and only if the bone is in sight. If no vertex of a piece has its

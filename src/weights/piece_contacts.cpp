@@ -67,7 +67,7 @@ class Finder {
   BoxTree triangles_, pieces_;
 };
 
-// Every vertex of the marked pieces. Of large pieces every second, third, ... vertex by its distance from the middle.
+// Every vertex of the marked pieces. On large pieces every second, third, ... vertex by its distance from the middle.
 // The choice depends neither on the order of the vertices nor on the axes.
 Vector<Index> sample(const Mesh& mesh, const Vector<std::uint8_t>& marked, Memory& memory) {
   struct Member {

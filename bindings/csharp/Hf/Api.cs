@@ -319,7 +319,7 @@ namespace Hf
     /// <summary>How the weights of a vertex were found.</summary>
     public enum WeightsOrigin
     {
-        /// <summary>it sees its nearest joint</summary>
+        /// <summary>its nearest joint is in sight</summary>
         Informed = Constants.HF_WEIGHTS_INFORMED,
         /// <summary>from the vertices around it</summary>
         Solved = Constants.HF_WEIGHTS_SOLVED,
@@ -333,7 +333,7 @@ namespace Hf
         Isolated = Constants.HF_WEIGHTS_ISOLATED,
         /// <summary>transferred or mirrored: from a near point whose normal agrees</summary>
         Matched = Constants.HF_WEIGHTS_MATCHED,
-        /// <summary>mirrored: it is on the side that gives</summary>
+        /// <summary>mirrored: it is on the side to copy from</summary>
         Kept = Constants.HF_WEIGHTS_KEPT,
     }
 
@@ -3937,8 +3937,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Moves constraints to other vertices of the same component. The connection carries each vector along the
-        /// shortest path of edges, from tangent plane to tangent plane.
+        /// <summary>Moves constraints to other vertices of the same component. The connection transports each vector along
+        /// the shortest path of edges, from tangent plane to tangent plane.
         ///
         /// sites: [siteCount].
         /// vertices: [siteCount].

@@ -1821,7 +1821,7 @@ export interface Direction extends Recorded {
    */
   removeSites(sites: Rows): void;
   /**
-   * Moves constraints to other vertices of the same component. The connection carries each vector along the
+   * Moves constraints to other vertices of the same component. The connection transports each vector along the
    * shortest path of edges, from tangent plane to tangent plane.
    *
    * sites: [siteCount].

@@ -389,7 +389,7 @@ class WeightsOrigin(IntEnum):
     """How the weights of a vertex were found."""
 
     INFORMED = _raw.HF_WEIGHTS_INFORMED
-    """it sees its nearest joint"""
+    """its nearest joint is in sight"""
     SOLVED = _raw.HF_WEIGHTS_SOLVED
     """from the vertices around it"""
     PINNED = _raw.HF_WEIGHTS_PINNED
@@ -403,7 +403,7 @@ class WeightsOrigin(IntEnum):
     MATCHED = _raw.HF_WEIGHTS_MATCHED
     """transferred or mirrored: from a near point whose normal agrees"""
     KEPT = _raw.HF_WEIGHTS_KEPT
-    """mirrored: it is on the side that gives"""
+    """mirrored: it is on the side to copy from"""
 
 
 class JointFlag(IntFlag):
@@ -2136,7 +2136,7 @@ class Direction(Recorded):
         call('hf_direction_remove_sites', self._handle, c.n.setdefault('site_count', 1), sites_)
 
     def move_sites(self, sites: ArrayLike, vertices: ArrayLike) -> None:
-        """Moves constraints to other vertices of the same component. The connection carries each vector along the
+        """Moves constraints to other vertices of the same component. The connection transports each vector along the
         shortest path of edges, from tangent plane to tangent plane.
 
         sites: (site_count,).

@@ -2621,8 +2621,8 @@ impl Direction {
         Ok(())
     }
 
-    /// Moves constraints to other vertices of the same component. The connection carries each vector along the shortest
-    /// path of edges, from tangent plane to tangent plane.
+    /// Moves constraints to other vertices of the same component. The connection transports each vector along the
+    /// shortest path of edges, from tangent plane to tangent plane.
     ///
     /// sites: `[site_count]`.
     /// vertices: `[site_count]`.
