@@ -47,9 +47,9 @@ typedef struct hf_isolines {
   uint32_t point_count;    /* out */
   uint32_t line_count;     /* out */
   uint32_t reserved;       /* 0 */
-  uint32_t* point_edges;   /* [point_capacity][2] vertices a and b as given, of welded copies the first */
+  uint32_t* point_edges;   /* [point_capacity][2] vertices a and b of your mesh, the first of welded copies */
   double* parameters;      /* [point_capacity] 0 to 1 */
-  double* positions;       /* [point_capacity][3] in the unit and frame of the mesh as given */
+  double* positions;       /* [point_capacity][3] in the unit and frame of your mesh */
   uint32_t* line_starts;   /* [line_capacity + 1] line i holds the points line_starts[i] to line_starts[i + 1] - 1 */
   uint32_t* line_levels;   /* [line_capacity] position of its level in the list */
   int32_t* line_closed;    /* [line_capacity] 1: closed, the first point is not repeated; 0: ends at borders */
@@ -71,7 +71,7 @@ HF_API hf_result hf_surface_trace_isolines(hf_surface surface, const hf_array* f
 enum hf_critical { HF_CRITICAL_MINIMUM = 0, HF_CRITICAL_MAXIMUM = 1, HF_CRITICAL_SADDLE = 2 };
 
 typedef struct hf_critical_point {
-  uint32_t vertex;    /* as given, of welded copies the first */
+  uint32_t vertex;    /* of your mesh, the first of welded copies */
   int32_t kind;       /* HF_CRITICAL_* */
   int32_t index;      /* 1 for extrema (0 for a maximum on a border), -k for a saddle where k + 1 valleys meet */
   uint32_t component; /* its piece, as hf_surface_get_pieces: links do not count here */
@@ -90,13 +90,13 @@ typedef struct hf_critical_info {
 } hf_critical_info;
 
 /* Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each vertex decide
- * (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of its neighbours with lower values and
- * the edges between them. The vertex number breaks ties, so a flat area has critical points too. The indices sum to the
- * Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field can show an extremum away
- * from its sites, because the default operator uses other edges than the mesh. HF_OPERATOR_CLAMPED uses the edges of
- * the mesh and avoids this. field: [vertex_count] of float or double. out_points: NULL, or hf_critical_point[capacity],
- * out_info->point_count of them, ordered by welded vertex. out_info: NULL, or receives the counts. Errors:
- * HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
+ * (Banchoff 1970). Take its neighbours with lower values and the edges between them. The index of the vertex is 1 minus
+ * their Euler characteristic. The vertex number breaks ties, so a flat area has critical points too. The indices sum to
+ * the Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field can show an extremum
+ * away from its sites, because the default operator uses other edges than the mesh. HF_OPERATOR_CLAMPED uses the edges
+ * of the mesh and avoids this. field: [vertex_count] of float or double. out_points: NULL, or
+ * hf_critical_point[capacity], out_info->point_count of them, ordered by welded vertex. out_info: NULL, or receives the
+ * counts. Errors: HF_ERROR_NON_FINITE (index = vertex). Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_find_critical_points(hf_surface surface, const hf_array* field, uint32_t capacity,
                                                  hf_critical_point* out_points, hf_critical_info* out_info);
 
@@ -116,8 +116,8 @@ enum hf_distance_method {
 typedef struct hf_geodesics_desc {
   uint32_t struct_size;
   int32_t method;       /* HF_GEODESICS_* */
-  double smoothing;     /* of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to
-                          10,000 */
+  double smoothing;     /* of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother. From 0.1 to
+                           10,000; 0 = 1 */
   hf_progress progress; /* NULL, or an object to poll and cancel through: creation and every later call report to it */
 } hf_geodesics_desc;
 
@@ -152,9 +152,9 @@ typedef struct hf_path {
   uint32_t point_count;    /* out; 0: no path leads from one to the other */
   uint32_t reserved;       /* 0 */
   double length;           /* out: in the unit of the mesh; -1: no path */
-  uint32_t* point_edges;   /* [point_capacity][2] vertices a and b as given, of welded copies the first */
+  uint32_t* point_edges;   /* [point_capacity][2] vertices a and b of your mesh, the first of welded copies */
   double* parameters;      /* [point_capacity] 0 to 1 */
-  double* positions;       /* [point_capacity][3] in the unit and frame of the mesh as given */
+  double* positions;       /* [point_capacity][3] in the unit and frame of your mesh */
 } hf_path;
 
 /* Finds the shortest path between two points, exact up to rounding, whatever the method of the object. If several are
@@ -167,10 +167,10 @@ typedef struct hf_path {
 HF_API hf_result hf_geodesics_find_path(hf_geodesics geodesics, const hf_place* from, const hf_place* to,
                                         hf_path* inout_path);
 
-/* Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each vertex gets
- * the length of its shortest path from the point, in the direction in which that path leaves the point. out_map:
+/* Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. A vertex lies at
+ * the length of its shortest path from the point, in the direction in which the path starts. out_map:
  * double[vertex_count][2] in the unit of the mesh, the point at 0, 0; NaN where no path leads. radius: vertices farther
- * away get NaN too, and cost nothing; 0 = no bound. out_frame: NULL, or double[6]: the directions in space of the two
+ * away get NaN too and take no time; 0 = no bound. out_frame: NULL, or double[6]: the directions in space of the two
  * axes, unit vectors. Around a vertex of a closed fan, angles are scaled to 2 pi in all. Seen from outside a
  * consistently oriented mesh, the second axis is to the left of the first. The map is exact up to rounding, and tears
  * where two shortest paths meet. Errors: as hf_geodesics_find_path, with index 0; HF_ERROR_INVALID_ARGUMENT (radius).
@@ -201,7 +201,7 @@ typedef struct hf_extremities_desc {
 } hf_extremities_desc;
 
 typedef struct hf_extremity {
-  uint32_t vertex;    /* as given, of welded copies the first */
+  uint32_t vertex;    /* of your mesh, the first of welded copies */
   uint32_t component; /* its piece, as hf_surface_get_pieces: links do not count here */
   double length;      /* how far the tip protrudes, in the unit of the mesh. With p the persistence of the peak of the
                          field: sqrt(2 p) for POISSON, p for GEODESIC */

@@ -7,11 +7,11 @@
  * - A failed call changes nothing. A call with a batch of edits does all of them or none.
  * - Structs start with struct_size. HF_INIT(type) is a struct of defaults: every field but the size is zero.
  * - Output arrays: you pass a capacity and read a count. A call that fails with HF_ERROR_TOO_SMALL writes the count
- *   too. To ask for the count alone, pass NULL arrays; such a call succeeds. Arrays with one row for each vertex of the
- *   mesh, or for each entry of an input list, take no capacity: their comment gives the length.
+ *   too. To ask for the count alone, pass NULL arrays; such a call succeeds. An array with a row per vertex of the
+ *   mesh, or per entry of an input list, takes no capacity. Its comment gives the length.
  * - An hf_array views an array of yours, such as an attribute of a vertex buffer. An hf_array_out views an array that
  *   the library writes. Rows can have a stride. Numbers are float or double, indices are uint32_t or uint16_t. The
- *   comment of an hf_array gives its rows, the numbers per row and the types it can have.
+ *   comment of an hf_array gives its rows, the numbers per row and its types.
  * - Flags are int32_t: 0 is no, 1 is yes.
  * - Threads can use different objects at once. Functions that "read" an object can run on that object at the same time.
  *   A call on an object that another thread is just changing returns HF_ERROR_BUSY.
@@ -26,7 +26,7 @@
  *
  * The library prints nothing and keeps no global state but its table of objects. It starts no more threads than
  * thread_count allows. It leaves the floating-point environment, locale, signals and rand() of the host as they were.
- * - fork: a child process can use the objects it inherited if no other thread was inside a call. The library's threads
+ * - fork: a child process can use its inherited objects if no other thread was inside a call. The library's threads
  *   exist in the parent only; calls of the child work without them.
  * - Unloading: you can unload the library when all objects are destroyed. It then holds no memory, thread or callback.
  */
@@ -59,13 +59,13 @@ extern "C" {
 #define HF_VERSION_MINOR 1
 #define HF_VERSION_PATCH 0
 
-/* Result of a call. The codes -1 to -99 report arguments and state, -100 to -199 resources, -200 to -299 numerical
- * failures, and codes from -300 down internal faults. */
+/* Result of a call. The codes -1 to -99 report arguments and state, -100 to -199 resources. The codes -200 to -299
+ * report numerical failures, and codes from -300 down internal faults. */
 typedef int32_t hf_result;
 enum {
   HF_OK = 0,
 
-  HF_ERROR_INVALID_ARGUMENT = -1, /* a value outside what the function documents */
+  HF_ERROR_INVALID_ARGUMENT = -1, /* a value outside the documented range */
   HF_ERROR_NULL_POINTER = -2,     /* a required pointer is NULL */
   HF_ERROR_INVALID_OBJECT = -3,   /* an object is NULL, destroyed or of another kind */
   HF_ERROR_INVALID_DESC = -4,     /* struct_size is too small, or a byte is set that this version does not know */
@@ -159,7 +159,7 @@ typedef struct hf_error_detail {
   hf_result code;
   uint32_t index;                /* vertex, triangle, site, handle or position in a list; HF_NO_INDEX for none */
   char function[48];             /* the public function that failed */
-  char message[HF_MESSAGE_SIZE]; /* one line: what is wrong and what to do; UTF-8, zero-terminated */
+  char message[HF_MESSAGE_SIZE]; /* one line: the fault and its mend; UTF-8, zero-terminated */
 } hf_error_detail;
 
 /* Copies the detail of the last failed call of this thread. It is all zero before the first failure, and successful

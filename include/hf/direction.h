@@ -1,10 +1,10 @@
 /* hf/direction.h - compute the smoothest tangent direction field through constraint vectors, which you can edit.
  *
  * The field minimises the sum of w_ij |z_j - r_ij z_i|^2 over the edges ij (Knoeppel, Crane, Pinkall and Schroeder
- * 2013). z_i is the vector in the tangent plane of vertex i. r_ij turns it into the tangent plane of j (discrete
- * Levi-Civita connection). w_ij are the clamped cotangent weights. The field has the length of the constraint vectors
- * at the constraints. Nothing fixes its length between them, and its length is 0 at singularities. The function
- * hf_solver_solve_vectors computes the simpler vector fields of Xu, Zhang, Cohen-Or and Xiong (2009). */
+ * 2013). z_i is the vector in the tangent plane of vertex i. The rotation r_ij takes z_i to the tangent plane of j
+ * (discrete Levi-Civita connection). The weights w_ij are clamped cotangents. The field has the length of the
+ * constraint vectors at the constraints. Nothing fixes its length between them, and its length is 0 at singularities.
+ * The function hf_solver_solve_vectors computes the simpler vector fields of Xu, Zhang, Cohen-Or and Xiong (2009). */
 #ifndef HF_DIRECTION_H
 #define HF_DIRECTION_H
 
@@ -19,7 +19,7 @@ typedef struct hf_direction_object* hf_direction;
 
 typedef struct hf_direction_desc {
   uint32_t struct_size;
-  uint32_t degree;      /* 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1 */
+  uint32_t degree;      /* 1 vectors, 2 lines, 4 crosses. A turn by 360 / degree changes nothing. 0 = 1 */
   uint32_t site_limit;  /* most constraints; 0 = 100,000 */
   uint32_t reserved;    /* 0 */
   hf_progress progress; /* NULL, or an object to poll and cancel through */
@@ -57,7 +57,7 @@ HF_API hf_result hf_direction_add_sites(hf_direction direction, uint32_t site_co
 HF_API hf_result hf_direction_remove_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites);
 
 /* Moves constraints to other vertices of the same component. sites, vertices: uint32_t[site_count]. The connection
- * carries each vector along the shortest path of edges, from tangent plane to tangent plane. Errors: as
+ * transports each vector along the shortest path of edges, from tangent plane to tangent plane. Errors: as
  * hf_solver_move_vectors. Thread safety: changes `direction`. Since 0.1. */
 HF_API hf_result hf_direction_move_sites(hf_direction direction, uint32_t site_count, const uint32_t* sites,
                                          const uint32_t* vertices);
@@ -78,7 +78,7 @@ HF_API hf_result hf_direction_rotate_sites(hf_direction direction, uint32_t site
 /* Returns the number of constraints, or 0 for an invalid object. Thread safety: any thread. Since 0.1. */
 HF_API uint32_t hf_direction_get_site_count(hf_direction direction);
 
-/* Writes the constraints by ascending number. out_sites: NULL, or uint32_t[capacity] numbers. out_vertices: NULL, or
+/* Writes the constraints. Their numbers ascend. out_sites: NULL, or uint32_t[capacity] numbers. out_vertices: NULL, or
  * uint32_t[capacity] vertices of your mesh. out_vectors: NULL, or double[capacity][3], tangent. out_count: NULL, or
  * receives the number of constraints. Thread safety: reads `direction`. Since 0.1. */
 HF_API hf_result hf_direction_get_sites(hf_direction direction, uint32_t capacity, uint32_t* out_sites,
@@ -94,8 +94,8 @@ HF_API hf_result hf_direction_solve(hf_direction direction, const hf_array_out* 
 /* A singularity is a triangle, or a face, around which the field makes extra turns. They are counted in parts of 1 /
  * degree of a full turn. */
 typedef struct hf_singularity {
-  uint32_t triangle; /* or face, as given */
-  uint32_t vertex;   /* its corner where the field is shortest, as given; of welded copies the first */
+  uint32_t triangle; /* or face, of your mesh */
+  uint32_t vertex;   /* its corner where the field is shortest, of your mesh; the first of welded copies */
   int32_t index;     /* in parts of 1 / degree: +1 a source or vortex of a vector field, -1 a saddle */
 } hf_singularity;
 

@@ -20,8 +20,8 @@
 extern "C" {
 #endif
 
-/* Creates a solver with the engine of Xu, Zhang, Cohen-Or and Xiong (2009). Sites are penalties on the diagonal, and
- * updates and downdates put them into a sparse factor. desc: NULL, or as hf_create. penalty: weight of a hard site
+/* Creates a solver with the engine of Xu, Zhang, Cohen-Or and Xiong (2009). A site is a penalty on the diagonal. An
+ * update or a downdate puts it into a sparse factor. desc: NULL, or as hf_create. penalty: weight of a hard site
  * relative to the mean diagonal of K, up to 1e10; 0 = 1e8. The field misses its hard sites by about 1e-8 of the value
  * range, a bi-harmonic field by 2e-7. So the default tolerance of hf_solver_certify is 1e-5. Errors: as hf_create,
  * HF_ERROR_INVALID_ARGUMENT (penalty), HF_ERROR_UNSUPPORTED (a build without HF_WITH_GPL). Thread safety: reads

@@ -59,7 +59,7 @@ typedef struct hf_pose_info {
   uint32_t iteration_count;
   uint32_t group_count;
   uint32_t handle_count;
-  uint32_t vertex_count; /* as given to the surface: rows of hf_deform */
+  uint32_t vertex_count; /* vertices of your mesh: rows of hf_deform */
 } hf_pose_info;
 
 /* Writes the options of a pose. Thread safety: reads `pose`. Since 0.1. */
@@ -75,37 +75,37 @@ typedef struct hf_handles_desc {
   const uint32_t* region_counts; /* [handle_count] vertices of each region, >= 1; repeats are allowed, up to four times
                                     the vertices of the mesh in all */
   const uint32_t* region_vertices; /* [sum(region_counts)] all regions one after the other; NULL: places are given */
-  const uint32_t* vertices;        /* [handle_count] vertices as given, or NULL */
+  const uint32_t* vertices;        /* [handle_count] vertices of your mesh, or NULL */
   const hf_place* places;          /* [handle_count], or NULL */
   const double* points;  /* [handle_count][3] points in space, at rest, in the unit and frame of the mesh, or NULL. A
                             point can lie inside the body, as a joint does: its nearest vertex counts */
   const double* radii;   /* [handle_count] of the regions of places, in the unit of the mesh; NULL: regions are given.
                             A radius below 1 % of the box makes regions of 2 vertices or more */
   uint32_t layer;        /* 0 to HF_LAYER_COUNT - 1, for the whole batch */
-  int32_t in_place;      /* 1: handles of layer 0 start where the posed surface stands, not at rest; see below */
+  int32_t in_place;      /* 1: handles of layer 0 start on the posed surface, not at rest; see below */
   int32_t free_rotation; /* 1: you give the places of the handles only; see hf_pose_set_free_rotations */
   uint32_t reserved;     /* 0 */
   hf_progress progress;  /* NULL, or an object to poll and cancel through */
 } hf_handles_desc;
 
 /* Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a posed
- * surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion that its
- * region has in the last pose (hf_pose_get_handle writes it), and the surface stays where it is (to 1e-6 of the box).
- * It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then
- * the region of the new handle keeps a part of its bend. restart ends this at once. On a higher layer the surface does
- * not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for the
- * higher layers. out_handles: NULL, or uint32_t[handle_count]. Cost: one field solve for the layer of the handles and
- * for each higher layer. On large meshes a frame may be late. To avoid that, add the handles to a clone in another
- * thread and pose the old one meanwhile. Then set the transforms of the clone. No two regions may overlap, on any
- * layer; welded copies count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and HF_ERROR_CONFLICT (index = position in
- * region_vertices, or handle when given by places), HF_ERROR_INVALID_ARGUMENT (isolated vertex, barycentrics, layer,
- * in_place, free_rotation, a radius, two forms at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (HF_HANDLE_LIMIT, a
- * point two boxes or more away). Thread safety: changes `pose`. Since 0.1. */
+ * surface back to rest there. Use in_place to grab a posed surface. Each new handle then gets the rigid motion of its
+ * region in the last pose (hf_pose_get_handle writes it). The surface stays in place (to 1e-6 of the box). It goes over
+ * to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then the region of
+ * the new handle keeps a part of its bend. restart ends this at once. On a higher layer the surface does not move (to
+ * 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for the higher layers.
+ * out_handles: NULL, or uint32_t[handle_count]. Cost: one field solve for the layer of the handles and for each higher
+ * layer. On large meshes a frame may be late. To avoid that, add the handles to a clone in another thread and pose the
+ * old one meanwhile. Then set the transforms of the clone. No two regions may overlap, on any layer; welded copies
+ * count as one vertex. Errors: HF_ERROR_OUT_OF_RANGE and HF_ERROR_CONFLICT (index = position in region_vertices, or
+ * handle when given by places), HF_ERROR_INVALID_ARGUMENT (isolated vertex, barycentrics, layer, in_place,
+ * free_rotation, a radius, two forms at once), HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (HF_HANDLE_LIMIT, a point two
+ * boxes or more away). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handles(hf_pose pose, const hf_handles_desc* handles, uint32_t* out_handles);
 
-/* Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
- * edge-connected to it within `radius` of the point. point: double[3]. out_handle: NULL, or receives the number of the
- * handle. Errors: as hf_pose_add_handles. Thread safety: changes `pose`. Since 0.1. */
+/* Adds one handle on layer 0. Its region has the vertex nearest to a point at rest. It also has all vertices within
+ * `radius` of the point that are edge-connected to this vertex. point: double[3]. out_handle: NULL, or receives the
+ * number of the handle. Errors: as hf_pose_add_handles. Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_add_handle_at(hf_pose pose, const double* point, double radius, uint32_t* out_handle);
 
 /* Removes handles by number. handles: uint32_t[handle_count]. A handle on a higher layer takes its edit with it: the
@@ -163,16 +163,16 @@ HF_API hf_result hf_pose_set_free_rotations(hf_pose pose, uint32_t handle_count,
  * hold the body, and set less for a handle that is dragged. Every handle still lands exactly, and a limb that is too
  * short gets longer. The next hf_deform shows a change at once. But a handle that was just added in place leaves the
  * surface where it stands until a handle moves. Full-mesh steps (refine) ignore the pins. Repeated steps
- * (refine_from_last) let the body lean again. Cost: at this call, and when handles are added or removed, one field
- * solve for the other handles, and as many solves of the reduced system as in a few frames. While other handles move,
- * the pose solve of a frame takes up to twice the time. No factor is recomputed. Errors: HF_ERROR_NOT_FOUND,
- * HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (following), HF_ERROR_UNSUPPORTED (a handle of a higher layer).
- * Thread safety: changes `pose`. Since 0.1. */
+ * (refine_from_last) let the body lean again. Cost: one field solve for the other handles, and as many solves of the
+ * reduced system as in a few frames. You pay it at this call, and when handles are added or removed. While other
+ * handles move, the pose solve of a frame takes up to twice the time. No factor is recomputed. Errors:
+ * HF_ERROR_NOT_FOUND, HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (following), HF_ERROR_UNSUPPORTED (a handle of
+ * a higher layer). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_following(hf_pose pose, uint32_t handle_count, const uint32_t* handles, double following);
 
 /* Keeps the lengths of edges on the limbs of handles of layer 0, such as an arm whose hand is pulled. handles:
  * uint32_t[handle_count]. refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a
- * new handle. 1 keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
+ * new handle. With 1, bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
  *
  * The limb is the part of the surface where the field of the handle falls a long way over little area. It ends at the
  * trunk, or at the next handle on the limb. The steps move the limb alone. All other vertices keep their bits, so the
@@ -197,7 +197,7 @@ HF_API hf_result hf_pose_set_limb_refine(hf_pose pose, uint32_t handle_count, co
 HF_API hf_result hf_pose_set_rigid_pieces(hf_pose pose, uint32_t vertex_count, const uint32_t* vertices);
 
 /* Places handles by 4 x 4 matrices M. handles: uint32_t[handle_count]. matrices: double[handle_count][16], column by
- * column, elements 12 to 14 the translation. M moves a rest position p to the posed position M p. Its linear part must
+ * column. The last column is the translation. M moves a rest position p to the posed position M p. Its linear part must
  * be a rotation within 1e-4; the function takes the nearest rotation. Its last row must be 0 0 0 1. Errors: as
  * hf_pose_set_transforms, HF_ERROR_INVALID_ARGUMENT (not a rigid motion). Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_matrices(hf_pose pose, uint32_t handle_count, const uint32_t* handles,
@@ -265,7 +265,7 @@ typedef struct hf_deform_desc {
                      sharper */
   int32_t refine_from_last; /* 1: the steps go on from the surface of the last call, instead of starting at the smooth
                                pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the
-                               handles stand still, more calls go on to the minimum. A restart, or a call without it,
+                               handles do not move, more calls converge to the minimum. A restart, or a call without it,
                                forgets that surface. Needs a refine of 1 or more. Higher layers start at the smooth
                                pose. Memory: 72 bytes per vertex */
   uint32_t first_vertex;    /* outputs hold vertex_count vertices from this one on; 0 and 0: all */
@@ -368,7 +368,7 @@ typedef struct hf_blend_rows {
   uint32_t struct_size;
   uint32_t vertex_capacity; /* in: vertices the arrays can take */
   uint32_t entry_capacity;  /* in: entries the arrays can take */
-  uint32_t vertex_count;    /* out: as given to the surface */
+  uint32_t vertex_count;    /* out: vertices of your mesh */
   uint32_t entry_count;     /* out: entries of all rows together */
   uint32_t longest_row;     /* out: entries of the vertex that has the most */
   uint32_t* rows;           /* [vertex_capacity][2] number of the first entry of the vertex, and count of its entries */
@@ -395,7 +395,7 @@ typedef struct hf_blend_influences {
   uint32_t struct_size;
   uint32_t vertex_capacity; /* in: vertices the arrays can take */
   uint32_t influence_count; /* in: clusters of each vertex, the length of a row, 1 to 64; 0 = 8 */
-  uint32_t vertex_count;    /* out: as given to the surface */
+  uint32_t vertex_count;    /* out: vertices of your mesh */
   double change;            /* out: the largest change of a vertex's weights, 0 to 1: half the sum of the differences */
   double byte_change;       /* out: the same for byte_weights */
   double error;           /* out: the largest distance of a vertex from its place in the last frame, in box diagonals */
@@ -407,13 +407,13 @@ typedef struct hf_blend_influences {
                              round to 0 are left out */
 } hf_blend_influences;
 
-/* Writes rows of one length. They change with `revision`, as those of hf_pose_get_blend_rows. Call it without arrays
- * for the count and the errors. Errors: as hf_pose_get_blend_info, HF_ERROR_INVALID_ARGUMENT (influence_count),
+/* Writes rows of one length. They change with `revision`, as the rows of hf_pose_get_blend_rows do. Call it without
+ * arrays for the count and the errors. Errors: as hf_pose_get_blend_info, HF_ERROR_INVALID_ARGUMENT (influence_count),
  * HF_ERROR_TOO_LARGE (byte_clusters). Thread safety: reads `pose`. Since 0.1. */
 HF_API hf_result hf_pose_get_blend_influences(hf_pose pose, hf_blend_influences* inout_influences);
 
 /* Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
- * hf_pose_deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
+ * hf_pose_deform. Higher layers, rigid pieces and limb_refine need the surface. With them the call costs as much as
  * hf_deform. iteration_count: 1 to 1000; 0 = as in hf_pose_desc. restart: 1: as in hf_deform_desc. out_info: NULL, or a
  * struct. Errors: HF_ERROR_EMPTY (no handle), HF_ERROR_INVALID_ARGUMENT (iteration_count, restart). Thread safety:
  * changes `pose`. Since 0.1. */
@@ -446,8 +446,8 @@ typedef struct hf_handle_proposals_desc {
   const uint32_t* parents;   /* [joint_count] position of each joint's parent in the list; HF_NO_INDEX for a root */
   hf_skeleton skeleton;      /* NULL, or the skeleton of the mesh, instead of joints and parents. It rests in the unit
                                 and frame of the mesh. If it has a skin, the skin has the vertices of the mesh */
-  double up[3];              /* direction away from the ground, of any length; 0 0 0 = up of the skeleton where it is
-                                known, else 0 1 0 */
+  double up[3];              /* direction away from the ground, of any length; zero = up of the skeleton where it is
+                                known, else the y axis */
   double least_length_share; /* as in hf_extremities_desc; 0 = 0.05 */
   uint32_t limit;            /* most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32 */
   uint32_t reserved;         /* 0 */
@@ -460,7 +460,7 @@ typedef struct hf_handle_proposals_desc {
  * skeleton with known roles is given, out_regions has all vertices of a head, a hand or a foot. The region of position
  * and radius is then a part of these vertices. */
 typedef struct hf_handle_proposal {
-  uint32_t vertex;    /* nearest to the position; as given, of welded copies the first */
+  uint32_t vertex;    /* nearest to the position; of your mesh, the first of welded copies */
   uint32_t component; /* as hf_surface_get_components */
   int32_t reason;     /* HF_HANDLE_REASON_* */
   int32_t pinned;     /* 1: add it at once, it holds the body; 0: offer it, and add it when it is dragged */

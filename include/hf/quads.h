@@ -29,13 +29,14 @@ typedef struct hf_quads_desc {
   double symmetry_plane[4]; /* a, b, c, d of the plane a x + b y + c z = d, in the unit of the mesh; 0, 0, 0, 0 = none.
                                Quads are made of the side that (a, b, c) points to, and mirrored. Creases, guides and
                                irregular vertices on the other side are not used */
-  const uint32_t* crease_edges;   /* [crease_count][2] the two vertices of each edge, as given */
-  const uint32_t* guide_vertices; /* [guide_count] as given; guides of one vertex are averaged */
-  const double* guide_vectors;    /* [guide_count][3] along the surface, of any length above 0; quads run along the
-                                     vector and across it */
-  const float* guide_weights;     /* NULL = all 1, or [guide_count], above 0 to 1: 1 holds the direction, less mixes it
-                                     with that of the curvature, which has the rest of the weight */
-  const double* irregular_points; /* [irregular_count][3] at the surface, in the unit and frame of the mesh */
+  const uint32_t* crease_edges;       /* [crease_count][2] the two vertices of each edge, of your mesh */
+  const uint32_t* guide_vertices;     /* [guide_count] vertices of your mesh; guides of one vertex are averaged */
+  const double* guide_vectors;        /* [guide_count][3] along the surface, of any length above 0; quads run along the
+                                         vector and across it */
+  const float* guide_weights;         /* NULL = all 1, or [guide_count], above 0 to 1: 1 holds the direction. A smaller
+                                         weight mixes it with the direction of the curvature, which has the rest of the
+                                         weight */
+  const double* irregular_points;     /* [irregular_count][3] at the surface, in the unit and frame of the mesh */
   const uint32_t* irregular_valences; /* [irregular_count] how many quads meet there: 3 or 5 */
   const double* irregular_directions; /* NULL = any, or [irregular_count][3]: one side of the irregular vertex runs
                                          along it; 0 0 0 = any */
@@ -47,7 +48,7 @@ typedef struct hf_quads_info {
   uint32_t struct_size;
   uint32_t vertex_count;
   uint32_t face_count;
-  int32_t euler_characteristic; /* vertices - edges + faces, that of the usable surface */
+  int32_t euler_characteristic; /* vertices - edges + faces, equal to the Euler characteristic of the usable surface */
   double edge_length;           /* wanted length, in the unit of the mesh */
 } hf_quads_info;
 
@@ -59,8 +60,8 @@ typedef struct hf_quads_info {
  * snaps vertices to the surface and adds quads. A relaxed quad starts at the corner whose diagonal keeps nearer to the
  * surface, so a renderer should split quads into triangles from the first corner. If the mesh stays farther than an
  * edge length from the surface, a limb is lost. Then the function makes up to three finer meshes, and removes rows of
- * quads until the number is right. The function checks every result: each directed edge occurs once, no face repeats a
- * corner, and the Euler characteristic is that of the surface.
+ * quads until the number is right. The function checks every result. Each directed edge occurs once. No face repeats a
+ * corner. The result has the Euler characteristic of the surface.
  *
  * The surface may have borders, any genus and several components; the function turns triangles that disagree in
  * orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two. A triangle
@@ -82,7 +83,7 @@ typedef struct hf_quads_info {
  *
  * Errors: HF_ERROR_INVALID_ARGUMENT (face_count, edge_length, crease_angle, relax_count, an array without its count, an
  * isolated vertex, symmetry_plane without a normal; index = crease, that is no edge of the surface; index = guide, that
- * is 0, stands on the surface or has a weight outside 0 to 1; index = irregular vertex, of other than 3 or 5 quads, or
+ * is 0, is normal to the surface or has a weight outside 0 to 1; index = irregular vertex, of other than 3 or 5 quads, or
  * where the surface has no normal), HF_ERROR_NON_FINITE (edge_length, crease_angle, symmetry_plane, index = guide or
  * irregular vertex), HF_ERROR_OUT_OF_RANGE (index = crease or guide), HF_ERROR_UNSUPPORTED (more than 5 % of the edges
  * have three triangles or cannot be oriented, index = a vertex; a surface that symmetry_plane does not mirror, index =
@@ -92,13 +93,13 @@ typedef struct hf_quads_info {
  * `surface`. Since 0.1. */
 HF_API hf_result hf_quads_create(hf_surface surface, const hf_quads_desc* desc, hf_quads* out_quads);
 
-/* Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result is that
- * of hf_quads_create with the same options, bit for bit. The first update takes as long. It keeps what does not depend
- * on guides, creases and relax_count, so later updates with the same edge_length, face_count and symmetry_plane take
- * less: 0.1 s for 15,000 vertices without relaxation (relax_count = HF_NO_INDEX). Use that while the user drags, and
- * relax_count = 0 at the end. Other sizes and planes are allowed; what belongs to them is made again. After an error
- * `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until `quads` is destroyed. Errors: as for hf_quads_create.
- * Thread safety: changes `quads`, reads its surface. Since 0.1. */
+/* Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. hf_quads_create
+ * with the same options gives the same result, bit for bit. The first update takes as long. It keeps the tables that do
+ * not depend on guides, creases and relax_count. Later updates with the same edge_length, face_count and symmetry_plane
+ * take less time. Without relaxation (relax_count = HF_NO_INDEX) they take 0.1 s for 15,000 vertices. Use that while
+ * the user drags, and relax_count = 0 at the end. Other sizes and planes are allowed; what belongs to them is made
+ * again. After an error `quads` is unchanged. Kept memory: 2 to 4 kB per vertex, until `quads` is destroyed. Errors: as
+ * for hf_quads_create. Thread safety: changes `quads`, reads its surface. Since 0.1. */
 HF_API hf_result hf_quads_update(hf_quads quads, const hf_quads_desc* desc);
 
 /* Destroys a quad mesh. Ignores NULL and destroyed objects. Since 0.1. */
@@ -113,13 +114,14 @@ typedef struct hf_quads_mesh {
   uint32_t vertex_capacity, face_capacity; /* in */
   uint32_t vertex_count, face_count;       /* out */
   uint32_t reserved;                       /* 0 */
-  double* positions;                       /* [vertex_capacity][3] in the unit and frame of the mesh as given */
+  double* positions;                       /* [vertex_capacity][3] in the unit and frame of your mesh */
   uint32_t* faces;                         /* [face_capacity][4] vertices of each quad, counter-clockwise */
-  uint32_t* triangles;                     /* [vertex_capacity] triangle or face as given that the vertex lies in */
+  uint32_t* triangles;                     /* [vertex_capacity] triangle or face of your mesh that contains the
+                                              vertex */
   double* barycentrics; /* [vertex_capacity][3] weights of that triangle's corners, in its own order, of sum 1; in a
                            face of more corners the weights of `corners` */
-  uint32_t* corners;    /* [vertex_capacity][3] vertices as given, of welded copies the first, that barycentrics belong
-                           to */
+  uint32_t* corners;    /* [vertex_capacity][3] vertices of your mesh that barycentrics belong to, the first of welded
+                           copies */
 } hf_quads_mesh;
 
 /* Writes every array that is not NULL. Errors: HF_ERROR_TOO_SMALL (a capacity). Thread safety: reads `quads`. Since
@@ -129,8 +131,8 @@ HF_API hf_result hf_quads_get_mesh(hf_quads quads, hf_quads_mesh* inout_mesh);
 /* ---- streamlines ----
  *
  * Streamlines follow the flux f_ij = w_ij (u_j - u_i) of a field u along the mesh edge ij. The weights w are positive:
- * they are those of HF_OPERATOR_CLAMPED, whatever operator the surface has. At a vertex of a harmonic field that is not
- * a site, the flux that comes in equals the flux that goes out. Imagine each edge as a strip as wide as its flux. A
+ * the call uses HF_OPERATOR_CLAMPED, whatever operator the surface has. At a vertex of a harmonic field that is not a
+ * site, the flux that comes in equals the flux that goes out. Imagine each edge as a strip as wide as its flux. A
  * streamline runs along such strips and keeps a place across each strip. At every vertex a planar matching connects the
  * incoming strips to the outgoing strips. So streamlines never cross or merge, and their value always rises, on
  * surfaces of any genus. */
@@ -154,8 +156,8 @@ typedef struct hf_streamlines {
   uint32_t point_capacity, line_capacity; /* in */
   uint32_t point_count, line_count;       /* out */
   uint32_t reserved;                      /* 0 */
-  const uint32_t* seeds;                  /* in: [seed_count] vertices as given */
-  double* positions;                      /* [point_capacity][3] in the unit and frame of the mesh as given */
+  const uint32_t* seeds;                  /* in: [seed_count] vertices of your mesh */
+  double* positions;                      /* [point_capacity][3] in the unit and frame of your mesh */
   double* values;                         /* [point_capacity] of the field, rising along every line */
   uint32_t* line_starts; /* [line_capacity + 1] line i holds the points line_starts[i] to line_starts[i + 1] - 1 */
   uint32_t* line_ends;   /* [line_capacity][2] vertices where it starts and ends, of welded copies the first */

@@ -71,7 +71,7 @@ enum hf_curve_kind {
 typedef struct hf_curve_desc {
   uint32_t struct_size;
   uint32_t point_count;     /* 3 to the number of vertices of the mesh */
-  const uint32_t* vertices; /* [point_count] vertices as given, or NULL */
+  const uint32_t* vertices; /* [point_count] vertices of your mesh, or NULL */
   const hf_place* places;   /* [point_count], or NULL */
   const double* points; /* [point_count][3] points in space, at rest, in the unit and frame of the mesh, or NULL. Each
                            stands for the nearest point of the surface, up to two boxes away */
@@ -183,8 +183,8 @@ typedef struct hf_detail_desc {
   uint32_t struct_size;
   uint32_t pair_count;             /* corresponding points of the two rims, in order along both; 0 = the rim vertex
                                       nearest to the first point of each curve, without a curve the lowest one */
-  const uint32_t* source_vertices; /* [pair_count] rim vertices of the source, as given */
-  const uint32_t* target_vertices; /* [pair_count] rim vertices of the target, as given */
+  const uint32_t* source_vertices; /* [pair_count] rim vertices of the source mesh */
+  const uint32_t* target_vertices; /* [pair_count] rim vertices of the target mesh */
   double scale;                    /* of the detail, > 0; 0 = square root of target base area over source base area */
   hf_progress progress;            /* NULL, or an object to poll and cancel through */
 } hf_detail_desc;
@@ -192,10 +192,10 @@ typedef struct hf_detail_desc {
 /* Carries the detail of the source region to the target region. A harmonic map with positive weights takes each region
  * to the unit disc (an embedding: Tutte 1963, Floater 1997). Vertices around a region (its rim) lie on the circle, by
  * arc length between the pairs of desc. Points at the same place in the disc correspond. The function stores the offset
- * from base to surface in a local frame of the source: the normal of the base, and the direction in which the first
- * disc coordinate grows. It interpolates the offsets in the triangles of the source, and applies them in the same
- * frames of the target. The detail fades to nothing at the rim. If source and target are the same region, the result is
- * the surface itself. Later edits of the regions do not change the object.
+ * from base to surface in a local frame of the source. The axes of the frame are the normal of the base and the
+ * direction in which the first disc coordinate grows. It interpolates the offsets in the triangles of the source, and
+ * applies them in the same frames of the target. The detail fades to nothing at the rim. If source and target are the
+ * same region, the result is the surface itself. Later edits of the regions do not change the object.
  *
  * Both regions must be discs: in one piece, one rim loop, no hole, manifold, of one orientation. desc: NULL for
  * defaults. Sets *out_detail to NULL first. Cost: a factorisation of each region's own Laplacian. Progress covers

@@ -74,9 +74,9 @@ HF_API hf_result hf_retarget_clone(hf_retarget retarget, hf_retarget* out_retarg
 HF_API void hf_retarget_destroy(hf_retarget retarget);
 
 /* Computes the pose of the target. source_pose: float[source.joint_count][10]. seconds: time since the last frame, 0
- * for the first frame and for a frame that is shown again. out_target_pose: float[target.joint_count][10]. The frame
- * depends on the source pose and on the state of the feet: whether each is planted, and how far it is moved to keep its
- * place. The state comes from the frames since the last reset and fades within a step. Errors: HF_ERROR_NON_FINITE and
+ * for the first frame and for a repeated frame. out_target_pose: float[target.joint_count][10]. The frame depends on
+ * the source pose and on the state of the feet: whether each is planted, and how far it is moved to keep its place. The
+ * state comes from the frames since the last reset and fades within a step. Errors: HF_ERROR_NON_FINITE and
  * HF_ERROR_INVALID_ARGUMENT (a joint transform, index = joint; seconds, HF_NO_INDEX). Thread safety: changes
  * `retarget`; use one for each character that moves. Since 0.1. */
 HF_API hf_result hf_retarget_solve(hf_retarget retarget, const float* source_pose, double seconds,

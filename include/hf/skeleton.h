@@ -160,7 +160,7 @@ HF_API hf_result hf_skeleton_get_chains(hf_skeleton skeleton, uint32_t capacity,
 HF_API hf_result hf_skeleton_get_chain_joints(hf_skeleton skeleton, uint32_t capacity, uint32_t* out_joints,
                                               uint32_t* out_count);
 
-/* Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful finding.
+/* Writes the reasons as text. The reasons for the axes come first. Then each doubtful finding has one line.
  * out_text: NULL, or char[capacity] in UTF-8, zero-terminated. out_size: NULL, or receives the bytes with the zero.
  * Thread safety: reads `skeleton`. Since 0.1. */
 HF_API hf_result hf_skeleton_get_reasons(hf_skeleton skeleton, size_t capacity, char* out_text, size_t* out_size);

@@ -33,16 +33,15 @@ typedef struct hf_solver_desc {
 HF_API hf_result hf_create(hf_surface surface, const hf_solver_desc* desc, hf_solver* out_solver);
 
 /* Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share the factor and
- * what the sites have cost, so a copy costs its list of sites only. Use one copy per thread or per set of sites. For
- * undo, keep copies: one before each edit. Sets *out_solver to NULL first. Thread safety: reads `solver`. Since
- * 0.1. */
+ * the solved sites, so a copy costs its list of sites only. Use one copy per thread or per set of sites. For undo, keep
+ * copies: one before each edit. Sets *out_solver to NULL first. Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solver_clone(hf_solver solver, hf_solver* out_solver);
 
-/* Moves a solver to an edited surface: its sites keep their numbers, values and screening. surface: made by
- * hf_surface_edit or hf_surface_relink from the solver's surface, or the other way round, in any number of steps. Cost:
- * the elimination paths of the sites; for screened fields a numeric factorisation. Errors: HF_ERROR_CONFLICT (the
- * surfaces have no common origin), HF_ERROR_UNSUPPORTED (a baseline), HF_ERROR_CANCELLED. Thread safety: changes
- * `solver`, reads `surface`. Since 0.1. */
+/* Moves a solver to an edited surface. Its sites keep their numbers, values and screening. surface: any number of calls
+ * of hf_surface_edit or hf_surface_relink make it from the solver's surface, or the solver's surface from it. Cost:
+ * little where both share a factor, else the elimination paths of the sites; for screened fields a numeric
+ * factorisation. Errors: HF_ERROR_CONFLICT (the surfaces have no common origin), HF_ERROR_UNSUPPORTED (a baseline),
+ * HF_ERROR_CANCELLED. Thread safety: changes `solver`, reads `surface`. Since 0.1. */
 HF_API hf_result hf_solver_move_to(hf_solver solver, hf_surface surface);
 
 /* Destroys a solver. Ignores NULL and destroyed objects. Thread safety: a call under way on another thread ends first;
@@ -56,7 +55,7 @@ typedef struct hf_solver_info {
   uint32_t channel_count;
   uint32_t site_limit;
   uint32_t site_count;
-  uint32_t vertex_count; /* as given to the surface: rows of a field */
+  uint32_t vertex_count; /* vertices of your mesh: rows of a field */
 } hf_solver_info;
 
 /* Writes the options of a solver. Thread safety: reads `solver`. Since 0.1. */
@@ -71,7 +70,7 @@ HF_API hf_result hf_solver_get_info(hf_solver solver, hf_solver_info* out_info);
 typedef struct hf_sites_desc {
   uint32_t struct_size;
   uint32_t site_count;      /* >= 1 */
-  const uint32_t* vertices; /* [site_count] vertices as given, or NULL */
+  const uint32_t* vertices; /* [site_count] vertices of your mesh, or NULL */
   const hf_place* places;   /* [site_count], or NULL */
   const double* points;    /* [site_count][3] points in space, at rest, in the unit and frame of the mesh, or NULL. Each
                               stands for the nearest point of the surface, up to two boxes away */
@@ -160,9 +159,9 @@ HF_API hf_result hf_solver_get_sites(hf_solver solver, hf_sites_info* inout_info
  * the influence of a site fades over a distance of about 1 / sqrt(H). A H is at most 1e12 times the mean diagonal of K.
  * Such a field needs no site on a component where some H is above 0. screening: double[vertex_count] H >= 0, in
  * 1 / length^2 with the unit of the mesh; NULL removes the screening. targets: double[vertex_count][channel_count] p,
- * or NULL for 0. Both are copied; welded copies of a vertex take the values of the first. Sites stay. A site with a
- * radius holds the rim of its disc only. Undo restores the screening with the sites. Cost: a numeric factorisation with
- * the ordering of the surface, two sweeps and the paths of the sites. Errors: HF_ERROR_NON_FINITE,
+ * or NULL for 0. Both are copied. The values of the first of welded copies hold for all of them. Sites stay. A site
+ * with a radius holds the rim of its disc only. Undo restores the screening with the sites. Cost: a numeric
+ * factorisation with the ordering of the surface, two sweeps and the paths of the sites. Errors: HF_ERROR_NON_FINITE,
  * HF_ERROR_INVALID_ARGUMENT (H below 0) and HF_ERROR_TOO_LARGE (A H, or p above 1e200), index = vertex;
  * HF_ERROR_NOT_POSITIVE_DEFINITE (all H of a component are lost in rounding), and HF_ERROR_UNSUPPORTED (a graph, a
  * bi-harmonic field). Thread safety: changes `solver`. Since 0.1. */
@@ -182,7 +181,7 @@ typedef struct hf_solve_info {
  * float[vertex_count][channel_count], rows value_stride bytes apart (0 = packed). Hard sites hold their values exactly.
  * The field is 0 on components without a site. out_info: NULL, or receives the counts of these components. Cost: one
  * backward sweep through the factor, or three sweeps for a bi-harmonic field. If a vertex has more than 1,000
- * neighbours, a bi-harmonic field takes 30 to 700 sweeps, by the number of sites. Errors: HF_ERROR_EMPTY,
+ * neighbours, a bi-harmonic solve needs 30 to 700 sweeps, by the number of sites. Errors: HF_ERROR_EMPTY,
  * HF_ERROR_TOO_LARGE (a value does not fit a float; index = vertex). Thread safety: reads `solver`. Since 0.1. */
 HF_API hf_result hf_solve(hf_solver solver, float* out_values, uint32_t value_stride, hf_solve_info* out_info);
 
@@ -204,7 +203,7 @@ HF_API hf_result hf_solver_solve_at(hf_solver solver, uint32_t vertex_count, con
 
 /* Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.3). The
  * channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects the
- * vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal. out_vectors:
+ * vector v of each vertex on the tangent plane: v - (n . v) n. Here n is the area-weighted normal. out_vectors:
  * [vertex_count][3] of float or double, not normalised. out_normals: NULL, or double[vertex_count][3], packed: the
  * normals used. out_info: NULL, or receives the counts of components without a site. Errors: as hf_solve,
  * HF_ERROR_INVALID_ARGUMENT (not 3 channels). Thread safety: reads `solver`. Since 0.1. */
@@ -221,16 +220,16 @@ typedef struct hf_preview_info {
   uint32_t unreached_component_count; /* components without a site; their vertices hold 0 */
   double value_range;                 /* largest less smallest site value, the widest over components and channels */
   double largest_correction;          /* largest change of a value by the last correction: about the error before it */
-  double error_estimate; /* of the largest error, in the unit of the values: measured when corrections were made, else
-                            1e-5 of value_range; 0 when exact; infinite where only corrections tell: bi-harmonic
-                            fields, long shapes, crowded sites */
+  double error_estimate; /* of the largest error, in the unit of the values. Measured when corrections were made, else
+                            1e-5 of value_range; 0 when exact. Infinite where only corrections can measure it:
+                            bi-harmonic fields, long shapes, crowded sites */
   double preview_bytes;  /* memory of the single-precision copy, shared by the surface */
 } hf_preview_info;
 
 /* Solves with a single-precision copy of the factor. This reads half the bytes of hf_solve; use it while the user drags
  * a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic fields, long shapes
  * and crowded sites can have an error of any size: ask for corrections there and read error_estimate. Hard sites at
- * vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a harmonic field takes the error below
+ * vertices are exact. One correction (iterative refinement, Wilkinson 1963) reduces the error of a harmonic field below
  * 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of hf_solve.
  *
  * The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on the
@@ -278,7 +277,7 @@ typedef struct hf_certificate {
   double residual;   /* out: largest |(K u - W lambda)_v| / K_vv, how far a value is from the mean of its neighbours */
   double site_error; /* out: largest |w_i' u + lambda_i / alpha_i - s_i|, what a site misses its value by */
   double overshoot;  /* out: how far the field leaves the range of its sites; 0 when not checked */
-  uint32_t worst_vertex;         /* out: as given, where the largest of the three is */
+  uint32_t worst_vertex;         /* out: of your mesh, where the largest of the three is */
   uint32_t changed_vertex_count; /* out: welded vertices with a changed weight (hf_mesh_statistics). The errors hold
                                     for the weights used. Harmonic fields on a graph use your own weights, within 1e30
                                     of their median */

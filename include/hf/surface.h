@@ -74,9 +74,9 @@ enum hf_link_mode {
 
 /* A spring from a vertex to a point of a triangle. hf_surface_get_links writes it, hf_links_desc reads it. */
 typedef struct hf_link {
-  uint32_t vertex;        /* as given, of welded copies the first */
+  uint32_t vertex;        /* of your mesh, the first of welded copies */
   uint32_t corners[3];    /* the triangle; a corner of barycentric 0 is ignored and can be HF_NO_INDEX */
-  double barycentrics[3]; /* >= 0, of sum 1 within 1e-3. 1, 0, 0 links two vertices */
+  double barycentrics[3]; /* >= 0, of sum 1 within 1e-3. A single 1 links two vertices */
   double length;          /* out: at rest, in the unit of the positions. Ignored when read */
   double weight;          /* 1: as strong as an edge between two equilateral triangles; > 0 */
   int32_t in_tree;        /* out; 1: the tree over the pieces has it. Ignored when read */
@@ -142,7 +142,7 @@ typedef struct hf_surface_desc {
   const hf_faces_desc* faces; /* NULL, or faces instead of triangles */
   double weld_tolerance;      /* for HF_WELD_TOLERANCE, in the unit of the positions, > 0 */
   int32_t operator_kind;      /* HF_OPERATOR_* */
-  int32_t field_kind;         /* HF_FIELD_*: the factor made now. Others are made when a solver or region asks */
+  int32_t field_kind;         /* HF_FIELD_*: the factor made now. Others are made when a solver or region needs one */
   int32_t ordering;           /* HF_ORDERING_* */
   uint32_t thread_count;      /* threads the library may use, yours included, 1 to 256; 0 = 1 */
   uint32_t vertex_limit;      /* refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941
@@ -211,9 +211,9 @@ typedef struct hf_graph_desc {
 
 /* Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the graph.
  * Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and reports
- * work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions, directions, geodesics,
- * iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links, screening, and sites at
- * places, at points or on discs.
+ * work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED. These are poses, regions, directions,
+ * geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links and screening.
+ * Sites at places, at points or on discs need triangles too.
  *
  * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from the median
  * of their component by a factor above 1e30 are limited; hf_mesh_statistics counts their vertices as changed.
@@ -233,8 +233,8 @@ HF_API void hf_surface_destroy(hf_surface surface);
 /* The options a surface was made with, defaults filled in. More than 16 fields: they mirror hf_surface_desc. */
 typedef struct hf_surface_info {
   uint32_t struct_size;
-  uint32_t vertex_count;   /* as given */
-  uint32_t triangle_count; /* as given; of faces, the triangles of their cut */
+  uint32_t vertex_count;   /* of your mesh */
+  uint32_t triangle_count; /* of your mesh; of faces, the triangles of their cut */
   int32_t weld;            /* HF_WELD_* */
   double weld_tolerance;
   int32_t operator_kind; /* HF_OPERATOR_* */
@@ -245,10 +245,10 @@ typedef struct hf_surface_info {
   uint32_t triangle_limit;  /* 0: eight per vertex of the vertex limit */
   uint32_t memory_limit_mb; /* 0: none */
   uint32_t work_limit_gflop;
-  uint32_t edge_count;   /* as given to hf_surface_create_graph; 0 for a mesh */
+  uint32_t edge_count;   /* of the desc of hf_surface_create_graph; 0 for a mesh */
   uint32_t edge_limit;   /* of a graph, 0: sixteen per vertex of the vertex limit */
-  uint32_t face_count;   /* as given; 0 where triangles were given */
-  uint32_t corner_count; /* as given */
+  uint32_t face_count;   /* of your mesh; 0 where triangles were given */
+  uint32_t corner_count; /* of your mesh */
 } hf_surface_info;
 
 /* Writes the options of a surface. Thread safety: reads `surface`. Since 0.1. */
@@ -259,8 +259,8 @@ HF_API hf_result hf_surface_get_info(hf_surface surface, hf_surface_info* out_in
  * triangles of the cut. */
 typedef struct hf_surface_report {
   uint32_t struct_size;
-  uint32_t vertex_count;              /* as given */
-  uint32_t triangle_count;            /* as given; of faces, the triangles of their cut */
+  uint32_t vertex_count;              /* of your mesh */
+  uint32_t triangle_count;            /* of your mesh; of faces, the triangles of their cut */
   uint32_t welded_vertex_count;       /* after welding */
   uint32_t component_count;           /* connected components with at least one triangle (or edge), after welding;
                                          linked pieces are one component */
@@ -274,7 +274,7 @@ typedef struct hf_surface_report {
   uint32_t boundary_edge_count;
   uint32_t inside_out_count; /* closed pieces whose triangles face inwards: a mesh turned inside out, or the inner wall
                                 of a hollow body. Fields do not change. Results that use normals do */
-  uint32_t first_inside_out_vertex; /* the first vertex of one, as given; HF_NO_INDEX without one */
+  uint32_t first_inside_out_vertex; /* vertex of your mesh: the first of such a piece; HF_NO_INDEX without one */
   double bounding_box_diagonal;     /* in the unit of the positions, without isolated vertices */
 } hf_surface_report;
 
@@ -292,7 +292,7 @@ typedef struct hf_mesh_statistics {
                                     changed if its triangles are too thin, or if a double has too few digits for it. A
                                     certificate holds for the weights used; near these vertices the field may differ
                                     from the field of the mesh */
-  uint32_t first_changed_vertex; /* the first of them, as given; HF_NO_INDEX without one */
+  uint32_t first_changed_vertex; /* the first of them in your mesh; HF_NO_INDEX without one */
   uint32_t reserved;             /* 0 */
   double smallest_angle;         /* radians, over the usable triangles of the cut */
 } hf_mesh_statistics;
@@ -331,7 +331,7 @@ HF_API hf_result hf_surface_get_links(hf_surface surface, uint32_t capacity, hf_
 
 /* Writes the piece of every vertex of your mesh, and HF_NO_INDEX for isolated vertices. Pieces are numbered in the
  * order of their lowest vertices. out_pieces: NULL, or uint32_t[capacity]. out_light: NULL, or int32_t[capacity], 1: of
- * a light piece: a site or handle there hardly moves the rest. out_count: NULL, or receives vertex_count. Thread
+ * a light piece. A site or handle there hardly moves the rest. out_count: NULL, or receives vertex_count. Thread
  * safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_get_pieces(hf_surface surface, uint32_t capacity, uint32_t* out_pieces, int32_t* out_light,
                                        uint32_t* out_count);
@@ -345,13 +345,14 @@ typedef struct hf_gaps_info {
   uint32_t worst_link;     /* position in hf_surface_get_links of the link with that gap; HF_NO_INDEX without links */
   uint32_t contact_count;  /* as in hf_links_info; the fields above leave contacts out */
   double worst_contact;    /* the widest gap of a contact; 0 without contacts */
-  uint32_t contact_vertex; /* a vertex of that contact, as given; HF_NO_INDEX without contacts */
+  uint32_t contact_vertex; /* vertex of your mesh in that contact; HF_NO_INDEX without contacts */
   uint32_t reserved;       /* 0 */
 } hf_gaps_info;
 
 /* Measures the gaps that a deformation opens between linked pieces. The gap of a link is how much farther its ends are
  * apart than at rest, and 0 if they are nearer. The gap of a contact (hf_links_info) is measured in the same way.
- * positions: [vertex_count][3] of float or double: the deformed mesh, from a pose, a transfer or any other source.
+ * positions: [vertex_count][3] of float or double: the deformed mesh. It can come from a pose, a transfer or any other
+ * source.
  * out_gaps: NULL, or double[capacity], out_info->link_count of them, in the order of hf_surface_get_links. out_info:
  * NULL, or a struct. Set one of the two at least. Errors: HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE (index = vertex).
  * Thread safety: reads `surface`. Since 0.1. */
@@ -443,10 +444,10 @@ HF_API hf_result hf_surface_get_statistics(hf_surface surface, hf_surface_statis
  * mesh, options and library version, whatever the number of threads. The bytes are little-endian and hold a format
  * version, a hash of the matrix and a checksum. They hold no sites.
  *
- * field_kind: HF_FIELD_*; a factor that does not exist yet is made first. progress: NULL, or an object to poll and
- * cancel through. out_bytes: NULL, or `capacity` bytes, any alignment. out_size: NULL, or receives the size. Cost: one
- * copy of the factor. On failure out_bytes is undefined. Errors: HF_ERROR_CANCELLED, HF_ERROR_TOO_SMALL. Thread safety:
- * reads `surface`. Since 0.1. */
+ * field_kind: HF_FIELD_*. If its factor does not exist yet, the call makes it first. progress: NULL, or an object to
+ * poll and cancel through. out_bytes: NULL, or `capacity` bytes, any alignment. out_size: NULL, or receives the size.
+ * Cost: one copy of the factor. On failure out_bytes is undefined. Errors: HF_ERROR_CANCELLED, HF_ERROR_TOO_SMALL.
+ * Thread safety: reads `surface`. Since 0.1. */
 HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, hf_progress progress, size_t capacity,
                                  void* out_bytes, size_t* out_size);
 
@@ -456,9 +457,10 @@ HF_API hf_result hf_surface_save(hf_surface surface, int32_t field_kind, hf_prog
  * curves, handles and paths take places. A list of places has three forms: `vertices` (4 bytes each), `places`, and
  * `points` in space. Set one of the three. */
 typedef struct hf_place {
-  uint32_t corners[3]; /* vertices of one face, as given; a corner of barycentric 0 is ignored and can be HF_NO_INDEX */
-  uint32_t reserved;   /* 0 */
-  double barycentrics[3]; /* weights of the corners, >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
+  uint32_t corners[3];    /* vertices of one face of your mesh; a corner of barycentric 0 is ignored and can be
+                             HF_NO_INDEX */
+  uint32_t reserved;      /* 0 */
+  double barycentrics[3]; /* weights of the corners, >= 0, of sum 1 within 1e-6. A single 1 is a vertex */
 } hf_place;
 
 /* ---- picking ---- */
@@ -475,8 +477,8 @@ typedef struct hf_pick_desc {
 typedef struct hf_hit {
   uint32_t struct_size;
   int32_t found;      /* 1: a triangle was hit; 0: none, and all else is 0 or HF_NO_INDEX */
-  uint32_t triangle;  /* or face, as given */
-  uint32_t vertex;    /* its corner nearest to the hit, as given, of welded copies the first */
+  uint32_t triangle;  /* or face, of your mesh */
+  uint32_t vertex;    /* its corner nearest to the hit, of your mesh, the first of welded copies */
   hf_place place;     /* the point hit: corners of the triangle (the first of welded copies) and their barycentrics.
                          A face of more corners is cut into triangles; these are the corners of the triangle hit */
   double position[3]; /* in the unit of the positions */
@@ -484,7 +486,7 @@ typedef struct hf_hit {
 } hf_hit;
 
 /* Finds what a mouse click hits: the first triangle on a ray. origin, direction: double[3] in the frame of the
- * positions; the direction can have any length above 0. desc: NULL for the rest positions. A ray through an edge or a
+ * positions. The direction can have any length above 0. desc: NULL for the rest positions. A ray through an edge or a
  * vertex never slips between the triangles there. A face of more than three corners is hit as its cut. If several
  * triangles are at the same distance, the one with the lowest index counts. Cost: a pass over the triangles, about 10
  * ns each on one thread. Errors: HF_ERROR_NON_FINITE (origin, direction, a position: index = vertex),

@@ -29,7 +29,8 @@ enum hf_transfer_mode {
 };
 
 enum hf_ground {
-  HF_GROUND_KEEP = 0, /* feet stand, and no part sinks deeper than the source's, but for thin ones. The default */
+  HF_GROUND_KEEP = 0, /* feet are held at the ground. A part goes no deeper under the ground than on the source; thin
+                         parts may. The default */
   HF_GROUND_OFF = 1   /* there is no ground: for flying and swimming, or where the host has its own */
 };
 
@@ -52,10 +53,10 @@ enum { HF_PAIR_LIMIT = 256 }; /* most pairs of a transfer */
 typedef struct hf_transfer_desc {
   uint32_t struct_size;
   int32_t mode;           /* HF_TRANSFER_* */
-  uint32_t cluster_count; /* 1 to 512; 0 = 80, or 5 for each pair if that is more */
+  uint32_t cluster_count; /* 1 to 512. 0 = the larger of 80 and 5 per pair */
   int32_t ground;         /* HF_GROUND_* */
-  double kernel_width;    /* width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that
-                            is more, up to 0.12 */
+  double kernel_width;    /* width of a cluster, in field values, 0.005 to 0.5. 0 = the larger of 0.03 and 0.004 per
+                             pair, up to 0.12 */
   double scale; /* lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes
                   when no pair is a foot */
   /* A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times the angle it is not
@@ -86,8 +87,8 @@ typedef struct hf_pairs_desc {
   uint32_t pair_count;             /* >= 1 */
   const uint32_t* source_counts;   /* [pair_count] vertices of each region, >= 1; repeats are allowed, up to four times
                                       the vertices of the mesh in all */
-  const uint32_t* source_vertices; /* [sum(source_counts)] all regions one after the other; vertices as given, up to 4
-                                      entries per vertex */
+  const uint32_t* source_vertices; /* [sum(source_counts)] all regions one after the other; vertices of your mesh, up to
+                                      4 entries per vertex */
   const uint32_t* target_counts;   /* [pair_count] */
   const uint32_t* target_vertices; /* [sum(target_counts)] */
   const uint32_t* flags;           /* [pair_count] HF_PAIR_*, or NULL for none */
@@ -155,8 +156,8 @@ typedef struct hf_transfer_dials {
   double
       hip_height_share; /* raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height
                     at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised */
-  /* How far a limb follows the source, -1 to 1. 0 = neutral: it plays the source's motion from its own rest direction.
-   * 1: it also takes the rest direction of the source's limb. -1: it does not move against its root. */
+  /* How far a limb follows the source, -1 to 1. At 0 (neutral) the limb plays the source's motion from its own rest
+   * direction. At 1 it also gets the rest direction of the source's limb. At -1 it does not move against its root. */
   double neck_follow; /* pairs flagged HF_PAIR_NECK, together one limb */
   double tail_follow; /* pairs flagged HF_PAIR_TAIL, together one limb */
   double arm_space;   /* turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2

@@ -1,11 +1,12 @@
 /* hf/weights.h - compute skin weights of a surface from a skeleton.
  *
- * Every vertex gets 4 or 8 joints with weights of sum 1. A joint is a segment here, from its head to its tail. A vertex
- * asks for its nearest joint if it sees that joint, the
- * more strongly the nearer it is. A smooth field gives the weights between (Baran and Popovic 2007). Pieces that do not
- * bend take one joint each: the parts of a robot, and eyes and buttons where their joint is clear. Pins are places
- * whose weights you give; they change the weights around them. No vertex stays without weights. Where the skeleton
- * gives no information, weights come from the nearest vertices, and the info counts them. */
+ * Every vertex gets 4 or 8 joints with weights of sum 1. A joint is a segment here, from its head to its tail. A joint
+ * is visible from a vertex if the segment between them stays inside the skin. A vertex with its nearest joint in sight
+ * gets a constraint for this joint, which is stronger the nearer the joint is. A smooth field gives the weights between
+ * (Baran and Popovic 2007). Pieces that do not bend take one joint each: the parts of a robot, and eyes and buttons
+ * where their joint is clear. Pins are places whose weights you give; they change the weights around them. No vertex
+ * stays without weights. Where the skeleton gives no information, weights come from the nearest vertices, and the info
+ * counts them. */
 #ifndef HF_WEIGHTS_H
 #define HF_WEIGHTS_H
 
@@ -61,7 +62,7 @@ HF_API hf_result hf_weights_set_joints(hf_weights weights, const hf_joints_desc*
 typedef struct hf_pins_desc {
   uint32_t struct_size;
   uint32_t pin_count;       /* 0 removes all pins */
-  const uint32_t* vertices; /* [pin_count] vertices as given, or NULL */
+  const uint32_t* vertices; /* [pin_count] vertices of your mesh, or NULL */
   const hf_place* places;   /* [pin_count], or NULL */
   const double* points;     /* [pin_count][3] points in space, at rest, in the unit and frame of the mesh, or NULL. Each
                                stands for the nearest point of the surface, up to two boxes away */
@@ -93,14 +94,14 @@ HF_API hf_result hf_weights_set_locks(hf_weights weights, uint32_t lock_count, c
 
 /* How the weights of a vertex were found. */
 enum hf_weights_origin {
-  HF_WEIGHTS_INFORMED = 0, /* it sees its nearest joint */
+  HF_WEIGHTS_INFORMED = 0, /* its nearest joint is in sight */
   HF_WEIGHTS_SOLVED = 1,   /* from the vertices around it */
   HF_WEIGHTS_PINNED = 2,   /* given by a pin */
   HF_WEIGHTS_NEAREST = 3,  /* guessed: its piece has no information; from the nearest vertices of others */
   HF_WEIGHTS_RIGID = 4,    /* guessed, as NEAREST: one mean for all vertices of a small piece */
   HF_WEIGHTS_ISOLATED = 5, /* guessed: it belongs to no triangle; from the nearest vertex */
   HF_WEIGHTS_MATCHED = 6,  /* transferred or mirrored: from a near point whose normal agrees */
-  HF_WEIGHTS_KEPT = 7      /* mirrored: it is on the side that gives */
+  HF_WEIGHTS_KEPT = 7      /* mirrored: it is on the side to copy from */
 };
 
 /* Receives the weights. The arrays are yours; each may be NULL. */
@@ -129,13 +130,13 @@ enum hf_joint_flag {
   HF_JOINT_HELPER = 16 /* a proposal that follows from the other flags: it looks like a helper that should not deform */
 };
 
-/* Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not deform have no
+/* Writes the flags of each joint, and how many vertices have a constraint for it. Joints that do not deform have no
  * flags. out_flags: NULL, or uint32_t[capacity] of HF_JOINT_*. out_vertex_counts: NULL, or uint32_t[capacity].
  * out_count: NULL, or receives the count of joints. Thread safety: reads `weights`. Since 0.1. */
 HF_API hf_result hf_weights_get_joints(hf_weights weights, uint32_t capacity, uint32_t* out_flags,
                                        uint32_t* out_vertex_counts, uint32_t* out_count);
 
-/* Counts of the weights. Vertices are counted as given. */
+/* Counts of the weights. Vertices are vertices of your mesh. */
 typedef struct hf_weights_info {
   uint32_t struct_size;
   uint32_t vertex_count;
@@ -158,7 +159,7 @@ typedef struct hf_weights_statistics {
   uint32_t struct_size;
   uint32_t nearest_piece_count; /* pieces without information */
   uint32_t rigid_piece_count;   /* small ones of them */
-  int32_t blind;                /* 1: some piece sees none of its nearest joints and uses them unseen */
+  int32_t blind;                /* 1: some piece has none of its nearest joints in sight and uses them all the same */
   uint32_t no_length_count;     /* joints by HF_JOINT_* */
   uint32_t coincident_count;
   uint32_t informs_none_count;
@@ -185,9 +186,9 @@ enum hf_helper_reason {
   HF_HELPER_INFORMS_NONE = 512
 };
 
-/* Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and sets
- * deforms to 0. names: one line for each joint in UTF-8, or NULL. out_reasons: uint32_t[capacity], bits of HF_HELPER_*
- * by joint, 0 for joints that do not deform; or NULL. out_count: NULL, or receives the count of joints. Errors:
+/* Proposes joints that should not deform, and says why. The weights do not change: to follow a proposal, set deforms to
+ * 0. names: one line for each joint in UTF-8, or NULL. out_reasons: uint32_t[capacity], bits of HF_HELPER_* by joint, 0
+ * for joints that do not deform; or NULL. out_count: NULL, or receives the count of joints. Errors:
  * HF_ERROR_INVALID_ARGUMENT (names with another count of lines). Thread safety: reads `weights`. Since 0.1. */
 HF_API hf_result hf_weights_get_helpers(hf_weights weights, const char* names, uint32_t capacity, uint32_t* out_reasons,
                                         uint32_t* out_count);
@@ -206,7 +207,7 @@ typedef struct hf_weights_transfer_desc {
   hf_progress progress;     /* NULL, or an object to poll and cancel through */
 } hf_weights_transfer_desc;
 
-/* Counts of transferred weights. Vertices of the target are counted as given. */
+/* Counts of transferred weights. Vertices are vertices of the target mesh. */
 typedef struct hf_weights_transfer_info {
   uint32_t struct_size;
   uint32_t vertex_count;
@@ -219,10 +220,10 @@ typedef struct hf_weights_transfer_info {
 } hf_weights_transfer_info;
 
 /* Transfers weights from one surface to another: clothes, hair, levels of detail, new topology. Both stand in the same
- * frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-harmonic field fills
- * in the vertices without such a point. A piece without any takes the weights of the nearest points. inout_weights:
- * as in hf_weights_get, with influence_count of the desc. out_info: NULL, or receives the counts. Cost: a search for
- * each vertex, one factorisation, and a sweep for every 8 joints. Errors: HF_ERROR_EMPTY (all weights are 0),
+ * frame. A vertex gets the weights of the nearest point of the source whose normal agrees. One bi-harmonic field fills
+ * in the vertices without such a point. A piece without any takes the weights of the nearest points. inout_weights: as
+ * in hf_weights_get, with influence_count of the desc. out_info: NULL, or receives the counts. Cost: a search for each
+ * vertex, one factorisation, and a sweep for every 8 joints. Errors: HF_ERROR_EMPTY (all weights are 0),
  * HF_ERROR_NON_FINITE and HF_ERROR_INVALID_ARGUMENT (a weight; index = vertex; distance, angle, source_influence_count,
  * influence_count), HF_ERROR_OUT_OF_RANGE (a joint of 1,048,576 or more; index = vertex), HF_ERROR_TOO_SMALL
  * (vertex_capacity), HF_ERROR_TOO_LARGE (joints_u16 with a joint above 65,535), HF_ERROR_UNSUPPORTED (a surface made of
@@ -272,7 +273,7 @@ typedef struct hf_weights_mirror_desc {
   hf_progress progress;     /* NULL, or an object to poll and cancel through */
 } hf_weights_mirror_desc;
 
-/* The findings of a mirror. Vertices are counted as given. */
+/* The findings of a mirror. Vertices are vertices of your mesh. */
 typedef struct hf_weights_mirror_info {
   uint32_t struct_size;
   uint32_t vertex_count;
@@ -306,13 +307,14 @@ typedef struct hf_weights_mirror_statistics {
 
 /* Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights of the
  * nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field fills
- * in the rest. The plane comes from joints with partners, else from the surface. A found normal has a positive largest
- * component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x. inout_weights: as in hf_weights_get. out_partners:
- * uint32_t[joint_count] partners, or NULL. out_pairings: uint32_t[joint_count] HF_MIRROR_JOINT_*, or NULL. out_info:
- * NULL, or receives the findings. out_statistics: NULL, or receives the distances. Errors: as hf_weights_transfer,
- * HF_ERROR_EMPTY (no joint; no weight on the side to copy from), HF_ERROR_OUT_OF_RANGE (a partner, index = joint; a
- * joint, index = vertex), HF_ERROR_INVALID_ARGUMENT (names with another count of lines; a partner that has another
- * partner, index = joint; a normal of length 0). Thread safety: reads `surface`. Since 0.1. */
+ * in the rest. The plane comes from joints with partners, else from the surface. The largest component of a found
+ * normal is positive. So for a normal along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x. inout_weights: as in
+ * hf_weights_get. out_partners: uint32_t[joint_count] partners, or NULL. out_pairings: uint32_t[joint_count]
+ * HF_MIRROR_JOINT_*, or NULL. out_info: NULL, or receives the findings. out_statistics: NULL, or receives the
+ * distances. Errors: as hf_weights_transfer, HF_ERROR_EMPTY (no joint; no weight on the side to copy from),
+ * HF_ERROR_OUT_OF_RANGE (a partner, index = joint; a joint, index = vertex), HF_ERROR_INVALID_ARGUMENT (names with
+ * another count of lines; a partner that has another partner, index = joint; a normal of length 0). Thread safety:
+ * reads `surface`. Since 0.1. */
 HF_API hf_result hf_weights_mirror(hf_surface surface, const hf_weights_mirror_desc* desc,
                                    hf_weights_out* inout_weights, uint32_t* out_partners, uint32_t* out_pairings,
                                    hf_weights_mirror_info* out_info, hf_weights_mirror_statistics* out_statistics);

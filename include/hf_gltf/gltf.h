@@ -91,7 +91,7 @@ typedef struct hf_gltf_model_info {
 /* Writes the counts of a model. Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_get_info(hf_gltf_model model, hf_gltf_model_info* out_info);
 
-/* Copies a sentence about the file: what was repaired, skipped or not kept. text: UTF-8, zero-terminated, cut to
+/* Copies a sentence about the file: it names repaired, skipped or lost parts. text: UTF-8, zero-terminated, cut to
  * `capacity` bytes. Errors: HF_ERROR_OUT_OF_RANGE. Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_get_note(hf_gltf_model model, uint32_t index, uint32_t capacity, char* text);
 
@@ -119,7 +119,7 @@ HF_GLTF_API hf_result hf_gltf_model_set_positions(hf_gltf_model model, const dou
 HF_GLTF_API hf_result hf_gltf_model_write(hf_gltf_model model, int32_t format, uint64_t capacity, void* bytes,
                                           uint64_t* out_count);
 
-/* Writes a file, .glb or .gltf by its ending; file: UTF-8. What stood there goes when the new one is complete. Errors:
+/* Writes a file, .glb or .gltf by its ending; file: UTF-8. The old object goes when the new one is complete. Errors:
  * HF_ERROR_INVALID_ARGUMENT (the file cannot be written; the detail says why). Since 0.1. */
 HF_GLTF_API hf_result hf_gltf_model_save(hf_gltf_model model, const char* file);
 
@@ -228,8 +228,8 @@ typedef struct hf_gltf_pairs_info {
   uint32_t struct_size;
   uint32_t pair_count;
   float source_axes[9], target_axes[9]; /* for hf_transfer_desc */
-  float scale; /* for hf_transfer_desc: lengths of the target over those of the source by the legs of both skeletons, or
-                * as the pairs say; 0: a skeleton has no legs that are known, or neither body is upright */
+  float scale; /* for hf_transfer_desc: lengths of the target over lengths of the source by the legs of both skeletons,
+                * or as the pairs say; 0: a skeleton has no legs that are known, or neither body is upright */
 } hf_gltf_pairs_info;
 
 /* Writes the number of pairs, the axes of both models and the scale between them. Since 0.1. */

@@ -96,7 +96,7 @@ class Remesher {
     for (uint32_t h = 0; h < count; ++h) {
       if (mesh_.alive(h) && h < mesh_.twin[h] && relative(h) > 1.4) split(h);
     }
-    if (mesh_.live_vertices > 4 * largest_) throw std::runtime_error("remesh: the surface does not settle");
+    if (mesh_.live_vertices > 4 * largest_) throw std::runtime_error("remesh: the rounds do not converge");
   }
 
   void collapse_short() {
@@ -253,7 +253,7 @@ class Remesher {
       }
       if (mesh_.live_vertices == before && ++stalled > 3) {
         throw std::runtime_error("remesh: cannot go down to " + std::to_string(count) +
-                                 " vertices without changing the topology; ask for more");
+                                 " vertices without changing the topology; raise the count");
       }
       if (mesh_.live_vertices > count) {
         flip_for_angles();

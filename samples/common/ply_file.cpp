@@ -149,7 +149,7 @@ class PlyReader {
   }
 
   void read_property() {
-    if (elements_.empty()) in_.fail("a property stands before the first element");
+    if (elements_.empty()) in_.fail("a property is before the first element");
     Property property;
     std::string_view word = in_.token_on_line();
     if (word == "list") {

@@ -80,7 +80,7 @@ class StlReader {
         open = true;
         first = corners_.size();
       } else if (key == "vertex") {
-        if (!open) in.fail("a vertex stands outside of a loop");
+        if (!open) in.fail("a vertex is outside of a loop");
         glm::dvec3 p;
         for (int c = 0; c < 3; ++c)
           if (!parse_double(in.token(), p[c])) in.fail("a vertex needs three numbers");

@@ -198,7 +198,7 @@ void run(const Command& command) {
   // the file, read again and played, beside what hf_pose_deform gave
   const Model written = read_gltf(command.output);
   const FlatMesh flat = flatten(written);
-  std::printf("%s: %u vertices, %zu handles, %zu joints, %u weights a vertex\n", command.output.string().c_str(),
+  std::printf("%s: %u vertices, %zu handles, %zu joints, %u weights per vertex\n", command.output.string().c_str(),
               flat.vertex_count(), posable.handles().size(), joints, command.weights);
   for (size_t c = 0; c < posed.size(); ++c) {
     double worst = 0, squares = 0, count = 0;

@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   });
   std::printf("%zu characters of %u vertices and %u handles on %u threads\n", crowd.size(), mesh.vertex_count,
               hf_pose_get_handle_count(first), threads);
-  std::printf("transforms for a GPU: %.1f ms a frame, %.0f kB; all vertices: %.1f ms\n", solving,
+  std::printf("transforms for a GPU: %.1f ms per frame, %.0f kB; all vertices: %.1f ms\n", solving,
               static_cast<double>(transforms.size() * sizeof(float)) / 1000, deforming);
 
   for (hf_pose pose : crowd) hf_pose_destroy(pose);

@@ -107,7 +107,7 @@ Bytes palette_bytes(const IndexedPictures& indexed) {
 
 std::vector<uint8_t> encode_frames(const std::vector<Picture>& frames, uint32_t delay_ms) {
   check(frames);
-  if (delay_ms > 65535) throw std::runtime_error("encode_frames: a frame stands at most 65535 ms");
+  if (delay_ms > 65535) throw std::runtime_error("encode_frames: a frame lasts at most 65535 ms");
   const int width = frames[0].width, height = frames[0].height;
   const bool moves = frames.size() > 1;
   const IndexedPictures indexed = to_palette(frames);

@@ -33,7 +33,7 @@ const char* const usage =
     "usage: hf_quads MESH [--faces N] [--edge LENGTH] [--crease DEG] [--strokes FILE.json]\n"
     "                [--irregular FILE.json] [--symmetry x|y|z] [-o OUT] [--sheet FILE.png]\n"
     "       hf_quads MESH --measure QUADS [--sheet FILE.png]\n"
-    "  Makes a quad mesh of a .obj, .off, .ply, .stl or glTF surface, and prints what it is worth.\n"
+    "  Makes a quad mesh of a .obj, .off, .ply, .stl or glTF surface, and prints its quality.\n"
     "  Edges follow smooth crosses along the curvature.\n"
     "  --faces N      number of quads aimed at, instead of --edge\n"
     "  --edge LENGTH  edge length aimed at, in the unit of the mesh, or as a share of its box diagonal: 2% (2.2%)\n"
@@ -49,7 +49,7 @@ const char* const usage =
     "  --symmetry x   the side where x (or y, or z) is positive gets quads, the other side is its mirror image; the\n"
     "                 plane goes through 0, and --symmetry x=0.25 moves it\n"
     "  --relax N      rounds of tangential relaxation (60; 0 for none)\n"
-    "  --measure FILE makes no quads and measures those of FILE, which any program can have made of MESH\n"
+    "  --measure FILE makes no quads and measures the quads of FILE, which any program can have made of MESH\n"
     "  -o OUT         .obj, .ply or .off with quads; .glb or .gltf with a fan of triangles for each face\n"
     "                 (FB_ngon_encoding). A glTF model keeps its skeleton, clips and looks: texture coordinates with\n"
     "                 their seams, colours, weights and morph targets are carried to the quads\n"
@@ -351,7 +351,7 @@ void run(const Command& options) {
   print_figures(input, diagonal, mesh, report, info.euler_characteristic);
   if (options.edge != 0 && report.faces < too_few * wanted)
     std::printf(
-        "warning     %u faces where the edge length asks for about %.0f: corners of the border are too sharp, or parts "
+        "warning     %u faces, but the edge length gives about %.0f: corners of the border are too sharp, or parts "
         "too thin\n",
         report.faces, wanted);
   if (options.faces > 0 && std::abs(report.faces - double(options.faces)) > missed_count * options.faces)

@@ -107,7 +107,7 @@ std::vector<BatchLine> read_batch(const fs::path& list) {
     std::vector<std::string> words = words_of(text, where);
     if (words.empty() || words.front().rfind('#', 0) == 0) continue;
     if (std::find(words.begin(), words.end(), "--batch") != words.end())
-      throw std::runtime_error(where + ": --batch cannot stand in a list");
+      throw std::runtime_error(where + ": a list cannot contain --batch");
     out.push_back({number, std::move(words)});
   }
   if (out.empty()) throw std::runtime_error(list.string() + ": the list has no line");

@@ -175,7 +175,7 @@ std::vector<std::string> fault_sentences(const ClipFaults& faults, const std::st
     out.push_back(name + text);
   }
   if (faults.sunk > named_sunk) {
-    std::snprintf(text, sizeof text, "the surface sinks by %.1f %% of the box", 100 * faults.sunk);
+    std::snprintf(text, sizeof text, "the surface is up to %.1f %% of the box under the ground", 100 * faults.sunk);
     out.push_back(name + text);
   }
   if (faults.held > named_held) {

@@ -103,14 +103,15 @@ std::vector<PlayedClip> write_output(Session& session, const Model& target, cons
   if (report.written_as == "skin" || report.written_as == "morph") {
     const char* const advice = has_skin(target) ? "; --as own-skin keeps them" : "";
     if (!target.animations.empty())
-      report.warnings.push_back("clips of the target that are not in the file, as it lacks what they move: " +
-                                std::to_string(target.animations.size()) + advice);
+      report.warnings.push_back(
+          "clips of the target that the file does not get, as it lacks the nodes that they move: " +
+          std::to_string(target.animations.size()) + advice);
     size_t shapes = 0;
     for (const MeshData& mesh : target.meshes)
       if (!mesh.primitives.empty()) shapes += mesh.primitives.front().targets.size();
     if (report.written_as == "morph" && shapes > 0)
       report.warnings.push_back(
-          "morph targets of the target that gave way to those of the clips: " + std::to_string(shapes) + advice);
+          "morph targets of the target that the clips' morph targets replace: " + std::to_string(shapes) + advice);
   }
   report.written_rms = figures.rms;
   report.written_max = figures.max;

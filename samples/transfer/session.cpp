@@ -477,7 +477,7 @@ std::vector<std::string> Session::warnings() {
     trunk = trunk || (pair.trunk && pair.anchor);
     if (pair.confidence < 0.3 && !stretches())
       out.push_back("pair \"" + pair.name +
-                    "\": few source vertices stand behind its clusters; the motion there may be coarse");
+                    "\": few source vertices are behind its clusters; the motion there may be coarse");
     if (pair.source_leak > 1e-6 || pair.target_leak > 1e-6)
       out.push_back("pair \"" + pair.name + "\": its fields leak; report it with the model");
     if (pair.crossed && !proposed_) {  // of the program's own proposals the user changes nothing
@@ -521,7 +521,7 @@ std::vector<std::string> Session::warnings() {
     }
     const std::string sentence =
         is_source ? unreached_sentence(source_surface(), reached, "pair", "give no motion")
-                  : unreached_sentence(target_surface(), reached, "pair", "follow what they lie next to");
+                  : unreached_sentence(target_surface(), reached, "pair", "follow the parts beside them");
     if (!sentence.empty()) out.push_back((is_source ? source_ : target_).name + ": " + sentence);
   }
   return out;

@@ -154,7 +154,7 @@ CarriedShapes carry_shapes(Session& session, const Model& source, const Model& t
                            const std::vector<const Animation*>& clips, ProgressBar& bar) {
   const FlatMesh &from = session.source_flat(), &to = session.target_flat();
   const std::vector<std::string> names = shape_names(source, from);
-  if (names.empty()) throw std::runtime_error(source.name + " has no morph targets to carry");
+  if (names.empty()) throw std::runtime_error(source.name + " has no morph targets to transfer");
   const Pose rest = rest_pose(source);
   std::vector<std::vector<double>> poses;
   std::vector<double> times;
@@ -220,7 +220,7 @@ CarriedShapes carry_shapes(Session& session, const Model& source, const Model& t
   }
   if (shared > 0)
     out.notes.push_back(std::to_string(shared) +
-                        " parts are drawn by several nodes; their shapes are those of the first node");
+                        " parts are drawn by several nodes; their shapes come from the first node");
   if (collapsed > 0)
     out.notes.push_back(std::to_string(collapsed) + " vertices are collapsed by their nodes and take no shape");
   size_t done = 0;

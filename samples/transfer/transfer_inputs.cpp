@@ -79,7 +79,7 @@ Motion read_motion(const Model& source, const TransferCommand& command) {
   if (command.poses.empty()) {
     if (source.animations.empty())
       throw std::runtime_error(source.name +
-                               " has no clip; --clips FILE takes those of another file with its skeleton");
+                               " has no clip; --clips FILE takes the clips of another file with its skeleton");
     out.clips = choose_clips(source, command.clip);  // a wrong name should not cost a factorisation
     return out;
   }

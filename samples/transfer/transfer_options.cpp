@@ -88,7 +88,7 @@ const char* usage() {
          "  --clips FILE    take the clips of this file, which needs no surface; SOURCE has its skeleton\n"
          "  --fps N         keys per second, 1 to 240 (default 30; 60 for clips below a second), or keys: the source's "
          "own\n"
-         "  --way WAY       skeleton: joints of TARGET turn as those of SOURCE; surface: pairs and clusters carry the\n"
+         "  --way WAY       skeleton: joints of TARGET turn as SOURCE's joints; surface: pairs and clusters transfer the\n"
          "                  motion. Default: skeleton where both skeletons are understood and their limbs match\n"
          "  --as KIND       own-skin (TARGET's joints turn; the default where it has a skin), skin (a new one),\n"
          "                  morph (morph targets), frames (with --out-poses)\n"
@@ -107,13 +107,13 @@ const char* usage() {
          "  --in-place      the clip stays where it begins: its straight travel along the ground is taken out\n"
          "  --root-motion   that travel goes to the topmost node over the target's joints, and the body stays in place "
          "under it\n"
-         "  --no-ground     no feet stand and nothing is kept above the ground\n"
+         "  --no-ground     feet are not held at the ground, and parts may be under it\n"
          "  --no-rigid      pieces alone on a joint of the target's skin may bend; otherwise a sword stays rigid\n"
          "  --source-rest CLIP@TIME, --target-rest CLIP@TIME  a pose of a clip, in seconds, is the rest pose\n"
          "  --up AXIS, --forward AXIS  for proposals: +y, -z, ...; --source-up, --target-up, --source-forward and\n"
          "                  --target-forward say it for one model (else the skeleton says it, and the report why)\n"
          "  --sheet FILE    a picture: source above, target below, over the clip\n"
-         "  --report FILE   what was done and how well, as text\n"
+         "  --report FILE   the steps and their quality, as text\n"
          "  --json FILE     the same as JSON\n"
          "  --edit FILE     then remove and add pairs in the running session, and write OUT_edited.glb (and sheet)\n"
          "  --no-links      pieces of a model stay apart; otherwise links join them\n"
@@ -257,14 +257,15 @@ TransferCommand parse_command(int count, char** arguments) {
                                         {!out.edits.empty(), "--edit"},
                                         {!out.contacts.empty(), "--contacts"},
                                         {!out.dials.empty(), "--dials"}})
-      if (given) throw std::runtime_error(std::string("--shapes carries morph targets: it does not go with ") + option);
+      if (given)
+        throw std::runtime_error(std::string("--shapes transfers morph targets: it does not go with ") + option);
     if (out.pairs.empty() && out.suggest.empty())
       throw std::runtime_error("--shapes needs --pairs: which places of the two models correspond");
   }
   if (!out.clips.empty() && !out.poses.empty()) throw std::runtime_error("give --clips or --poses, not both");
   if (!out.source.empty() || !out.target.empty()) {
     if (!files.empty() || out.source.empty() || out.target.empty())
-      throw std::runtime_error("--source and --target go together, and then no other file stands alone; see --help");
+      throw std::runtime_error("--source and --target go together, without another file; see --help");
     files = {out.source.string(), out.target.string()};
   }
   if (files.size() != 2) throw std::runtime_error("two models are needed, the source and the target; see --help");

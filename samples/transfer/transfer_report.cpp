@@ -176,7 +176,7 @@ void add_quality(const RunReport& report, std::string& out) {
   for (size_t c = 0; c < report.depths.size(); ++c) {
     print(out, "  ground        deepest vertex %.2f %% of the box under it", 100 * report.depths[c]);
     if (report.faults[c].sunk < 0.9 * report.depths[c])
-      print(out, " (%.2f %% without what hands hold or what may sink)", 100 * report.faults[c].sunk);
+      print(out, " (%.2f %% without things in hands and parts that may sink)", 100 * report.faults[c].sunk);
     if (report.faults[c].slide >= 0) print(out, ", standing soles slide %.3f boxes a second", report.faults[c].slide);
     if (report.faults[c].hover > 0.001) print(out, ", soles float by %.2f %%", 100 * report.faults[c].hover);
     print(out, " in \"%s\"\n", report.clip_names[c].c_str());

@@ -71,8 +71,8 @@
 #endif
 
 // Also compiles a function for AVX2. The program picks the version when it starts. The loops work on four adjacent
-// numbers and use no fused multiply-adds, so the bits are those of the plain build. The choice needs glibc's dynamic
-// linker. It runs before sanitizers can, so sanitizer builds leave it out.
+// numbers and use no fused multiply-adds, so the result has the bits of the plain build. The choice needs glibc's
+// dynamic linker. It runs before sanitizers can, so sanitizer builds leave it out.
 #if HF_GNU_EXTENSIONS && defined(__GLIBC__) && defined(__x86_64__) && !defined(__clang__) && !HF_SANITIZED
 #define HF_FOUR_LANES __attribute__((target_clones("avx2", "default")))
 #else

@@ -230,7 +230,7 @@ double logarithm(double x) noexcept {
     m *= 2;
     --exponent;
   }
-  // ln m = 2 (s + s^3 / 3 + s^5 / 5 + ...) with s = (m - 1) / (m + 1), which is below 0.172
+  // ln m = 2 (s + s^3 / 3 + s^5 / 5 + ...) with s = (m - 1) / (m + 1). s is below 0.172
   const double f = m - 1;
   const Pair s = quotient({f, 0}, sum(2, f));
   const double z = s.high * s.high;

@@ -1,5 +1,5 @@
-// Sines, angles, exponentials and logarithms with IEEE operations alone. Those of C libraries differ in the last bit,
-// and the bits of a result must not depend on the system. tests/api/called.txt allows none of theirs.
+// Sines, angles, exponentials and logarithms with IEEE operations alone. The functions of C libraries differ in the
+// last bit, and the bits of a result must not depend on the system. tests/api/called.txt allows none of them.
 //
 // Errors are below one unit in the last place (tests/unit/base/elementary_test.cpp). Sums and products that need more
 // than a double are kept in two: a number and its rest. No function allocates, throws or changes state.

@@ -1,7 +1,7 @@
 // Memory counts and limits every allocation of a surface and of the objects made on it. It allocates through the host's
 // functions or malloc, and counts live and peak bytes. It keeps freed blocks for the next call (block_cache.h), so that
-// a drag asks the host for nothing. Kept blocks are not live. They go back to the host when a call is refused, when the
-// host or the limit has no more memory, and when an object is destroyed.
+// a drag allocates nothing from the host. Kept blocks are not live. They go back to the host when a call is refused,
+// when the host or the limit has no more memory, and when an object is destroyed.
 //
 // Two containers use it: Vector<T> (std::pmr::vector) for small and growing arrays, and Buffer<T> for large numeric
 // arrays (64-byte aligned, not initialised). A failed allocation throws std::bad_alloc and leaves earlier allocations
@@ -22,7 +22,7 @@
 
 namespace hf_inner {
 
-// A byte limit refused an allocation. The numbers are for the message: `needed` counts what was in use and the block.
+// A byte limit refused an allocation. The numbers are for the message: `needed` counts the bytes in use and the block.
 class MemoryLimitReached final : public std::bad_alloc {
  public:
   MemoryLimitReached(std::uint64_t byte_limit, std::uint64_t in_use, std::uint64_t block) noexcept
@@ -40,7 +40,7 @@ class Memory final : public std::pmr::memory_resource {
       : hooks_(hooks), byte_limit_(byte_limit) {}
   ~Memory() { release_kept(); }
 
-  // What the host gave and is in use.
+  // The bytes from the host that are in use.
   std::uint64_t live_bytes() const noexcept { return live_.load(std::memory_order_relaxed); }
   // Bytes that may still be allocated before the byte limit refuses.
   std::uint64_t room() const noexcept {

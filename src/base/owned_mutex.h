@@ -15,7 +15,7 @@ class OwnedMutex {
  public:
   void lock() {
     if (owner_.load(std::memory_order_relaxed) == std::this_thread::get_id())
-      fail(HF_ERROR_REENTRANT, HF_NO_INDEX, "called from a callback of the call that makes what is asked for");
+      fail(HF_ERROR_REENTRANT, HF_NO_INDEX, "called from a callback of the call that makes this data; return first");
     mutex_.lock();
     owner_.store(std::this_thread::get_id(), std::memory_order_relaxed);
   }

@@ -1,5 +1,5 @@
 // Sorting and partitioning that keep the order of equal items, in the memory of the library. std::stable_sort and
-// std::stable_partition take theirs from operator new, which no host sees and no limit counts.
+// std::stable_partition use operator new. No host sees that memory and no limit counts it.
 #pragma once
 #include <algorithm>
 #include <cstdint>

@@ -16,7 +16,7 @@ namespace hf_inner::capi {
 
 // Stores the detail of a failure, which hf_error_get_detail returns, and returns the code.
 hf_result record_failure(hf_result code, std::uint32_t index, const char* function, const char* message) noexcept;
-// The same for memory_limit_mb, with the limit and what the call needed.
+// The same for memory_limit_mb, with the limit and the memory that the call needed.
 hf_result record_memory_limit(const MemoryLimitReached& reached, const char* function) noexcept;
 
 template <class Work>

@@ -1,4 +1,4 @@
-// Implements the edits of hf/surface.h, and what moves solvers and poses to an edited surface.
+// Implements the edits of hf/surface.h, and the functions that move solvers and poses to an edited surface.
 #include "capi/objects.h"
 #include "capi/pose_object.h"
 #include "capi/vertex_writer.h"

@@ -19,7 +19,7 @@ hf_solve_info unreached(const SolverObject& solver) {
   return unreached_by(*solver.field.core().geometry, [&](std::int32_t c) { return engine.site_count(c); });
 }
 
-// Writes a field of `width` numbers a vertex. Throws as Overflow.
+// Writes a field of `width` numbers per vertex. Throws as Overflow.
 void write_checked(const Core& core, std::size_t width, const Rows& out, const double* field) {
   Overflow overflow(out.is_double());
   write_vertices(core, width, out, nullptr, [&](std::size_t v, double* values) {

@@ -1,7 +1,7 @@
 // The table behind all handles. It is the only state that all threads of a process share. A handle is no pointer. It
 // encodes the kind of object, a generation and an index. Functions answer a stale, foreign or destroyed handle with
-// HF_ERROR_INVALID_OBJECT. A generation is used again only after 2^32 objects, or 2^15 on 32-bit hosts. An empty table
-// holds no memory, so unloading the library leaks nothing.
+// HF_ERROR_INVALID_OBJECT. A generation is used again only after 2^32 objects; on 32-bit hosts after 2^15. An empty
+// table holds no memory, so unloading the library leaks nothing.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -32,9 +32,9 @@ enum class Kind : std::uint32_t {
   retarget = 14
 };
 
-// The object that a handle stands for. Several calls may read it at once; a call that changes it must be alone. No call
-// waits for another. A call that cannot start because of another call returns HF_ERROR_BUSY. If it comes from a
-// callback of that other call, it returns HF_ERROR_REENTRANT.
+// The object of a handle. Several calls may read it at once; a call that changes it must be alone. No call waits for
+// another. A call that cannot start because of another call returns HF_ERROR_BUSY. If it comes from a callback of that
+// other call, it returns HF_ERROR_REENTRANT.
 class Object {
  public:
   explicit Object(Kind kind, std::shared_ptr<Memory> lies_in = nullptr) noexcept
@@ -43,7 +43,7 @@ class Object {
   Object(const Object&) = delete;
   Object& operator=(const Object&) = delete;
   Kind kind() const noexcept { return kind_; }
-  const std::shared_ptr<Memory> memory;  // outlives what the object is made of; null for a progress object
+  const std::shared_ptr<Memory> memory;  // outlives the parts of the object; null for a progress object
 
  private:
   friend class Reading;

@@ -54,8 +54,8 @@ struct SurfaceObject final : Object {
   const hf_surface_info info;
 };
 
-// Returns a surface that has triangles. purpose: what the call needs them for. Throws HF_ERROR_UNSUPPORTED for one made
-// of a graph.
+// Returns a surface that has triangles. purpose: why the call needs them. Throws HF_ERROR_UNSUPPORTED for one made of a
+// graph.
 inline std::shared_ptr<SurfaceObject> mesh_surface(hf_surface handle, const char* purpose, const char* name = "surface",
                                                    std::uint32_t index = HF_NO_INDEX) {
   std::shared_ptr<SurfaceObject> object = get<SurfaceObject>(handle, name, index);

@@ -14,7 +14,7 @@ struct SkeletonObject final : Object {
   const std::shared_ptr<const KnownSkeleton> skeleton;
 };
 
-// What a retarget is made of. Copies share it.
+// The data of a retarget. Copies share it.
 struct RetargetParts {
   std::shared_ptr<const KnownSkeleton> source, target;
   RetargetOptions options;

@@ -156,9 +156,9 @@ hf_result hf_surface_save(hf_surface handle, int32_t field_kind, hf_progress pro
     const auto object = get<SurfaceObject>(handle, "surface");
     const FieldKind kind = read_field_kind(field_kind);
     if (object->surface.is_edited())
-      fail(
-          HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
-          "the factor of an edited surface cannot be saved; save that of the surface before its edits, and edit again");
+      fail(HF_ERROR_UNSUPPORTED, HF_NO_INDEX,
+           "the factor of an edited surface cannot be saved; save the factor of the surface before its edits, and edit "
+           "again");
     with_progress(progress, [&] {
       const std::shared_ptr<const Core> core = object->surface.core(kind);
       const std::size_t size = static_cast<std::size_t>(saved_factor_size(*core->factor));

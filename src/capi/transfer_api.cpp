@@ -32,7 +32,7 @@ struct TransferObject final : Object {
         target_posed(*memory, static_cast<std::size_t>(transfer.target().size())) {}
   std::shared_ptr<Memory> source_memory;  // outlives the transfer
   Transfer transfer;
-  OwnedMutex preparing;  // readers that solve the fields of new pairs take turns
+  OwnedMutex preparing;  // readers solve the fields of new pairs one after the other
   Buffer<Vec3> source_posed, target_posed;
   std::shared_ptr<NormalRoom> normals;
 };

@@ -40,7 +40,8 @@ inline void put(Vec3 p, double* values) noexcept {
   values[2] = p.z;
 }
 
-// Finds the first vertex, as given, with a number that is too large for the caller's array. All threads look at once.
+// Finds the first vertex of the caller's mesh with a number that is too large for the caller's array. All threads look
+// at once.
 class Overflow {
  public:
   explicit Overflow(bool is_double) noexcept
@@ -66,8 +67,8 @@ class Overflow {
   std::atomic<std::size_t> first_{none};
 };
 
-// A pose takes the surface up to farthest_pose box diagonals away, and what bends between its handles may go some times
-// as far: a larger factor would refuse float positions of meshes that fit.
+// A pose moves the surface up to farthest_pose box diagonals away. Parts that bend between its handles may go some
+// times as far. A larger factor would refuse float positions of meshes that fit.
 constexpr double float_room = 1e3 * farthest_pose;
 // Refuses float positions of poses of a mesh that may leave the range of floats. It is asked before the frame, since a
 // refused call changes no pose. Throws HF_ERROR_TOO_LARGE (index = an isolated vertex, or none).

@@ -70,7 +70,7 @@ void Anderson::step(Span<double> z, Span<const double> f, std::size_t block, dou
   last_residual_ = residual;
   open_ = true;
 
-  // Columns of length 1, so that damping trades directions and not sizes. What is not kept yet is a row of the
+  // Columns of length 1, so that damping trades directions and not sizes. Steps that are not kept yet have a row of the
   // identity.
   constexpr int most = static_cast<int>(anderson_steps);
   hf_eigen::Matrix<double, most, most> gram = hf_eigen::Matrix<double, most, most>::Identity();

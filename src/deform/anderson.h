@@ -34,10 +34,10 @@ class Anderson {
     count_ = next_ = 0;
     open_ = false;
   }
-  // The map changes: what the iterate does until the next step tells nothing. Steps before count on.
+  // The map changes: the next change of the iterate says nothing about the map. Steps before count on.
   void break_off() noexcept { open_ = false; }
-  // Replaces the iterate z by the next one. f: its residual. Both have the size of fit(), a multiple of `block`. What
-  // acceleration adds is shortened until no block of numbers changes by more than `longest`.
+  // Replaces the iterate z by the next one. f: its residual. Both have the size of fit(), a multiple of `block`. The
+  // step of the acceleration is shortened until no block of numbers changes by more than `longest`.
   void step(Span<double> z, Span<const double> f, std::size_t block, double longest) noexcept;
 
  private:

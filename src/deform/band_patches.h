@@ -37,7 +37,7 @@ struct PieceBands {
   Vector<std::int32_t> border;    // vertices with slots and with a neighbour in an earlier piece
 };
 
-// What the bands of all pieces are read from.
+// The tables from which the bands of all pieces are read.
 struct BandSource {
   const Core& core;
   const Rest& rest;

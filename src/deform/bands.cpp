@@ -86,7 +86,7 @@ class ClusterNumbers {
     while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
     return x;
   }
-  // Joins the bands of a vertex with those of its neighbours in earlier pieces.
+  // Joins the bands of a vertex with the bands of its neighbours in earlier pieces.
   void join_vertex(const PieceBands& piece, std::int32_t v) noexcept {
     const Topology& topology = source_.core.topology();
     const auto patch_at = [&](const PieceBands& at, const BandSlot& slot, int a) {

@@ -1,9 +1,9 @@
 // Bounds a posed surface by a box, from the transforms of clusters alone: for culling, where a shader has the vertices.
 //
-// The weights of a vertex are positive and sum to 1, so the vertex lies in the hull of the places to which its clusters
-// move it. A cluster moves the rest box of its vertices to a parallelepiped, and the box around all of these holds the
-// surface. On a coarse mesh, whose bands are narrower than its edges, the motions of single clusters can be far from
-// those of the surface: only their sums count there. So a mesh of few vertices is bounded by its vertices. Cost: a few
+// The weights of a vertex are positive and sum to 1, so it is in the hull of the places to which its clusters move it.
+// A cluster moves the rest box of its vertices to a parallelepiped, and the box around all of these holds the surface.
+// On a coarse mesh, whose bands are narrower than its edges, the motions of single clusters can be far from the motion
+// of the surface. Only their sums count there. So a mesh of few vertices is bounded by its vertices. Cost: a few
 // products per cluster, or per vertex of a small mesh. Only cluster_boxes() allocates and can fail.
 #pragma once
 #include "deform/blend.h"
@@ -15,8 +15,8 @@ struct BlendBox {
   bool empty() const noexcept { return low.x > high.x; }
 };
 
-// Returns the rest boxes of the vertices of each cluster, and last that of the vertices that no cluster moves, isolated
-// ones among them. Unit: the scaled mesh. Some may be empty. Cost: one pass over the weights.
+// Returns the rest box of the vertices of each cluster. The last box holds the vertices that no cluster moves, such as
+// isolated ones. Unit: the scaled mesh. Some may be empty. Cost: one pass over the weights.
 Vector<BlendBox> cluster_boxes(const Mesh& mesh, const ClusterWeights& weights, Memory& memory);
 
 // Returns a box that holds the blended vertices, also as a shader computes them in floats. transforms: null for

@@ -2,8 +2,8 @@
 //
 // A band has the weight share times B-spline, for the cluster of its patch. The last band belongs to the handle of the
 // field. The first band is given to all handles j, each with the weight phi_j / (1 - phi). Small weights are dropped.
-// The others are scaled to sum 1, and rounded to multiples of 2^-24. Cost: O(slots) and O(handles) a vertex. Pieces of
-// vertices run on several threads. A failed call changes nothing.
+// The others are scaled to sum 1, and rounded to multiples of 2^-24. Cost per vertex: the number of its slots and of
+// the handles. Pieces of vertices run on several threads. A failed call changes nothing.
 #pragma once
 #include "deform/band_patches.h"
 

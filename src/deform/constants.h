@@ -1,4 +1,5 @@
-// The chosen numbers of poses: what each trades, and on what it was chosen. Limits that callers meet come first.
+// The chosen numbers of poses: each with its trade, and the data on which it was chosen. Limits that callers meet come
+// first.
 //
 // The benchmark is the program hf_bench deform-quality: planes, bars, a cylinder, a cactus and a scan
 // (docs/poses.md). "Twelve poses" are seven of a tube and five of meshes. The tube is twisted by 450 degrees,
@@ -53,8 +54,8 @@ constexpr float shortest_sum = 1e-15f, longest_sum = 1e15f;
 // is 8 to 18 % larger. With 20 it is 6 % smaller, but the largest edge stretch grows from 1.29 to 1.42.
 constexpr std::uint32_t default_pose_bands = 10;
 // Iterations per frame. They trade time for a surface that stands still when a drag stops. On 36 poses of 12 shapes,
-// dragged as in docs/poses.md, it creeps on by 6.5e-5 of the box in the mean, with 8 by 1.1e-4, with 6 by
-// 5.1e-4. Each takes 0.16 ms with five handles.
+// dragged as in docs/poses.md, it creeps on by 6.5e-5 of the box in the mean. With 8 it is 1.1e-4, with 6 it is 5.1e-4.
+// Each takes 0.16 ms with five handles.
 constexpr std::uint32_t default_pose_iterations = 10;
 // Groups of vertices that share a rotation: more of them fit better but make each iteration slower. With 125, the
 // smallest edge stretch of a pulled scan falls from 0.74 to 0.68. Ten times the groups with twice the bands lower the
@@ -63,7 +64,7 @@ constexpr std::uint32_t default_pose_iterations = 10;
 constexpr std::uint32_t default_groups = 250;
 // The elastic energy counts a stiffness of at most this and at least 1 over it; the fields count all of it. A stiff
 // region keeps its lengths to 0.1 %. With 25 to 0.4 %. With 1e4 to 1e-5, but its rotation then hardly changes in an
-// iteration: a tube with a rigid belt stops 0.04 of its box away from where it ends with 25 to 256.
+// iteration: a tube with a rigid belt stops 0.04 of its box short of its place with 25 to 256.
 constexpr double largest_energy_stiffness = 100;
 // A pose counts as converged when no group's rotation changes by more in an iteration (Frobenius norm). Solving it
 // again then does nothing. At 1e-6, poses at rest stay 2e-5 of the box away from it.
@@ -89,8 +90,8 @@ constexpr double rigid_tolerance = 1e-4;
 
 // Steps that the acceleration of rotations learns from (anderson.h). They are to reach back beyond the iterations of a
 // frame: steps of earlier frames know the slow motions. With ten iterations a frame, 12 poses of four shapes creep by
-// 1.3e-5 of the box in the geometric mean when a drag stops. With 10, 16 and 20 steps: 1.4e-4, 8.6e-5 and 2.3e-5; with
-// 32: 7e-6, for a third more memory.
+// 1.3e-5 of the box in the geometric mean when a drag stops. With 16 steps it is 8.6e-5. With 32 it is 7e-6, for a
+// third more memory.
 constexpr std::size_t anderson_steps = 24;
 // A residual whose square grows by this factor makes the acceleration forget its steps. With 100 the mean is 2.1e-4,
 // but the worst pose is 3.1e-2 off instead of 1.6e-2.
@@ -134,9 +135,9 @@ constexpr double largest_strain = 1e150;
 // diagonal. Half the value lowers the smallest edge stretch of a refined plane from 0.851 to 0.846, below its bound.
 // Twice the value raises the plane's energy by 0.6 %.
 constexpr double rigidity = 1e-3;
-// Extra weight of edges at a handle's border, for components with two handles and with more. 0.25 raises the smallest
-// edge stretch of a bent cactus from 0.786 to 0.801, and its elastic energy by 0.1 %. 3.5 was fitted together with
-// strain_limits (docs/poses.md).
+// Extra weight of edges at a handle's border, for components with two handles and with more. The first raises the
+// smallest edge stretch of a bent cactus from 0.786 to 0.801, and its elastic energy by 0.1 %. The second was fitted
+// together with strain_limits (docs/poses.md).
 constexpr double border_stiffness[] = {0.25, 3.5};
 // Edges sampled for the elastic energy: fewer make the first solve with new handles faster. Halving or doubling it
 // changes the energy of a scan by 1 %.
@@ -191,7 +192,7 @@ constexpr std::int32_t free_cluster_target = 480, free_cluster_limit = 768;
 // Room for the fields that count at a vertex at first. It trades memory for one more copy of the list. No result
 // depends on it.
 constexpr std::size_t slots_a_vertex = 2;
-// Of a vertex's weights in clusters, those below this share of their norm are dropped. Halving or doubling it changes
+// A vertex drops its weights in clusters that are below this share of their norm. Halving or doubling it changes
 // elastic energies by 0.2 %.
 constexpr double weight_prune = 1e-3;
 
@@ -202,7 +203,7 @@ constexpr double weight_prune = 1e-3;
 constexpr double steepest_gradient = 1e9;
 // Bins into which the values of a field are sorted, to space 10 to 64 bands: two for each of the most bands. More bins
 // follow the field more closely and hold fewer triangles each. Half changes elastic energies of the benchmark by at
-// most 0.13 % and edge stretches by at most 0.01; double changes those of its planes by 0 and 0.01.
+// most 0.13 % and edge stretches by at most 0.01; double changes only edge stretches of its planes, by 0.01.
 constexpr int level_bins = 128;
 // Bins to each side in the running mean that smooths the field's gradient over its values. 1 and 6 change elastic
 // energies by 0.3 %.
@@ -234,13 +235,13 @@ constexpr double rigid_hold_share = 0.9;
 
 // The vertices of a component form groups that share a rotation. Larger components get more groups, but each gets at
 // least all wished groups divided by this number: less makes small pieces stiff, more leaves fewer groups to large
-// ones. On a machine of 47 pieces half and double move vertices by 0.07 and 0.05 of the box; the shortest edges are
-// 0.38 and 0.37 instead of 0.36. The other eleven poses keep their bits.
+// ones. On a machine of 47 pieces half and double move vertices by 0.07 and 0.05 of the box. The shortest edges change
+// by at most 0.02. The other eleven poses keep their bits.
 constexpr std::int32_t least_group_share = 4;
 // Size of a block of vertices. The search for the farthest vertex reads a block again when a distance in it has
 // changed: smaller blocks are read less, larger ones are fewer. No result depends on it. The first frame of a torus of
-// 102,400 vertices with 1,000 groups takes as long with half and double within 2 %; with 32 and 2,048 it takes 8 and 2
-// % longer.
+// 102,400 vertices with 1,000 groups takes as long with half and double. With 32 it takes 8 % longer, with 2,048 it
+// takes 2 % longer.
 constexpr std::size_t farthest_block = 256;
 
 // ---- blend.cpp, blend_blocks.cpp ----
@@ -284,15 +285,15 @@ constexpr double sole_margin = 1.2;
 // Radii: of every proposal at least, of a foot and a tip at most. With tips twice as large one tip less fits.
 constexpr double least_radius = 0.01, most_sole_radius = 0.06, most_tip_radius = 0.05;
 // A limb is where the Poisson field is above this share of its fall from the tip; the rest is trunk. A hand pulled up
-// by 0.25 of the box moves the highest vertex of six bipeds by at most 0.018, with feet alone by 0.06 to 0.17. 0.5:
-// 0.023, 0.7: 0.039, without shoulders in the trunk.
+// by 0.25 of the box moves the highest vertex of six bipeds by at most 0.018, with feet alone by 0.06 to 0.17. Without
+// shoulders in the trunk, 0.5 gives 0.023 and 0.7 gives 0.039.
 constexpr double limb_share = 0.4;
 // The least radius of the trunk, so that its region goes around. 0.05 holds the back of a slim body alone.
 constexpr double least_trunk_radius = 0.08;
 // The radius grows until the region has this share of the area of the trunk. Less stops at parts inside a body, as in a
 // wolf and a robot; double is beyond most_radius in a horse.
 constexpr double held_trunk_share = 0.1;
-// A middle that is farther from the surface than this is in a ball or a ring; then a vertex stands for it.
+// A middle that is farther from the surface than this is in a ball or a ring; then a vertex replaces it.
 constexpr double most_depth = 0.12;
 // Added to heights as weights of a trunk. It decides in a flat one, whose heights differ by rounding alone.
 constexpr double flat_trunk = 1e-6;
@@ -343,12 +344,13 @@ constexpr int most_attempts = 12;
 constexpr std::int32_t samples_per_group = 24;
 // Several full-mesh steps go on in the direction of the steps before (Chebyshev's semi-iterative method, as in Wang
 // 2015). It assumes that one step has the spectral radius 1 - refine_gap / steps: few steps must not overshoot, many
-// may go far. Eight steps lower the energy over converged ARAP's from 2.06 to 1.18 (median of three scans), 64
-// to 1.005; eight without it to 1.42. Half and double: eight steps 1.26 and 1.21, four 1.52 and 1.55 (1.44 now).
+// may go far. Eight steps lower the energy over converged ARAP's from 2.06 to 1.18 (median of three scans). 64 steps
+// lower it to 1.005. Eight without this constant lower it to 1.42. With half and double, eight steps end at 1.26 and
+// 1.21.
 constexpr double refine_gap = 0.4;
 // Share of its last change that a correction takes again, when steps go on from the last frame (Nesterov 1983). More
 // gets nearer to the minimum in a drag, but swings about it when handles stop. One step a frame at the end of a drag,
-// on eight scans: energies over converged ARAP's of 1.30 with 0, 1.21 with 0.4, 1.17 with 0.6, 1.12, 1.12 with 0.9.
+// on eight scans: the energy over converged ARAP's is 1.30 with 0, 1.17 with 0.6, and 1.12 with this and with 0.9.
 constexpr double refine_momentum = 0.8;
 
 // ---- rotation.cpp, rotation_batch.cpp ----
@@ -362,7 +364,7 @@ constexpr double least_matrix_square = 1e-300, largest_matrix_square = 1e300;
 // Squared. Below it, the rotation to stay near is orthogonal to all best rotations. It is above rounding, 1e-32. Half
 // and double change no bit of twelve poses.
 constexpr double least_near_share = 1e-20;
-// The next four numbers decide how a drag goes on beyond half a turn. At half and at twice each of them, 22 tests of
+// The next four numbers decide how a drag continues beyond half a turn. At half and at twice each of them, 22 tests of
 // drags and rotations pass alike (for the axis also at 1e-10 and 1e-3). No other figure was tried.
 //
 // Below this angle, in radians, the shortest turn is meant.

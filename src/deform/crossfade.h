@@ -5,7 +5,7 @@
 // stood then. It falls as they move away, to 0 over crossfade_reach, and as they come back to rest. After a rotation
 // was freed it does not fall at rest, where the given rotation is part of the surface:
 //     share = (1 - way / crossfade_reach)^2 min(1, rest way / rest way then)
-// A way is the largest over all handles: the move of the centroid plus crossfade_turn times the angle. Cost: one
+// Both ways are the largest over all handles: the move of the centroid plus crossfade_turn times the angle. Cost: one
 // product and sum per vertex. Allocates only when it is made.
 #pragma once
 #include "deform/handles.h"

@@ -9,9 +9,10 @@ namespace hf_inner {
 struct DensePanels {
   static constexpr std::size_t wide = 8;  // rows or columns of a panel; no result depends on it
   std::size_t size;                       // unknowns
-  // Panel p holds the rows 8 p .. 8 p + 7 column by column, up to column 8 p + 7. What is not below the diagonal is 0.
+  // Panel p holds the rows 8 p .. 8 p + 7 column by column, up to column 8 p + 7. Entries on and above the diagonal are
+  // 0.
   const double* rows;
-  // Panel p holds the columns 8 p .. 8 p + 7 row by row, from row 8 p on. What is not below the diagonal is 0.
+  // Panel p holds the columns 8 p .. 8 p + 7 row by row, from row 8 p on. Entries on and above the diagonal are 0.
   const double* columns;
   const double* inverse_pivot;
   static std::size_t count(std::size_t size) noexcept { return (size + wide - 1) / wide; }

@@ -15,7 +15,7 @@ namespace hf_inner {
 constexpr std::uint32_t most_row_entries = 64;
 
 struct FixedRow {
-  std::uint16_t cluster[most_row_entries];  // by falling weight; where units are 0, that of the first entry
+  std::uint16_t cluster[most_row_entries];  // by falling weight; where units are 0, the cluster of the first entry
   std::uint32_t units[most_row_entries];
 };
 

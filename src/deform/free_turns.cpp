@@ -6,7 +6,7 @@ namespace hf_inner {
 namespace {
 
 // Rounds in which the handles of free rotation find their rotations one after the other. A round is exact for one
-// handle; neighbours that pull on each other need more. Fewer take less time; the next iteration goes on from there.
+// handle; neighbours that pull on each other need more. Fewer take less time; the next iteration continues from there.
 constexpr int turn_rounds = 4;
 
 // Writes J_h L_hj for handle h of the set and handle j of the pose: block[b][a] is its row a and column b. Subspace

@@ -3,7 +3,7 @@
 // A handle of free rotation is a positional constraint on the centroid of its region. Its rotation R_h is one more
 // unknown of the local step of as-rigid-as-possible energy (Sorkine and Alexa 2007), a Procrustes problem. Let c_h be
 // the centroid, d_h its given place, J_h = (I, -c_h), so the handle's transform (4 x 3, subspace.h) is X_h = J_h' R_h'
-// + e_4 d_h'. The other symbols are those of subspace.h, with f for all free clusters together. |R_h y| = |y|, so the
+// + e_4 d_h'. subspace.h explains the other symbols. f stands for all free clusters together. |R_h y| = |y|, so the
 // energy is linear in R_h, also after X_f is eliminated (variable projection, Golub and Pereyra 1973):
 //     R_h = argmax tr(R' S_h),   -S_h' = J_h (sum_k L_hk Y_k - sum_g Q_gh R_g') + U_h' r + sum_{k != h} C_hk R_k',
 //     U_h = L_ff^-1 L_fh J_h',   C_hk = J_h L_hk J_k' - (L_fh J_h')' U_k,   X_f = L_ff^-1 r - sum_h U_h R_h'.
@@ -50,7 +50,7 @@ struct FreeTurns {
 FreeTurns make_free_turns(const Subspace& subspace, const Handles& handles, Span<const std::uint8_t> free_turn,
                           const Vector<double>& seed_field, const Holds* holds, Memory& memory);
 
-// What the solve for the rotations reads and writes.
+// The arrays that the solve for the rotations reads and writes.
 struct FreeTurnsState {
   explicit FreeTurnsState(Memory& memory) : rotation(&memory), place(&memory), constant(&memory), fixed(&memory) {}
   FreeTurnsState(const FreeTurnsState& other, Memory& memory)
@@ -64,7 +64,7 @@ struct FreeTurnsState {
     constant.assign(count, Mat3());
     fixed.assign(count, Mat3());
   }
-  Vector<Quaternion> rotation;  // R_h: where to start, and what was found
+  Vector<Quaternion> rotation;  // R_h: the start, then the result
   Vector<Vec3> place;           // d_h, given
   Vector<Mat3> constant;        // J_h sum_k L_hk Y_k of this solve
   Vector<Mat3> fixed;           // the terms of -S_h' without other free handles, in this iteration

@@ -67,7 +67,7 @@ class RegionSearch {
 // Whether a radius is so small that its region is one vertex, which pulls a spike. One vertex of a coarse mesh is none.
 bool is_spike(Span<const std::int32_t> region, double radius) noexcept;
 
-// Does the same as RegionSearch for places and radii, in the unit of the mesh as given. A point in space stands for its
+// Does the same as RegionSearch for places and radii, in the unit of the caller's mesh. A point in space stands for its
 // nearest vertex, any other place for the nearest of its corners. Region r is vertices[start[r] .. start[r + 1]).
 // Throws as PlaceReader does, HF_ERROR_NON_FINITE, or HF_ERROR_INVALID_ARGUMENT for a radius that is negative, or makes
 // a spike; index: r.

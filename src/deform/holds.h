@@ -7,14 +7,14 @@
 // With D = diag(k), L_ff the matrix of the free clusters and r their right-hand side without pins (Woodbury),
 //     X_f = L_ff^-1 r + U lambda,   lambda = T (y - Z_h' X_h - Z_f' L_ff^-1 r),
 //     U = L_ff^-1 Z_f,   T = (D^-1 + Z_f' U)^-1.
-// So L_ff is not factorised again, and a new share costs m^3 / 6 multiply-adds. With handles of free rotation (the
-// symbols are those of free_turns.h) the energy of the pins is |y - V' X_h - U' r_g|_T^2 / 2, V = Z_h - L_hf U, and
+// So L_ff is not factorised again, and a new share costs m^3 / 6 multiply-adds. With handles of free rotation
+// (free_turns.h explains the symbols) the energy of the pins is |y - V' X_h - U' r_g|_T^2 / 2, V = Z_h - L_hf U, and
 //     -S_h' -= J_h V_h T e,   C_hk += J_h V_h T V_k' J_k',   e: the gap of the pins for Y.
 //
 // The strength of pin j follows from the fields phi of the handles with a share below 1:
 //     k_j = s (1 - max phi(v_j))^p sum_h phi_h(v_j) g(f_h) / sum_h phi_h(v_j),   g(f) = hold_strength (1 - f) / f.
-// It is small on the limb, whose field is near 1. With s = 1 / sum_j (Z_f' U)_jj the pins together are as
-// stiff as the surface at one of them, so neither the size of the mesh nor the number of pins matters.
+// It is small on the limb, whose field is near 1. With s = 1 / sum_j (Z_f' U)_jj the pins together are as stiff as the
+// surface at one of them. So the size of the mesh and the number of pins do not matter.
 //
 // Cost: m / 4 dense solves, once; a frame adds 2 m size products per iteration. A failed call changes nothing.
 #pragma once
@@ -28,7 +28,8 @@ namespace hf_inner {
 
 // Strength of the pins at a share of one half, where all pins together count as one point of the surface. More lets a
 // hand take less of the body along at the same share. A hand pulled up by 0.25 of the box moves the head of eight
-// bipeds by 0.04 to 0.08, with a share of 0.25 by at most 0.03, and 0.039 with a fifth of this.
+// bipeds by 0.04 to 0.08. With a share of 0.25 the head moves by at most 0.03, and by 0.039 with a fifth of this
+// strength.
 constexpr double hold_strength = 6;
 // How fast pins get weaker towards the handle: (1 - field)^power. With 4 the head moves by 0.039.
 constexpr double hold_power = 2;
@@ -65,7 +66,7 @@ struct HoldsInput {
 // Returns no pin where no handle with a share below 1 meets another one.
 Holds make_holds(const HoldsInput& input, Memory& memory);
 
-// What a solve reads and writes.
+// The arrays that a solve reads and writes.
 struct HoldsState {
   explicit HoldsState(Memory& memory) : target(&memory), gap(&memory), pull(&memory) {}
   HoldsState(const HoldsState& other, Memory& memory)
@@ -84,7 +85,8 @@ struct HoldsState {
 void begin_holds(const Holds& holds, std::size_t handle_count, const double* rows, HoldsState& state) noexcept;
 // e = gap - U' r, into state.pull.
 void gap_before(const Holds& holds, const double* r, std::size_t size, HoldsState& state) noexcept;
-// Adds U lambda to the solved X_f. rows holds the transforms of all clusters, `solved` those of the free ones in it.
+// Adds U lambda to the solved X_f. rows holds the transforms of all clusters, `solved` the transforms of the free
+// clusters in it.
 void add_holds(const Holds& holds, const double* rows, double* solved, std::size_t size, HoldsState& state) noexcept;
 
 }  // namespace hf_inner

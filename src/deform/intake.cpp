@@ -17,7 +17,7 @@ static_assert(static_cast<int>(HandleReason::foot) == HF_HANDLE_REASON_FOOT &&
                   static_cast<int>(HandleReason::middle) == HF_HANDLE_REASON_MIDDLE,
               "hf/pose.h states other reasons");
 
-// The unit vector away from the ground; 0 0 0 is that of the skeleton where it is known, else y.
+// The unit vector away from the ground. For 0 0 0 it is the up axis of the skeleton where that is known, else y.
 Vec3 read_up(const double* up, const KnownSkeleton* skeleton) {
   if (!is_finite_point(up)) fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "up is not finite");
   const Vec3 unit = unit_vector({up[0], up[1], up[2]});

@@ -34,7 +34,7 @@ void check_following(double following);
 std::uint32_t read_refine(std::int32_t refine);
 HandleTransform read_transform(const hf_transform& given) noexcept;
 
-// The vertices as given that hf_pose_deform writes.
+// The vertices of the caller's mesh that hf_pose_deform writes.
 struct VertexRange {
   std::uint32_t first, count;
   bool whole;
@@ -46,8 +46,7 @@ VertexRange read_range(const hf_deform_desc& desc, std::uint32_t vertex_count);
 DeformRequest read_request(const hf_deform_desc& desc);
 
 // Throws HF_ERROR_NON_FINITE, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_TOO_LARGE, HF_ERROR_NULL_POINTER or
-// HF_ERROR_OUT_OF_RANGE as hf_surface_propose_handles says. skeleton: that of the desc, or null. It outlives the
-// options.
+// HF_ERROR_OUT_OF_RANGE as hf_surface_propose_handles says. skeleton: from the desc, or null. It outlives the options.
 ProposalOptions read_proposal_options(const hf_handle_proposals_desc& desc, const Mesh& mesh,
                                       const KnownSkeleton* skeleton);
 

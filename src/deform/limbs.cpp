@@ -14,7 +14,8 @@ double limb_measure(double fall, double area) { return fall * std::sqrt(fall) / 
 // can turn a shoulder. With 0.8 the head of a biped belongs to its arm.
 constexpr double limb_margin = 0.85;
 
-// Returns the field's value where the limb ends. vertices: those of the component outside handles, of falling field.
+// Returns the field's value where the limb ends. vertices: of the component, outside handles, in order of falling
+// field.
 // area: of the handle.
 double limb_end(const Core& core, FieldColumn<const double> field, double area, Span<const std::int32_t> vertices) {
   double best = 0, end = 1;

@@ -25,7 +25,7 @@ struct BodyRole {
 
 class MovedParts {
  public:
-  // If the skeleton has a skin, the skin has the vertices of the mesh as given. Both arguments outlive this object.
+  // If the skeleton has a skin, the skin has the vertices of the caller's mesh. Both arguments outlive this object.
   MovedParts(const Core& core, const KnownSkeleton& known);
 
   // Whether roles are known well enough to decide which handles are pinned.
@@ -38,7 +38,7 @@ class MovedParts {
   }
   // Returns the role and side that have most of the weights in a region.
   BodyRole main_role_of(Span<const std::int32_t> region) const noexcept;
-  // Whether a limb of this role moves freely: an arm, a head, a tail. stands: the limb is on the ground; arms of a body
+  // Whether a limb of this role moves freely: an arm, a head, a tail. stands: the limb is on the ground. Arms of a body
   // that is not upright may then be front legs, and do not move freely.
   bool hangs_free(Role role, bool stands) const noexcept;
   // The chain (skeleton/character.h) of a joint, or of the joint it hangs on; -1: none.

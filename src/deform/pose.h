@@ -2,8 +2,8 @@
 // behind hf_pose_* and hf_deform.
 //
 // A Layout holds what depends only on the handles' regions: sites, fields, cluster weights and the reduced system. It
-// is immutable and shared by clones. A State changes every frame. From the transforms of the handles it computes those
-// of the clusters, then vertices and normals.
+// is immutable and shared by clones. A State changes every frame. From the transforms of the handles it computes the
+// transforms of the clusters, then vertices and normals.
 //
 // After an exception the pose is as before. Repeated deform() calls allocate nothing. Results do not depend on the
 // number of threads. If handles are added and then removed again, layout and solver state are restored bit for bit; the
@@ -23,7 +23,7 @@
 
 namespace hf_inner {
 
-// Options of a pose. Zeros mean defaults; the ranges are those of hf_pose_desc.
+// Options of a pose. Zeros mean defaults; hf_pose_desc gives the ranges.
 struct PoseOptions {
   std::uint32_t band_count = 0;       // 2 to 64
   std::uint32_t iteration_count = 0;  // 1 to 1000
@@ -33,7 +33,7 @@ struct PoseOptions {
   std::shared_ptr<const PoseScheme> scheme;  // null: the reduced energy of pose_solver.h
 };
 
-// The motion p -> rotation (p - centroid) + centroid + translation, in the unit of the mesh as given. The quaternion
+// The motion p -> rotation (p - centroid) + centroid + translation, in the unit of the caller's mesh. The quaternion
 // need not be normalised. All zeros mean the identity.
 struct HandleTransform {
   Quaternion rotation;
@@ -46,13 +46,13 @@ struct HandleTransform {
 HandleTransform rigid_transform(const double* matrix, Vec3 centroid, std::uint32_t position);
 
 struct HandleKind {
-  bool in_place = false;   // the handle starts where the posed surface stands
+  bool in_place = false;   // the handle starts on the posed surface
   bool free_turn = false;  // its rotation is part of the solve (free_turns.h)
 };
 
 struct HandleReport {
   std::uint32_t vertex_count = 0, site_count = 0, component = 0;
-  Vec3 centroid;  // in the unit of the mesh as given
+  Vec3 centroid;  // in the unit of the caller's mesh
   double leak = 0;
 };
 
@@ -71,7 +71,7 @@ struct DeformRequest {
 void check_request(const DeformRequest& request);
 
 struct DeformReport {
-  Span<const Vec3> positions;     // per inner vertex, in the unit and frame of the mesh as given
+  Span<const Vec3> positions;     // per inner vertex, in the unit and frame of the caller's mesh
   Span<const Normal> normals;     // unit; empty when not asked for
   bool packed_positions = false;  // the request's packed_positions were written
   std::uint32_t iteration_count = 0, cluster_count = 0, unreached_vertex_count = 0;
@@ -132,7 +132,7 @@ class Pose {
   double crossfade_share() const noexcept { return state_->crossfade ? state_->share : 0; }
   const Crossfade* crossfade() const noexcept { return state_->crossfade.get(); }
   // A box that holds the surface of that blend, isolated vertices included. Relative to the mesh's centre, in the unit
-  // of the mesh as given. Needs a handle.
+  // of the caller's mesh. Needs a handle.
   BlendBox blend_box() const noexcept;
   // Counts the changes of weights and offsets.
   std::uint32_t blend_revision() const noexcept { return blend_revision_; }
@@ -166,11 +166,12 @@ class Pose {
   // vector per handle, in the order in which handles were added; the start is turned by them first. The bits depend
   // only on start, transforms, turns and request.
   DeformReport deform_from(const Pose& start, Span<const Vec3> turns, const DeformRequest& request);
-  // What a frame changes, to be put back when the frame fails. whole = false: only what a frame makes at its first use.
+  // The state that a frame changes, to restore when the frame fails. whole = false: only the tables that a frame makes
+  // at its first use.
   struct Kept;
   std::shared_ptr<Kept> keep(bool whole);
   void put_back(Kept& kept) noexcept;
-  // Returns one vertex of the last pose, in the unit and frame of the mesh as given.
+  // Returns one vertex of the last pose, in the unit and frame of the caller's mesh.
   Vec3 blended(std::int32_t vertex) const noexcept;
 
   Pose(std::shared_ptr<const Core> core, const PoseOptions& options,
@@ -184,7 +185,7 @@ class Pose {
     Vec3 turn;            // rotation vector of the motion so far, with full turns
     Quaternion solved;    // rotation in the last solve
     Vec3 solved_turn;
-    bool free_turn = false;        // rotation and turn are those of the last solve
+    bool free_turn = false;        // the last solve found rotation and turn
     double following = 1;          // below 1: the rest of the surface is held back (holds.h)
     std::uint32_t limb_steps = 0;  // full-mesh steps on its limb (limbs.h)
   };
@@ -218,7 +219,7 @@ class Pose {
     double share = 0;                          // of the offsets of the crossfade, in the last frame
     double last_change = 0;
     std::uint32_t idle_iterations = 0;           // iterations since the last change
-    std::shared_ptr<const Crossfade> crossfade;  // null: the surface is that of the transforms
+    std::shared_ptr<const Crossfade> crossfade;  // null: the surface follows from the transforms
     std::shared_ptr<Followed> followed;          // null: full-mesh steps begin at the blended pose
     std::shared_ptr<const Limbs> limbs;          // null: no limb takes steps of its own
     std::shared_ptr<Pose> without;  // without the handles that are held back; null: nothing is, or rest is meant

@@ -23,7 +23,7 @@ void Pose::set_following(Span<const std::uint32_t> numbers, double following) {
   if (!changed) return;
   prepare_holds(*layout_, *state);
   prepare_turns(*layout_, *state);
-  state->smooth.anderson.forget();  // its steps are those of other equations
+  state->smooth.anderson.forget();  // its steps belong to other equations
   state->changed = true;
   if (state->stands) keep_in_place(*layout_, *state, state->crossfade && state->crossfade->from_rest > 0);
   state_ = std::move(state);

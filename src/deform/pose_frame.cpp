@@ -142,7 +142,7 @@ void Pose::make_refinement(const Layout& layout, std::uint32_t steps, const Foll
   refinement_ = refinement;
 }
 
-// Makes what the frame needs beside the pose, all or nothing.
+// Makes the tables that the frame needs beside the pose, all or nothing.
 void Pose::prepare(const DeformRequest& request) {
   if (!layout_) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "the pose has no handle; add one first");
   check_request(request);
@@ -340,7 +340,7 @@ void Pose::prepare_start() {
 void Pose::take_start(Span<const Vec3> surface) noexcept {
   if (layout_->smooth) return start_.fit(*core_, *rest_, surface);
   for (std::size_t v = 0; v < surface.size(); ++v) start_.own_unit[v] = core_->mesh.to_inner(surface[v]);
-  // Of equal fits the one nearest to rest is taken, so the last frame does not show.
+  // Among equal fits the one nearest to rest is used, so the result does not depend on the last frame.
   Vector<RigidMotion>& motion = state_->rigid->motion;
   std::fill(motion.begin(), motion.end(), RigidMotion());
   layout_->rigid->fit(core_->mesh, start_.own_unit.data(), *state_->rigid);

@@ -1,4 +1,4 @@
-// Handles that begin where the posed surface stands: the surface stays there at first (crossfade.h).
+// Handles that begin on the posed surface. The surface stays there at first (crossfade.h).
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"
 
@@ -15,7 +15,7 @@ RigidMotion Pose::fit_region(const Handle& handle) const {
   return fit_rigid(rest, posed, {}, Quaternion());
 }
 
-// Places the new handles where the surface stands.
+// Places the new handles on the posed surface.
 void Pose::fit_new_handles(const Layout& layout, State& state) const {
   for (std::size_t i = 0; i < layout.handles.size(); ++i) {
     if (find(layout.handles[i].number) >= 0) continue;

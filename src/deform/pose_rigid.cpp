@@ -1,4 +1,4 @@
-// Rigid pieces (rigid_pieces.h) in poses and their layers: a handle on a piece takes all of it.
+// Rigid pieces (rigid_pieces.h) in poses and their layers: a handle on a piece moves the whole piece.
 #include "base/error.h"
 #include "deform/pose_layout.h"
 #include "deform/pose_stack.h"

@@ -1,5 +1,5 @@
 // The interface to solve a pose otherwise than by the reduced energy of pose_solver.h: every cluster moves rigidly, and
-// the scheme finds the motions. Poses of hosts have no scheme. The room peers has that of the paper.
+// the scheme finds the motions. Poses of hosts have no scheme. The room peers has the scheme of the paper.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -11,7 +11,7 @@ namespace hf_inner {
 
 class PoseScheme {
  public:
-  // What a solve changes. Motions are by cluster that is no handle, in the unit of the scaled mesh.
+  // The state that a solve changes. Motions are by cluster that is no handle, in the unit of the scaled mesh.
   struct State {
     explicit State(Memory& memory) : motion(&memory) {}
     State(const State& other, Memory& memory) : motion(other.motion, &memory) {}
@@ -28,7 +28,7 @@ class PoseScheme {
     // Fits the motions to given positions, in the unit of the scaled mesh. A pose continues from them after its handles
     // changed.
     virtual void fit(const Mesh& mesh, const Vec3* positions, State& state) const noexcept = 0;
-    // Solves the pose. transforms: one per cluster; those of handles are read, the others are written.
+    // Solves the pose. transforms: one per cluster; the solve reads the transforms of handles and writes the others.
     virtual SolveReport solve(const Mesh& mesh, const ClusterWeights& weights, std::uint32_t iterations,
                               double tolerance, State& state, Affine* transforms) const noexcept = 0;
   };
@@ -37,8 +37,8 @@ class PoseScheme {
   virtual std::shared_ptr<const System> prepare(const Core& core, const ClusterWeights& weights,
                                                 Memory& memory) const = 0;
 
-  // What bands it takes, with the default of their number; iterations of a frame unless the pose says otherwise; and at
-  // most how many while the handles stay in place.
+  // The kind of its bands and the default of their number. The iterations of a frame unless the pose has its own
+  // number, and their limit while the handles do not move.
   const BandOptions bands;
   const std::uint32_t default_iterations, idle_limit;
 

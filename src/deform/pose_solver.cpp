@@ -31,8 +31,8 @@ void set_handle_rows(const SmoothSystem& system, const Affine* transforms, Smoot
   }
 }
 
-// Computes the right-hand side of the known handle transforms X_h: known = -L_fh X_h. L_fh couples free clusters (bands
-// of vertices) with handles.
+// Computes the right-hand side of the known handle transforms X_h: known = -L_fh X_h. L_fh couples free clusters with
+// handles.
 HF_FOUR_LANES
 void set_known(const SmoothSystem& system, SmoothState& state) noexcept {
   const std::size_t columns = 4 * static_cast<std::size_t>(system.handle_count);
@@ -47,8 +47,8 @@ void set_known(const SmoothSystem& system, SmoothState& state) noexcept {
   }
 }
 
-// Adds the rotations R_g of the vertex groups to the right-hand side of the free clusters c (bands of vertices). rows =
-// known + sum_g Q_gc R_g', where the matrix Q_gc couples group and cluster (subspace.h).
+// Adds the rotations R_g of the vertex groups to the right-hand side of the free clusters c. rows = known + sum_g Q_gc
+// R_g', where the matrix Q_gc couples group and cluster (subspace.h).
 HF_FOUR_LANES
 void add_groups(const SmoothSystem& system, const double* columns, const double* known, double* rows) noexcept {
   const Subspace& s = system.subspace;
@@ -90,8 +90,8 @@ void match_group(const Subspace& s, std::size_t g, const double* rows, double (&
   }
 }
 
-// Sums the rotations R_g of the vertex groups under one cluster (band of vertices), weighted by area: sum[j][i] = sum
-// of area times R_g(i, j).
+// Sums the rotations R_g of the vertex groups under one cluster, weighted by area: sum[j][i] = sum of area times R_g(i,
+// j).
 HF_FOUR_LANES
 void mean_of_groups(const Subspace& s, std::int32_t first, std::int32_t last, const double* columns,
                     double (&sum)[3][4]) noexcept {
@@ -106,8 +106,8 @@ void mean_of_groups(const Subspace& s, std::int32_t first, std::int32_t last, co
   }
 }
 
-// Adds eps_c Rbar_c' to the right-hand side of several clusters (bands of vertices). Rbar_c is the mean rotation of the
-// vertex groups under cluster c, found in one lane of the batch. eps_c is a small stiffness.
+// Adds eps_c Rbar_c' to the right-hand side of several clusters. Rbar_c is the mean rotation of the vertex groups under
+// cluster c, found in one lane of the batch. eps_c is a small stiffness.
 void add_means(const SmoothSystem& system, RotationBatch& batch, const std::int32_t* cluster, int count,
                double* rows) noexcept {
   best_rotations_from(batch, count);
@@ -121,9 +121,9 @@ void add_means(const SmoothSystem& system, RotationBatch& batch, const std::int3
   }
 }
 
-// Sets the right-hand side for the clusters (bands of vertices) that are no handles. For cluster c it is known + sum_g
-// Q_gc R_g' + eps_c Rbar_c'. The part `known` comes from the handles. R_g is the rotation of vertex group g, and Q_gc
-// couples it to the cluster. Rbar_c is the mean rotation under the cluster, eps_c a small stiffness (subspace.h).
+// Sets the right-hand side for the clusters that are no handles. For cluster c it is known + sum_g Q_gc R_g' + eps_c
+// Rbar_c'. The part `known` comes from the handles. R_g is the rotation of vertex group g, and Q_gc couples it to the
+// cluster. Rbar_c is the mean rotation under the cluster, eps_c a small stiffness (subspace.h).
 void set_right_hand_side(const SmoothSystem& system, SmoothState& state) noexcept {
   const Subspace& s = system.subspace;
   double* free_rows = state.rows.data() + 16 * static_cast<std::size_t>(system.handle_count);

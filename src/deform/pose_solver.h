@@ -84,18 +84,18 @@ struct SolveReport {
   double last_change = 0;
 };
 
-// The next two functions set the rotations of the vertex groups before a solve: from the handles' whole turns
-// (start_rotations), or by adding the turns since the last solve (predict_rotations). start_rotations takes the groups
-// of `component`, or all groups if it is negative, and clears their stress.
+// The next two functions set the rotations of the vertex groups before a solve. The first starts from the handles'
+// whole turns. The second adds the turns since the last solve. The first takes the groups of `component`, or all groups
+// if it is negative, and clears their stress.
 void start_rotations(const SmoothSystem& system, const Groups& groups, std::int32_t component, Span<const Vec3> turns,
                      SmoothState& state) noexcept;
 void predict_rotations(const SmoothSystem& system, Span<const Vec3> increments, SmoothState& state) noexcept;
-// Sets turn_limit and the rotations from which it is measured (anchor), for the accumulated turns of the handles. The
+// Sets turn_limit, and anchor: the rotations from which it is measured, for the accumulated turns of the handles. The
 // limit follows from the handles of given rotation alone: a handle of free rotation may unwind.
 void set_turn_limit(const SmoothSystem& system, Span<const Vec3> turns, SmoothState& state) noexcept;
-// Solves the pose. transforms: one per cluster of vertices; those of handles are read, the others are written. The
-// rotations of free handles start from state.free and end there. Their transforms are written too. It stops early when
-// last_change falls below `tolerance`.
+// Solves the pose. transforms: one per cluster of vertices; the solve reads the transforms of handles and writes the
+// others. The rotations of free handles start from state.free and end there. Their transforms are written too. It stops
+// early when last_change falls below `tolerance`.
 SolveReport solve_pose(const SmoothSystem& system, std::uint32_t iterations, double tolerance, SmoothState& state,
                        Affine* transforms) noexcept;
 

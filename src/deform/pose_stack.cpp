@@ -244,7 +244,7 @@ bool PoseStack::update(std::uint32_t k, Span<const Vec3> below, bool below_chang
   own.restart = false;
   own.surface = true;
   own.packed_positions = nullptr;
-  own.refine_from_last = false;  // X_k depends only on what is below it
+  own.refine_from_last = false;  // X_k depends only on the layers below it
   if (own.iteration_count == 0) own.iteration_count = base_->options().iteration_count;
   own.iteration_count = std::max(own.iteration_count, least_layer_iterations);
 
@@ -325,14 +325,14 @@ DeformReport PoseStack::deform(const DeformRequest& request) {
   } catch (...) {
     for (auto& pose : kept) pose.first->put_back(*pose.second);
     std::copy(entries.begin(), entries.end(), entries_.begin());
-    mark_stale(0);  // the layers follow from what is beneath them
+    mark_stale(0);  // the layers follow from the layers below them
     for (const auto& layer : layers_)
       if (layer) layer->plain_stale = true;
     throw;
   }
 }
 
-// Takes memory before anything is changed, but for the full-mesh step.
+// Allocates before it changes anything. Only the full-mesh step allocates later.
 DeformReport PoseStack::deform_all(const DeformRequest& request) {
   if (!has_layers()) {
     base_stale_ = true;  // layers that are added later must not reuse old poses

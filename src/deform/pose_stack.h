@@ -6,10 +6,10 @@
 //     U     the unedited pose: each handle h stands at F_h;
 //     E     the edited pose: each handle h stands at F_h D_h, where D_h is the user's transform of h;
 //     X_k = E + q (X_{k-1} - U),   q: the rotation from U to E, blended from the clusters like positions.
-// U and E start from the same rotations, those of X_{k-1}, and take the same steps. If all D_h are the identity, then E
-// = U bit for bit, and X_k = X_{k-1}. A new handle therefore does not change the surface. Removing a handle, or moving
-// it back, undoes its edit exactly. In layer k the handles of lower layers are fixed. A moved handle carries its part
-// of the surface rigidly.
+// U and E start from the rotations of X_{k-1} and run the same steps. If all D_h are the identity, then E = U bit for
+// bit, and X_k = X_{k-1}. A new handle therefore does not change the surface. Removing a handle, or moving it back,
+// undoes its edit exactly. In layer k the handles of lower layers are fixed. A moved handle moves its part of the
+// surface rigidly.
 //
 // A handle of free rotation is free in U and E of its own layer. D_h gives its place there, and it turns by q.
 //

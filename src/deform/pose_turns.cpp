@@ -81,13 +81,13 @@ Vec3 Pose::carried(const State& state, std::size_t k) const noexcept {
     sum = sum + share * (state.handles[i].rotation.toRotationMatrix() * to - to + state.handles[i].translation);
     shares += share;
   }
-  return shares > 0 ? sum : state.handles[free.handle[k]].translation;  // shares are 1 together, or nobody is given
+  return shares > 0 ? sum : state.handles[free.handle[k]].translation;  // shares are 1 together, or no handle is given
 }
 
 // A pose that starts anew takes the way of a drag: its free handles go to their places in steps. At once, the tail of a
 // horse that is pulled up by its length ends in a fold, half a turn off.
 void Pose::approach(State& state) noexcept {
-  constexpr std::uint32_t steps = 8, iterations = 10;  // those of a quick drag
+  constexpr std::uint32_t steps = 8, iterations = 10;  // turns of a quick drag
   const FreeTurns& free = *state.smooth.turns;
   const Span<const RigidMotion> wanted = placed(state);
   for (std::uint32_t step = 1; step < steps; ++step) {

@@ -9,8 +9,8 @@
 namespace hf_inner {
 namespace {
 
-// The joints from the roots outwards, of one depth the longest bone first. Of two joints at one place the first is
-// proposed, so the order must not be that of the list.
+// The joints from the roots outwards, of one depth the longest bone first. If two joints are at one place, the first is
+// proposed. So the order must not depend on the list.
 Vector<std::uint32_t> outwards(const JointList& joints, Memory& memory) {
   const std::size_t count = joints.parents.size();
   Vector<std::uint32_t> order(count, 0, &memory), depth(count, 0, &memory), path(&memory);

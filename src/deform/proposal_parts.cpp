@@ -144,7 +144,7 @@ class Chooser {
       proposal.vertex = vertex_near(core_, place);
       return true;
     }
-    return false;  // other layers of the surface lie at the same place
+    return false;  // other layers of the surface are at the same place
   }
 
   RegionSearch& search_;
@@ -153,7 +153,7 @@ class Chooser {
   Memory& memory_;
   const Vector<Candidate>& found_;
   MovedParts* const parts_;
-  Vector<std::int32_t> owner_;  // by inner vertex: its candidate, or nobody
+  Vector<std::int32_t> owner_;  // by inner vertex: its candidate, or none
 };
 
 }  // namespace

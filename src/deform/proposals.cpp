@@ -76,8 +76,8 @@ class Proposer {
     }
   }
 
-  // The sole is what is edge-connected to the minimum and nearly as low. The handle stands at the vertex nearest to the
-  // middle of the sole. That vertex does not depend on which of many equally low vertices is the minimum.
+  // The sole is the part that is edge-connected to the minimum and nearly as low. The handle is at the vertex nearest
+  // to the middle of the sole. That vertex does not depend on which of many equally low vertices is the minimum.
   Candidate foot_at(Index lowest, double leg) {
     const double level = height_[at(lowest)] + sole_share * tall_;
     Vector<Index> sole(&memory_);

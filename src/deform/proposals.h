@@ -3,8 +3,8 @@
 //
 // Feet are minima of the height with a leg above them: the height rises by a share of the body on the way to a lower
 // minimum (find_peaks). Tips are the extremities of field/extremities.h; those at a foot belong to the foot. A
-// component without either gets its two ends. The trunk of the largest component holds: what is left when all limbs are
-// taken away, by the Poisson field of the tips. Its middle is in the chest of a biped, and between the legs of an
+// component without either gets its two ends. The trunk of the largest component holds. The trunk is the part outside
+// all limbs, by the Poisson field of the tips. Its middle is in the chest of a biped, and between the legs of an
 // animal. Places do not depend on the order of the vertices; they follow translation and scale.
 //
 // The regions of all proposals are disjoint: adding them as handles by position and radius does not overlap.
@@ -17,7 +17,7 @@
 
 namespace hf_inner {
 
-// The values are those of HF_HANDLE_REASON_*.
+// The values equal HF_HANDLE_REASON_*.
 enum class HandleReason : std::int32_t { foot = 0, tip = 1, end = 2, joint = 3, middle = 4 };
 
 struct HandleProposal {
@@ -25,9 +25,9 @@ struct HandleProposal {
   HandleReason reason = HandleReason::tip;
   bool pinned = false;
   std::uint32_t joint = 0xffffffffu;  // the joint that moves it, an end joint nearby, or none
-  Role role = Role::other;            // of the joint, or of what it hangs on
+  Role role = Role::other;            // of the joint, or of its parent
   Side side = Side::middle;
-  Vec3 position;                  // in the unit of the mesh as given
+  Vec3 position;                  // in the unit of the caller's mesh
   double radius = 0, length = 0;  // same unit
   double following = 1;           // for a drag
 };
@@ -42,7 +42,7 @@ struct ProposalOptions {
   Vec3 up{0, 1, 0};                         // of length 1
   double least_length_share = 0;            // share of the box diagonal
   std::size_t limit = 0;                    // most proposals
-  Span<const double> joints;                // [n][3], in the unit of the mesh as given
+  Span<const double> joints;                // [n][3], in the unit of the caller's mesh
   Span<const std::uint32_t> parents;        // [n]; 0xffffffff for a root
   const KnownSkeleton* skeleton = nullptr;  // instead of joints; a skin has the vertices of the mesh
 };

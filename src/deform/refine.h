@@ -4,11 +4,11 @@
 // From the blended positions x and the rest positions p it solves
 //     R_v = argmax tr(R' sum_u w_vu (x_v - x_u)(p_v - p_u)'),
 //     sum_u w_vu (y_v - y_u) = sum_u w_vu / 2 (R_v + R_u)(p_v - p_u),   y = x on the handles.
-// R_v is the rotation of vertex v, and y are the new positions. The weights w are those of the operator K, and u runs
-// over the neighbours of v in its triangulation. So y = x + u with K u = b - K x and u = 0 on the handles, where b is
-// the right side, and the existing factor is used. With these weights the energy never grows. Cotangents of the mesh's
-// own edges would be larger at obtuse triangles, and the step would overshoot there. Cost of a step: a rotation per
-// vertex, and two sweeps for three coordinates.
+// R_v is the rotation of vertex v, and y are the new positions. The weights w belong to the operator K, and u runs over
+// the neighbours of v in its triangulation. So y = x + u with K u = b - K x and u = 0 on the handles, where b is the
+// right side, and the existing factor is used. With these weights the energy never grows. Cotangents of the mesh's own
+// edges would be larger at obtuse triangles, and the step would overshoot there. Cost of a step: a rotation per vertex,
+// and two sweeps for three coordinates.
 //
 // Several steps approach the minimum of this energy, which keeps lengths best but lets volume shrink and bends sharpen.
 // With x_k before step k and y_k after it, the next positions are x_k+1 = x_k-1 + w_k (y_k - x_k-1), where w_1 = 1, w_2
@@ -19,8 +19,8 @@
 // The correction of the last frame is c = y - x. It turns with the pose, and the first step begins at
 //     x_v + q_v (c_v + refine_momentum m_v).
 // The rotation q_v leads from the last blended pose to this one; it is blended from the clusters. m is how c changed in
-// the last step (Nesterov's momentum, 1983). So the steps of all frames are one iteration. While handles stand still,
-// it goes to the minimum. The momentum is dropped when a step goes against it (O'Donoghue and Candes 2015). With
+// the last step (Nesterov's momentum, 1983). So the steps of all frames are one iteration. While handles do not move,
+// it converges to the minimum. The momentum is dropped when a step goes against it (O'Donoghue and Candes 2015). With
 // it, the energy may still grow for a step.
 //
 // Steps on limbs alone (limbs.h) have u = 0 on all other vertices, and a factor of their own.
@@ -50,7 +50,7 @@ struct RefineInput {
   const Limbs* limbs = nullptr;              // null: the steps move the whole surface
 };
 
-// What the steps of one frame leave for the next.
+// The state that the steps of one frame leave for the next.
 struct Followed {
   // No correction yet.
   Followed(std::size_t vertices, std::size_t clusters, Memory& memory)
@@ -72,7 +72,7 @@ struct Followed {
   }
   // The next steps begin at this surface, if the blended pose stays.
   void lead(const Vec3* blended, const Vec3* surface) noexcept;
-  Buffer<float> correction, change;  // three per vertex, in the unit and frame of the mesh as given
+  Buffer<float> correction, change;  // three per vertex, in the unit and frame of the caller's mesh
   Vector<Quaternion> rotation;       // by cluster, in the frame of the correction
   bool turned = false;               // `rotation` is known; otherwise the correction is taken as it is
 };

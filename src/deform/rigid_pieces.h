@@ -36,7 +36,7 @@ class RigidPieces {
  private:
   Vector<std::int32_t> piece_;           // by vertex, -1 outside
   Vector<std::int32_t> start_, vertex_;  // vertices of piece k: vertex_[start_[k] .. start_[k + 1])
-  Vector<Vec3> rest_;                    // like vertex_, in the unit and frame of the mesh as given
+  Vector<Vec3> rest_;                    // like vertex_, in the unit and frame of the caller's mesh
   Vector<double> weight_;                // like vertex_
   std::size_t largest_ = 0;
 };

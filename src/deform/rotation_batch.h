@@ -14,7 +14,7 @@ namespace hf_inner {
 struct alignas(64) RotationBatch {
   static constexpr int lanes = 8;
   double s[9][lanes];  // row-major entries of S
-  double q[4][lanes];  // x y z w: where to start (unit), and what was found
+  double q[4][lanes];  // x y z w: the start (unit), then the result
   void set_rotation(int lane, const Quaternion& near) noexcept {
     for (int k = 0; k < 4; ++k) q[k][lane] = near.coeffs()(k);
   }

@@ -2,13 +2,12 @@
 //
 // Each joint lies at the centroid of the surface it moves, so its inverse bind matrix is a translation by minus that
 // pivot. A free cluster's transform is affine, and a skin has fewer weights. So the joints are fitted to bring the
-// skinned surface nearest to the posed surface:
-//     min sum_v a_v |sum_c W_vc (R_c B_c diag(s_c) B_c' p_v + t_c) - x_v|^2.
-// a_v is the area of vertex v, W_vc its weight, p_v its rest and x_v its posed position. Joint c has rotation R_c,
-// translation t_c and stretch s_c. B_c are the principal axes of the rest surface under the cluster, along which an
-// engine's joint scale can stretch it. With s = 1 joints are rigid. The joints are fitted one after the other (weighted
-// shape matching with weights a W^2), from the rotations nearest to the clusters. Handles keep their motions. Rotation
-// and stretch of one joint are found in turn:
+// skinned surface nearest to the posed surface. They minimise sum_v a_v |sum_c W_vc (R_c B_c diag(s_c) B_c' p_v + t_c)
+// - x_v|^2. a_v is the area of vertex v, W_vc its weight, p_v its rest and x_v its posed position. Joint c has rotation
+// R_c, translation t_c and stretch s_c. B_c are the principal axes of the rest surface under the cluster, along which
+// an engine's joint scale can stretch it. With s = 1 joints are rigid. The joints are fitted one after the other
+// (weighted shape matching with weights a W^2), from the rotations nearest to the clusters. Handles keep their motions.
+// Rotation and stretch of one joint are found in turn:
 //     R = argmax tr(R' Y B s B'),   s_i = (B' R' Y B)_ii / (B' P B)_ii,
 // where Y and P are the moments of target and rest.
 //

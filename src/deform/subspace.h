@@ -2,10 +2,10 @@
 //
 //     E(A, R) = 1/2 sum_e w_e |x_i - x_j - R (p_i - p_j)|^2,   x_v = sum_c W_vc A_c (p_v, 1)
 //
-// The sum runs over the edges e = (i, j). p is the rest and x the posed position, A_c the transform of cluster c, W_vc
-// the weight of vertex v in it. R is the rotation of the group at the edge. This is as-rigid-as-possible energy
-// (Sorkine and Alexa 2007) in a reduced subspace, with one rotation per group of vertices (Jacobson et al. 2012). Let
-// z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) and X_c = A_c' (4 x 3). For fixed rotations
+// The sum runs over the edges e = (i, j). p is the rest position and x the posed position. A_c is the transform of
+// cluster c. W_vc is the weight of vertex v in it. R is the rotation of the group at the edge. This is
+// as-rigid-as-possible energy (Sorkine and Alexa 2007) in a reduced subspace, with one rotation per group of vertices
+// (Jacobson et al. 2012). Let z_c(e) = W_ic (p_i, 1) - W_jc (p_j, 1) and X_c = A_c' (4 x 3). For fixed rotations
 //     sum_d L_cd X_d = sum_g Q_gc R_g' + eps_c Rbar_c'
 // holds for every free cluster c; the transforms of the handles are given. The coefficients are
 //     L_cd = sum_e w_e z_c z_d',   Q_gc = sum_{e at g} w_e/2 z_c (p_i - p_j)'.

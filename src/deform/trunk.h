@@ -1,9 +1,9 @@
-// Finds the trunk of a body: what is left when all limbs are taken away.
+// Finds the trunk of a body: the part outside all limbs.
 //
-// A limb is the connected part around a tip where the Poisson field of field/extremities.h is above a share of its fall
-// from the tip to the root of the limb. Higher parts of the trunk count more for its middle. So the middle is in the
-// chest of a biped, not in its hips, and between the legs of an animal. The middle follows translation and scale. Cost:
-// some passes over the mesh.
+// The Poisson field of field/extremities.h falls from a tip to the root of its limb. The limb is the connected part
+// around the tip where the field is above a share of this fall. Higher parts of the trunk count more for its middle. So
+// the middle is in the chest of a biped, not in its hips, and between the legs of an animal. The middle follows
+// translation and scale. Cost: some passes over the mesh.
 #pragma once
 #include <cstdint>
 

@@ -8,14 +8,14 @@ namespace hf_inner {
 // --- region.cpp ---
 
 // For a region with more than one in this many vertices, the solve passes over the whole factor. This changes the time,
-// never the result. On tori of 18,000 and 42,500 vertices, the sweep of the region takes 0.5 of the whole at a
-// sixteenth, 0.6 to 0.7 at an eighth, the same at a quarter, and 0.9 to 2.7 at a half.
+// never the result. On tori of 18,000 and 42,500 vertices, the sweep of the region takes half the time of the whole at
+// a sixteenth, 0.6 to 0.7 of it at an eighth and at a quarter, and up to 2.7 times it at a half.
 constexpr std::size_t whole_sweep_share = 4;
 
 // --- curve_crossing.cpp, curve_sides.cpp ---
 
-// A curve that passes one vertex more often than this is refused. It bounds the pairs of passes that are compared. A
-// rim drawn by hand passes a vertex twice at most.
+// A curve that passes a vertex more often than this is refused. It bounds the pairs of passes that are compared. A rim
+// drawn by hand passes a vertex twice at most.
 constexpr std::int32_t most_visits = 8;
 
 // --- curve_sides.cpp ---

@@ -152,7 +152,8 @@ class Strands {
     if (with == nowhere) return;
     const Index given = core_.mesh.given_of_inner[at(vertex_[at(worst)])];
     fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(point_[at(worst)]),
-         "the curve crosses itself at vertex %d: what follows point %d meets what follows point %d; give the points in "
+         "the curve crosses itself at vertex %d: the part after point %d meets the part after point %d; give the "
+         "points in "
          "the order in which they lie round the region",
          given, point_[at(worst)], point_[at(with)]);
   }

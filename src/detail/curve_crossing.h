@@ -9,9 +9,9 @@
 
 namespace hf_inner {
 
-// Ways out and straight back along the same edges count for nothing. Where the triangles around a shared vertex are not
-// one fan, sides mean nothing, and the curve is taken to touch. Throws HF_ERROR_INVALID_ARGUMENT when the curve crosses
-// itself; the index is that of the point before the crossing.
+// Ways out and straight back along the same edges do not count. Where the triangles around a shared vertex are not one
+// fan, sides mean nothing, and the curve is taken to touch. Throws HF_ERROR_INVALID_ARGUMENT when the curve crosses
+// itself; index: the point before the crossing.
 void require_no_crossing(const Core& core, const ClosedCurve& curve, Memory& memory);
 
 }  // namespace hf_inner

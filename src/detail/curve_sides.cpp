@@ -99,7 +99,7 @@ class CurveSides {
     }
   }
 
-  // Counts what the curve crosses where it passes a place: its edge, or the edges on one side of its vertex.
+  // Counts the edges that the curve crosses at a place: its edge, or the edges on one side of its vertex.
   void pass(std::size_t i) {
     const PathPoint& place = curve_.place[i];
     const Index from = curve_.triangle[i == 0 ? curve_.triangle.size() - 1 : i - 1], to = curve_.triangle[i];
@@ -325,7 +325,7 @@ class CurveSides {
     const auto between = [&](double t) { return (t > begin) != (t > end); };
     return between(a) != between(b);
   }
-  // Returns the neighbours of v in order, those of the fan with a triangle.
+  // Returns the neighbours of v in order, in the fan that holds a triangle.
   Vector<Index> fan_of(Index v, Index triangle) const {
     Vector<Index> fan(&memory_), back(&memory_);
     const Index* corners = mesh_.triangle(triangle);

@@ -15,9 +15,9 @@ namespace hf_inner {
 // Returns the vertices of one side, in ascending order. `seed` is an inner vertex of the wanted side; only
 // CurveSide::seed uses it. A single vertex that the curve leaves between itself and the region, with one edge to the
 // rest, joins the region. On a surface that is not oriented, the curve may cross itself. Throws
-// HF_ERROR_INVALID_ARGUMENT when the curve crosses itself (index: the point before the crossing), passes a vertex whose
-// triangles are not one fan (index: that point), does not separate the surface or goes round no vertex, and for a seed
-// on the curve or in another component (index: the seed as the caller numbered it).
+// HF_ERROR_INVALID_ARGUMENT in five cases. The curve crosses itself (index: the point before the crossing). The curve
+// passes a vertex whose triangles are not one fan (index: that point). The curve does not separate the surface. The
+// curve goes round no vertex. A seed is on the curve or in another component (index: the seed in the caller's numbers).
 Vector<std::int32_t> surface_curve_side(const Core& core, Span<const CurvePoint> points, const SurfaceCurve& curve,
                                         CurveSide side, std::int32_t seed, Memory& memory);
 

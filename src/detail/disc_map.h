@@ -25,8 +25,8 @@ struct DiscPoint {
   double u = 0, v = 0;
 };
 
-// Vertices of the boundary loop that are pinned to given angles on the circle. `place` counts along the loop, in order
-// from the first pinned vertex and without repeats. `turn` is the angle in whole turns and rises from 0.
+// Vertices of the boundary loop that are pinned to given angles on the circle. The array `place` counts along the loop,
+// in order from the first pinned vertex and without repeats. `turn` is the angle in whole turns and rises from 0.
 struct DiscPins {
   explicit DiscPins(Memory& memory) : place(&memory), turn(&memory) {}
   Vector<std::int32_t> place;

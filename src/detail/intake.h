@@ -8,7 +8,7 @@ namespace hf_inner {
 
 struct RegionOptions {
   FieldKind field_kind;
-  ConstRows positions;  // null: those of the surface
+  ConstRows positions;  // null: the positions of the surface
 };
 // Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_INVALID_DESC or HF_ERROR_TOO_SMALL (stride).
 RegionOptions read_region_options(const hf_region_desc& desc, std::size_t vertex_count);

@@ -7,7 +7,7 @@
 
 namespace hf_inner {
 
-// Returns p + weight (base - p). The result has exactly the bits of p at weight 0, and those of base at weight 1.
+// Returns p + weight (base - p). The result has exactly the bits of p at weight 0, and the bits of base at weight 1.
 inline Vec3 morphed(Vec3 p, Vec3 base, double weight) noexcept {
   if (weight == 0) return p;
   if (weight == 1) return base;

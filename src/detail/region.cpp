@@ -65,7 +65,7 @@ Index nearest_of(const RegionSurface& surface, Span<const Index> vertices, Vec3 
   });
 }
 
-// Clones the engine (solver) of `from`, and changes the clone's sites to those of `to`.
+// Clones the engine (solver) of `from`, and changes the clone's sites to the sites of `to`.
 void place_sites(const RegionState& from, RegionState& to, const Core& core, Memory& memory) {
   const std::shared_ptr<SiteSolver> engine = from.engine->clone();
   Vector<Index> leaving(&memory), coming(&memory), slots(&memory);

@@ -24,7 +24,7 @@
 
 namespace hf_inner {
 
-// The surface on which regions lie. Positions are those of the vertices as given, in the caller's unit.
+// The surface on which regions lie. Positions have one row per vertex of the caller's mesh, in the caller's unit.
 struct RegionSurface {
   RegionSurface(std::shared_ptr<const Core> shared, Vector<Vec3>&& given);
   Vec3 position(std::int32_t inner) const noexcept {
@@ -35,12 +35,12 @@ struct RegionSurface {
   // may overflow.
   Vec3 scaled_position(std::int32_t inner) const noexcept { return core->mesh.to_inner(position(inner)); }
   std::shared_ptr<const Core> core;
-  Vector<Vec3> positions;   // by vertex as given
+  Vector<Vec3> positions;   // by vertex of the caller's mesh
   Vector<Vec3> normal_sum;  // by inner vertex: sum of the cross products of its triangles, scaled
 };
 
-// Returns one position per vertex as given: `given`, or the mesh's own positions if `given` is empty. Throws
-// HF_ERROR_NON_FINITE; index: the vertex as given.
+// Returns one position per vertex of the caller's mesh: `given`, or the mesh's own positions if `given` is empty.
+// Throws HF_ERROR_NON_FINITE; index: the vertex of the caller's mesh.
 Vector<Vec3> positions_of(const Core& core, const ConstRows& given);
 
 // How the points of a curve are joined.

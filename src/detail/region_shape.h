@@ -17,7 +17,7 @@ namespace hf_inner {
 
 struct RegionShape {
   // Describes the region with these vertices. inside: inner vertices in ascending order, each once. Throws
-  // HF_ERROR_INVALID_ARGUMENT when a whole component lies inside; index: one of its vertices as given.
+  // HF_ERROR_INVALID_ARGUMENT when a whole component lies inside; index: one of its vertices in the caller's mesh.
   RegionShape(const Core& core, Span<const std::int32_t> inside, Memory& memory);
 
   std::int32_t local_count() const noexcept { return static_cast<std::int32_t>(inside.size() + rim.size()); }

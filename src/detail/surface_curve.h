@@ -1,8 +1,8 @@
 // Draws closed curves through triangles: shortest paths along the surface between their points.
 //
-// Each path is exact (mesh/exact_path.h). It is searched for only where it can run: its length is at most that of the
-// shortest path along edges, so it stays in the ellipsoid whose foci are its two ends. Cost: a path costs O(d log d)
-// for the d vertices nearer than its end along edges, and exact distances on the triangles in the ellipsoid.
+// Each path is exact (mesh/exact_path.h). It is no longer than the shortest path along edges. So it stays in an
+// ellipsoid whose foci are its two ends, and the search stays there too. Cost: a path costs O(d log d) for the d
+// vertices nearer than its end along edges, and exact distances on the triangles in the ellipsoid.
 #pragma once
 #include "engine/core.h"
 #include "mesh/exact_path.h"
@@ -32,7 +32,7 @@ SurfaceCurve surface_curve(const Core& core, Span<const CurvePoint> points, Memo
 // The triangle that has these three corners; Mesh::none if none has.
 std::int32_t triangle_of(const Mesh& mesh, const Topology& topology, const std::int32_t corners[3]);
 
-// Tells whether the corners of weight above 0 are those of a vertex, an edge or a triangle of the mesh.
+// Tells whether the corners of weight above 0 form a vertex, an edge or a triangle of the mesh.
 bool is_on_triangle(const Mesh& mesh, const Topology& topology, const CurvePoint& point);
 
 // The corner of largest weight.

@@ -6,8 +6,8 @@
 //     overshoot    max_v max(u_v - max s, min s - u_v) / r
 //     error        max_v |u_v - exact| / r, estimated
 //
-// A screened field has A H (p - u) on the right-hand side too, and K with A H on its diagonal below. The weights of a
-// graph are those of the caller, also where the operator has others because they span more digits than there are.
+// A screened field has A H (p - u) on the right-hand side too, and K with A H on its diagonal below. A graph is checked
+// with the weights of the caller. The operator may have others where the weights span more digits than a double has.
 //
 // Here r is the range of the site values (and targets) of the component and channel. The sums use the differences u_j -
 // u_v, so a large constant in u costs no digits. The check uses K itself, but neither the factor nor the dense system
@@ -284,7 +284,7 @@ class Check {
     note(found_.error, error, vertex);
   }
 
-  // The bound of what is left of the residual, onto the sizes of the correction: the largest of them.
+  // Adds the bound of the remaining residual to the sizes of the correction, and returns the largest.
   double bounded(Vector<double>& size) {
     // e is 0 at hard vertex sites. A component without one has its hardest site as its root; screening holds a vertex
     // as a soft site does.
@@ -343,7 +343,7 @@ class Check {
   const SymmetricMatrix given_;  // of a graph's own weights, where the operator has others
   const SymmetricMatrix& k_;
   Ranges ranges_;
-  Workspace u_, left_;  // the field, and what is left of its residual
+  Workspace u_, left_;  // the field, and its remaining residual
   Vector<double> flux_, site_error_;
   Certificate found_;
   double worst_ = -1;

@@ -18,14 +18,14 @@ struct Certificate {
   std::int32_t vertex = Mesh::none;  // inner vertex of the largest of error, site_error and overshoot
 };
 
-// Returns the tolerance that the caller asked for, or that of the engine for 0. Throws HF_ERROR_INVALID_ARGUMENT
-// unless the tolerance is above 0 and finite.
+// Returns the tolerance of the caller, or the tolerance of the engine for 0. Throws HF_ERROR_INVALID_ARGUMENT unless
+// the tolerance is above 0 and finite.
 double certificate_tolerance(double asked, const SiteSolver& engine);
 
 // Solves the field and measures its errors. A value that is not finite has an infinite error. Throws HF_ERROR_EMPTY.
 Certificate certify(const ScalarField& field);
 
-// Throws HF_ERROR_INACCURATE if an error is above the tolerance. vertex: its vertex as given.
+// Throws HF_ERROR_INACCURATE if an error is above the tolerance. vertex: its vertex in the caller's mesh.
 void require_accuracy(const Certificate& found, double tolerance, std::uint32_t vertex);
 
 }  // namespace hf_inner

@@ -22,8 +22,8 @@
 
 namespace hf_inner {
 
-// Length and angle of a complex number, and a number with both given. Those of the standard library take functions of
-// the C library, which round differently from system to system.
+// Length and angle of a complex number, and a number with both given. The standard library calls functions of the C
+// library, which round differently from system to system.
 inline double length_of(const std::complex<double>& z) noexcept { return hypotenuse(z.real(), z.imag()); }
 inline double angle_of(const std::complex<double>& z) noexcept { return arc_tangent(z.imag(), z.real()); }
 inline std::complex<double> at_angle(double length, double angle) noexcept {

@@ -72,7 +72,7 @@ Complex DirectionField::projected(std::uint32_t position, Index vertex, const do
   const Complex z = solver_.connection().to_frame(vertex, (1 / most) * v);
   if (!(length_of(z) > least_tangent))
     fail(HF_ERROR_INVALID_ARGUMENT, position,
-         "entry %u of the list: the vector stands on the surface and has no part along it; give a direction in the "
+         "entry %u of the list: the vector is normal to the surface; give a direction in the "
          "tangent plane",
          position);
   return most * z;
@@ -83,7 +83,7 @@ void DirectionField::check_free(const Vector<DirectionConstraint>& list, std::ui
   for (std::size_t s = 0; s < list.size(); ++s) {
     if (s == own || list[s].vertex != list[own].vertex) continue;
     fail(HF_ERROR_DUPLICATE, position,
-         "entry %u of the list: vertex %u carries constraint %zu already; set its vector or move it", position,
+         "entry %u of the list: vertex %u has constraint %zu already; set its vector or move it", position,
          list[own].given_vertex, s);
   }
 }
@@ -207,7 +207,7 @@ void DirectionField::solve(Vec3* out) const {
   const Vector<Complex> field = solved();
   for (std::size_t v = 0; v < field.size(); ++v)
     out[v] = solver_.connection().to_space(static_cast<Index>(v), root(field[v], solver_.degree()));
-  // Constrained vertices get their own vectors bit for bit, whichever of its `degree` directions the field takes
+  // Constrained vertices get their own vectors bit for bit, whichever of its `degree` directions the field has
   // elsewhere.
   for (const DirectionConstraint& c : constraints_) {
     if (c.vertex >= 0) out[c.vertex] = solver_.connection().to_space(c.vertex, c.vector);
@@ -216,7 +216,7 @@ void DirectionField::solve(Vec3* out) const {
 
 namespace {
 
-// Adds up the singularities of the triangles that one face is cut into. Those of a surface of triangles stay.
+// Adds up the singularities of the triangles that one face is cut into. The numbers of a surface of triangles stay.
 Vector<Singularity> by_face(const Mesh& mesh, Vector<Singularity> found) {
   if (mesh.faces.empty()) return found;
   std::size_t count = 0;

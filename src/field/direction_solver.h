@@ -35,8 +35,8 @@ class DirectionSolver {
   }
   DirectionSolver& operator=(const DirectionSolver&) = delete;
 
-  // Removes some constraints and adds others at vertices. Each has a number (slot), which may be in both lists. The
-  // edit does everything or throws.
+  // Removes some constraints and adds others at vertices. Each has a slot number, which may be in both lists. The edit
+  // does everything or throws.
   struct Edit {
     Span<const Index> remove, add, vertices;
   };

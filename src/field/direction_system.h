@@ -21,7 +21,7 @@ class DirectionMatrix {
   // Factorises a matrix of this pattern and order.
   std::shared_ptr<const Factor> factorise(const SymmetricMatrix& like) const;
 
-  std::shared_ptr<const Core> core;  // first member: outlives what is allocated from its memory
+  std::shared_ptr<const Core> core;  // first member: outlives everything that is allocated from its memory
   Index degree;
   Connection connection;
   Vector<Index> position, order;  // of every vertex in the order of elimination, and back

@@ -20,7 +20,7 @@ struct DirectionSums {
   const double* heat;     // [row][channel]
   const double* weight;   // [component][channel]
   std::int32_t channels;  // 1 to 8
-  double* sums;           // two numbers a triangle: the sums are added
+  double* sums;           // two numbers per triangle: the sums are added
 };
 
 void add_directions(const DirectionSums& job, std::int64_t begin, std::int64_t end) noexcept;

@@ -13,8 +13,8 @@ namespace hf_inner {
 enum class DistanceMethod : std::int32_t { automatic = 0, front = 1, exact = 2, heat = 3 };
 
 // Up to this many vertices `automatic` is exact. It trades time, which grows as n^1.5, against the error of fronts on
-// coarse technical shapes: up to 12 % of the diameter. Chosen on all shared meshes: half the number leaves a shape with
-// 133 holes to the fronts, whose mean error there is 1.8 %; double changes no mesh from above the bar of 1 % to below.
+// coarse technical shapes: up to 12 % of the diameter. Chosen on all shared meshes. Half the number leaves a shape with
+// 133 holes to the fronts, whose mean error there is 1.8 %. Double takes no mesh below the bar of 1 %.
 constexpr std::int32_t most_exact_vertices = 10000;
 
 class Distances {

@@ -9,8 +9,8 @@
 // solve.
 //
 // The geodesic kind uses the mean geodesic distance to the rest of the component (Hilaga, Shinagawa, Kohmura and Kunii
-// 2001), which the heat method computes. The persistence of a tip is the length of its limb times the difference of two
-// shares of the surface: the share behind the limb less the share at the tip.
+// 2001), which the heat method computes. The persistence of a tip is the length of its limb times a difference of two
+// shares of the surface. The difference is the share behind the limb less the share at the tip.
 //
 // The persistence of a peak (peaks.h) is how far u falls on the way to a higher point. So one finger of a hand has the
 // length of the arm, and the other fingers have their own lengths. The list is sorted by length, the longest first. For

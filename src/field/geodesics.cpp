@@ -9,8 +9,9 @@
 namespace hf_inner {
 namespace {
 
-// Sources that one sweep solves together: trades passes over the factor for scratch memory of so many numbers a vertex.
-// It is that of the sweeps (channel_block). Half and double move mean distances by 2e-15 on seven shapes.
+// Sources that one sweep solves together: trades passes over the factor for scratch memory of so many numbers per
+// vertex. The sweeps have the same number (channel_block). Half and double move mean distances by 2e-15 on seven
+// shapes.
 constexpr Index group_size = 8;
 // Triangles of one thread's job. Half and double take the same time within 2 % (torus of 102,400 vertices, two
 // threads).
@@ -99,7 +100,7 @@ void Geodesics::add_directions(const double* heat, Index channels, const double*
 // product of X and n x e_i, divided by 2. Here X is the unit direction in the triangle, n its normal, and e_i its edge
 // opposite to i.
 void Geodesics::integrate(const Vector<double>& sums, double* out) const {
-  const Factor& factor = *core_->factor;  // its rows are those of the heat: one ordering
+  const Factor& factor = *core_->factor;  // it has the rows of the heat: one ordering
   const Span<const Index> position = factor.position();
   Workspace z(core_->workspaces, at(core_->size()));
   std::fill_n(z.data(), at(core_->size()), 0.0);

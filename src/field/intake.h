@@ -19,12 +19,13 @@ struct SolverOptions {
 SolverOptions read_solver_options(const hf_solver_desc& desc);
 
 // Write the sites to add, or the moves of sites, into an edit, which refers to the arrays of the caller. Throw
-// HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER or HF_ERROR_INVALID_ARGUMENT; ScalarField::edit checks what is in the arrays.
+// HF_ERROR_EMPTY, HF_ERROR_NULL_POINTER or HF_ERROR_INVALID_ARGUMENT; ScalarField::edit checks the contents of the
+// arrays.
 void read_addition(const hf_sites_desc& desc, FieldEdit& edit);
 void read_move(std::uint32_t count, const std::uint32_t* sites, const hf_sites_desc& to, FieldEdit& edit);
 
-// Returns the screening H of all vertices in the inner unit, and what it pulls to: [inner vertex][channels], empty for
-// no targets. Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE or HF_ERROR_INVALID_ARGUMENT (index = vertex).
+// Returns the screening H of all vertices in the inner unit, and its targets: [inner vertex][channels], or empty.
+// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE or HF_ERROR_INVALID_ARGUMENT (index = vertex).
 struct ScreeningInput {
   explicit ScreeningInput(Memory& memory) : strength(&memory), target(&memory) {}
   Vector<double> strength, target;

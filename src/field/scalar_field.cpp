@@ -183,7 +183,7 @@ void ScalarField::solve_at(Span<const std::int32_t> vertices, double* out) const
 }
 
 void ScalarField::flux(Vector<double>& out, double* field) const {
-  // After an undo the engine may have numbers (slots) for more sites than the site set.
+  // After an undo the engine may have slots for more sites than the site set.
   const std::size_t channels = static_cast<std::size_t>(sites_.channels()), slots = sites_.slots().size();
   out.assign(std::max(slots, static_cast<std::size_t>(engine_->slot_count())) * channels, 0.0);
   // The engine green computes fluxes without a sweep; other engines need to solve for the field.

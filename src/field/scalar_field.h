@@ -65,8 +65,8 @@ class ScalarField {
   void solve_into(FieldSink& sink) const;
   PreviewInfo solve_preview(std::int32_t corrections, double* field) const;
   void solve_at(Span<const std::int32_t> vertices, double* out) const;
-  // Computes the flux of each site. out: index of the site (slot) * channels + c; all 0 without sites. field: null, or
-  // receives the field as solve does; without sites it is not written.
+  // Computes the flux of each site. out: slot of the site * channels + c; all 0 without sites. field: null, or receives
+  // the field as solve does. Without sites it is not written.
   void flux(Vector<double>& out, double* field = nullptr) const;
   // The same in the caller's unit of weights. A site gets the fluxes of all its slots.
   void site_flux(Vector<double>& out) const;

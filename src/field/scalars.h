@@ -23,7 +23,7 @@ inline Vector<double> read_scalars(const Geometry& shape, const hf_array* given)
   return field;
 }
 
-// Throws HF_ERROR_NON_FINITE for a value that is NaN; index: the vertex as given. field: by inner vertex.
+// Throws HF_ERROR_NON_FINITE for a value that is NaN; index: the vertex of the caller's mesh. field: by inner vertex.
 inline void require_values(const Mesh& mesh, Span<const double> field) {
   for (std::size_t v = 0; v < field.size(); ++v) {
     const std::uint32_t given = given_vertex(mesh, static_cast<std::int32_t>(v));

@@ -26,8 +26,8 @@ struct Patches {
 // of either moves the mean distance by up to a fifth of its range; double, and both on six other shapes, change no bit.
 constexpr Index patch_size = 24, patches_per_sample = 16;
 
-// Grows the patch (group of vertices) around the vertex list[begin] by two edges, over vertices without a patch, and
-// appends them to `list`.
+// Grows the patch around the vertex list[begin] by two edges, over vertices without a patch, and appends them to
+// `list`.
 void grow_patch(const Topology& topology, Index patch, std::size_t begin, Vector<Index>& patch_of,
                 Vector<Index>& list) {
   std::size_t ring = begin;
@@ -69,7 +69,7 @@ Patches make_patches(const Mesh& mesh, const Topology& topology, const Vector<do
     patches.area.push_back(area);
   }
   list_start.push_back(static_cast<Index>(n));
-  // Makes two patches (groups of vertices) neighbours when an edge joins them.
+  // Makes two patches neighbours when an edge joins them.
   Vector<Index> seen_by(patches.middle.size(), Mesh::none, &memory);
   patches.start.push_back(0);
   for (Index p = 0; at(p) < patches.middle.size(); ++p) {
@@ -89,9 +89,9 @@ Patches make_patches(const Mesh& mesh, const Topology& topology, const Vector<do
   return patches;
 }
 
-// Finds shortest edge paths by delta-stepping (Meyer and Sanders 2003), on one thread. Patches (groups of vertices)
-// nearer than a limit are processed in the order they were found. Patches beyond the limit wait until the limit rises.
-// The distances are those of Dijkstra's algorithm with a heap, in a third of the time.
+// Finds shortest edge paths by delta-stepping (Meyer and Sanders 2003), on one thread. Patches nearer than a limit are
+// processed in the order they were found. Patches beyond the limit wait until the limit rises. The distances equal the
+// distances of Dijkstra's algorithm with a heap, in a third of the time.
 class Search {
  public:
   Search(const Patches& patches, Memory& memory)
@@ -105,8 +105,7 @@ class Search {
     step_ = 2 * sum / static_cast<double>(std::max<std::size_t>(1, patches.length.size()));
   }
 
-  // Gives the sample `name` all patches (groups of vertices) that are nearer to its patch `source` than to all earlier
-  // samples.
+  // Gives the sample `name` all patches that are nearer to its patch `source` than to all earlier samples.
   void grow(Index source, Index name) {
     distance[at(source)] = 0;
     owner[at(source)] = name;
@@ -120,8 +119,8 @@ class Search {
   Vector<Index> owner;
 
  private:
-  // Processes and empties the near list, the patches (groups of vertices) within the limit. Returns the next limit, and
-  // lists the patches below it.
+  // Processes and empties the near list, the patches within the limit. Returns the next limit, and lists the patches
+  // below it.
   double work_off(double limit, Index name) {
     for (std::size_t head = 0; head < near_.size(); ++head) {
       const Index v = near_[head];

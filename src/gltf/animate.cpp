@@ -101,7 +101,7 @@ std::vector<double> sample_channel(const Channel& channel, double time) {
     return static_cast<double>(channel.values[(key * groups + (cubic ? part : 0)) * width + c]);
   };
   std::vector<double> out(width);
-  // the last key at or before the time, so that of keys at one time the last counts
+  // the last key at or before the time, so the last of keys at one time counts
   const auto after = std::upper_bound(channel.times.begin(), channel.times.end(), time,
                                       [](double t, float key) { return t < static_cast<double>(key); });
   const auto next = static_cast<size_t>(after - channel.times.begin());

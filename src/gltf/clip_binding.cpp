@@ -16,13 +16,14 @@ namespace {
 // slots, twist joints); another body has none of the names.
 constexpr double least_shared = 0.5;
 
-// What stands behind the last bar: exporters write "Armature|Walk".
+// The text behind the last bar: exporters write "Armature|Walk".
 std::string tail_of(const std::string& name) {
   const size_t bar = name.rfind('|');
   return bar == std::string::npos ? name : name.substr(bar + 1);
 }
 
-// Lengths of the model's bones over those of the clips' skeleton, over the joints that both have below a joint.
+// Lengths of the model's bones over lengths of the clips' bones, over the joints that both skeletons have below a
+// joint.
 double length_ratio(const Model& model, const Model& clips, const std::map<int, int>& found) {
   double own = 0, other = 0;
   for (const auto& [from, to] : found) {

@@ -27,8 +27,8 @@ struct BoundClips {
   size_t clips = 0;                  // how many were put in
   size_t joints = 0, animated = 0;   // joints that the clips move: found in the model, and all
   size_t shared = 0;                 // joints that the clips move and whose name is not theirs alone
-  std::vector<std::string> missing;  // those that the model lacks
-  double scale = 1;                  // lengths of the model's skeleton over those of the clips'
+  std::vector<std::string> missing;  // joints that the model lacks
+  double scale = 1;                  // lengths of the model's skeleton over lengths of the clips'
 };
 
 // Joints are found by name and, where several have it, by the tree (node_match.h). Rotations are taken as they are.

@@ -106,7 +106,7 @@ bool percent_decode(const std::string& text, std::string& out) {
   return true;
 }
 
-// One sentence on what is wrong with a decoded relative name, or empty.
+// One sentence on the fault of a decoded relative name, or empty.
 std::string name_fault(const std::string& name) {
   if (name.empty()) return "the name is empty";
   if (name.size() > 1024) return "the name is longer than 1024 bytes";
@@ -184,7 +184,7 @@ fs::path resolve_below(const fs::path& file, const std::string& uri, std::string
   std::string name;
   const bool decoded = percent_decode(uri, name);
   fs::path target = decoded ? resolve_name(file, name, reason) : fs::path();
-  if (!decoded) reason = "the percent-encoding is broken, and no such file is next to it as the name stands";
+  if (!decoded) reason = "the percent-encoding is broken, and no file with the undecoded name is next to it";
   if (!target.empty() || (decoded && name == uri)) return target;
   // some exporters write the file's name as it is
   std::string ignored;

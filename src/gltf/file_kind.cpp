@@ -36,7 +36,7 @@ FileKind by_ending(const std::string& name) {
   return FileKind::unknown;
 }
 
-// Whether the length is that of as many triangles as the header says.
+// Whether the length fits the number of triangles in the header.
 bool is_binary_stl(const uint8_t* bytes, size_t count, uint64_t size) {
   if (count < stl_header) return false;
   const uint64_t triangles = static_cast<uint64_t>(bytes[80]) | static_cast<uint64_t>(bytes[81]) << 8 |

@@ -1,4 +1,4 @@
-// What a file is, by its first bytes; only where they do not tell, by the ending of its name.
+// Finds the kind of a file by its first bytes. Only where they do not tell, the ending of its name decides.
 #ifndef HF_GLTF_FILE_KIND_H
 #define HF_GLTF_FILE_KIND_H
 
@@ -22,7 +22,7 @@ const char* name_of(FileKind kind);
 bool is_model(FileKind kind);
 // A clause for formats that this build does not read: how to get one that it reads. "" for the others.
 std::string advice_on(FileKind kind);
-// What to say where `name` should be glTF and is not: "a.obj is OBJ; a glTF file is needed here ...".
+// The message where `name` should be glTF and is not: "a.obj is OBJ; a glTF file is needed here ...".
 std::string not_gltf(const std::string& name, FileKind kind);
 
 }  // namespace hf_gltf

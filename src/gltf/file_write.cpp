@@ -34,7 +34,7 @@ std::string random_name() {
 fs::path follow_links(const fs::path& file) {
   fs::path at = file;
   for (int i = 0; i <= max_links; ++i) {
-    if (at.filename().empty()) refuse_file(file, "the name ends where a folder would stand");
+    if (at.filename().empty()) refuse_file(file, "the name ends with a folder; add the name of a file");
     std::error_code error;
     const fs::file_status status = fs::symlink_status(at, error);
     if (status.type() != fs::file_type::symlink) return at;

@@ -97,14 +97,14 @@ void write_through(const fs::path& file, int descriptor, const void* data, size_
 constexpr int ending_signals[] = {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXFSZ};
 
 std::atomic<bool> takes_signals;     // the program called remove_unfinished_on_signals
-std::mutex one_writer;               // guards what follows; the handler reads it only while it stands
+std::mutex one_writer;               // guards the variables below; the handler reads them only while a new file exists
 std::atomic<int> unfinished_folder;  // descriptor + 1 of the folder that holds unfinished_name; 0: there is none
 char unfinished_name[64];
 std::atomic<bool> is_interrupted;  // a signal removed the new file, and its earlier handler returned
 struct sigaction earlier_action[std::size(ending_signals)];
 bool is_replaced[std::size(ending_signals)];
 
-// Removes the new file and lets the signal do what it did before.
+// Removes the new file and passes the signal to its earlier handler.
 extern "C" void hf_gltf_remove_unfinished(int signal) {
   const int reason = errno, folder = unfinished_folder.load();
   if (folder) ::unlinkat(folder - 1, unfinished_name, 0);
@@ -227,7 +227,7 @@ void replace(const fs::path& file, const fs::path& target, const void* data, siz
 
   const std::lock_guard<std::mutex> lock(one_writer);
   const SignalGuard guard;
-  NewFile out(file, folder.number(), present ? 0600 : 0666);  // a new file's rights: what the umask leaves
+  NewFile out(file, folder.number(), present ? 0600 : 0666);  // a new file's rights, reduced by the umask
   if (!write_all(out.number(), data, size) || (present && !keep_rights(out.number(), old)) || !sync(out.number()) ||
       !out.put(target.filename().string())) {
     refuse_file(file, is_interrupted ? "a signal interrupted it" : system_reason());
@@ -254,7 +254,7 @@ void write_bytes(const fs::path& file, const void* data, size_t size) {
   if (file.empty()) throw std::runtime_error("a file cannot be written: its name is empty.");
   const int own = own_descriptor(file);
   if (own >= 0) {
-    std::fflush(nullptr);  // what was printed before stands before
+    std::fflush(nullptr);  // so earlier prints come first
     return write_through(file, ::fcntl(own, F_DUPFD_CLOEXEC, 3), data, size);
   }
   struct stat status {};

@@ -59,7 +59,7 @@ bool mark_for_deletion(HANDLE file, bool on) {
   return ::SetFileInformationByHandle(file, FileDispositionInfo, &mark, sizeof mark) != 0;
 }
 
-// The present file opened for writing, to learn from the system whether that is allowed and what it is.
+// The present file opened for writing. The system then tells whether writing is allowed, and the kind of the file.
 HANDLE open_present(const fs::path& file) {
   return ::CreateFileW(file.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr,
                        OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr);

@@ -137,8 +137,8 @@ void append_part(const Model& model, const Pose& pose, const std::vector<glm::dm
   }
 }
 
-// See the head of flat_mesh.h. Only meshes with one skin share the space their positions are stored in; what is moved
-// by its node alone comes out bit-equal anyway. Returns whether a vertex moved.
+// See the head of flat_mesh.h. Only meshes with one skin share the space of their stored positions. A mesh that only
+// its node moves comes out bit-equal anyway. Returns whether a vertex moved.
 bool join_copies(const Model& model, FlatMesh& mesh) {
   bool moved = false;
   const double same_place = 1e-6 * SurfaceBox(mesh).diagonal();  // windows.h takes the name near
@@ -369,8 +369,9 @@ void scatter(Model& model, const FlatMesh& mesh, const std::vector<glm::dvec3>& 
                            changed.meshes[m].primitives[static_cast<size_t>(part.primitive)]);
   }
   if (stayed > 0) {
-    changed.warnings.push_back(std::to_string(stayed) +
-                               " vertices stay as stored: a scale of 0 in their node or joints lets nothing move them");
+    changed.warnings.push_back(
+        std::to_string(stayed) +
+        " vertices keep their stored positions: a scale of 0 in their node or joints fixes them");
   }
   model = std::move(changed);
 }

@@ -1,8 +1,8 @@
 // A model as one triangle surface in world space at rest, welded, and the way back.
 //
 // flatten() walks the scene and puts every triangle primitive of every mesh node behind one another, in the file's own
-// vertex order. Rest pose: a skinned mesh is skinned with the rest pose of its joint nodes (sum of w J B p; its own
-// node's transform does not count, as glTF says), others are moved by their node; morph targets act with their default
+// vertex order. Rest pose: a skinned mesh is skinned with the rest pose of its joint nodes (sum of w J B p). Its own
+// node's transform does not count, as glTF says. Other meshes are moved by their node. Morph targets have their default
 // weights. Raw POSITION is not the rest pose: many exporters keep axis and scale in the nodes.
 //
 // Seams: an exporter stores a vertex once per normal and texture coordinate. Vertices at bit-equal rest positions are
@@ -81,9 +81,9 @@ uint32_t weld_positions(const std::vector<glm::dvec3>& positions, std::vector<ui
 // Connected components of the triangles over vertex numbers below count; vertices of no triangle do not count.
 uint32_t count_components(const std::vector<uint32_t>& triangles, const std::vector<uint32_t>* numbers, uint32_t count);
 
-// One vector per vertex: area-weighted mean of the triangle normals round the welded vertex, shared by all its copies;
-// unit length, or zero where every triangle is degenerate. creases: copies share only where their stored normals agree,
-// so that a flat-shaded model stays flat-shaded.
+// One vector per vertex: the area-weighted mean of the triangle normals round the welded vertex. All its copies share
+// it. It has unit length, or is zero where every triangle is degenerate. creases: copies share only where their stored
+// normals agree. So a flat-shaded model stays flat-shaded.
 std::vector<glm::vec3> welded_normals(const FlatMesh& mesh, const std::vector<glm::dvec3>& positions,
                                       bool creases = false);
 
@@ -92,9 +92,9 @@ std::vector<glm::vec3> welded_normals(const FlatMesh& mesh, const std::vector<gl
 double float_rounded(double value);
 glm::dvec3 float_rounded(const glm::dvec3& p);
 
-// Where a node stands whose positions are written as floats: far from 0 these lose digits that the surface needs, so
-// the way there goes into the node's translation, which a file holds in double. 0 where nothing is lost, and where it
-// is little. Each coordinate is a float.
+// The place of a node whose positions are written as floats. Far from 0 floats lose digits that the surface needs. So
+// the node's translation holds the way there, which a file stores in double. 0 where nothing is lost, and where it is
+// little. Each coordinate is a float.
 glm::dvec3 node_offset(const std::vector<glm::dvec3>& positions);
 
 // Positions as the library takes them: x y z of every vertex.
@@ -115,15 +115,15 @@ struct ScatterOptions {
   bool creases = false;  // see welded_normals
 };
 
-// Gives the model new rest positions (world space, one per flat vertex): each primitive gets back the positions and
-// normals which, moved by its node or skinned at rest, lie where asked. Rig, animations, looks stay. A mesh used by
-// several nodes is copied for each. Where a scale of 0 collapses vertices at rest they keep what is stored, and a
-// warning of the model counts them.
+// Gives the model new rest positions (world space, one per flat vertex). Each primitive gets the positions and normals
+// that its node or its skin at rest moves to these places. Rig, animations, looks stay. A mesh used by several nodes is
+// copied for each. Where a scale of 0 collapses vertices at rest they keep their stored numbers, and a warning of the
+// model counts them.
 void scatter(Model& model, const FlatMesh& mesh, const std::vector<glm::dvec3>& positions,
              const ScatterOptions& options = {});
 
 // A still model with the given world positions: the same primitives and looks, no skins, animations or morph targets.
-// Every node stands at the offset of the whole (node_offset).
+// Every node is at the offset of the whole (node_offset).
 Model bake(const Model& model, const FlatMesh& mesh, const std::vector<glm::dvec3>& positions,
            const ScatterOptions& options = {});
 

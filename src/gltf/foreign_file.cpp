@@ -87,7 +87,7 @@ extern "C" void say_late(int) {
   _exit(0);
 }
 
-// What the host catches is not for the process: its signals, its lack of memory, its end.
+// The host's handlers are not for the process: for signals, for lack of memory, for the end.
 void leave_handlers() {
   for (int number = 1; number < NSIG; ++number) {
     struct sigaction now {};
@@ -132,7 +132,7 @@ void limit_time(int to, uint32_t seconds) {
   } catch (...) {
   }
   if (end) write_all(to, end, word_length);
-  _exit(0);  // exit() would run what the host does at its end, and write the host's buffers a second time
+  _exit(0);  // exit() would run the host's handlers for its end, and write the host's buffers a second time
 }
 
 // Both ends are closed in programs that the host starts. Elsewhere than on Linux one that starts just now keeps them.
@@ -156,7 +156,7 @@ struct Writer {
   }
 };
 
-// What the process wrote, up to a little more than a limit.
+// The output of the process, up to a little more than a limit.
 std::string read_all(int from, uint64_t limit) {
   std::string out;
   char block[1 << 16];

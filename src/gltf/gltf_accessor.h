@@ -16,7 +16,7 @@
 
 namespace hf_gltf {
 
-// What a use allows besides 32-bit floats.
+// The types that a use allows besides 32-bit floats.
 enum class Stored {
   floats,             // nothing
   normalized,         // u8, u16, normalised: weights, colours, texture coordinates

@@ -19,7 +19,7 @@ class AccessorWriter {
   // name: of the model, for messages.
   explicit AccessorWriter(const std::string& name) : name_(name) {}
 
-  // Each returns the number of what it adds. Throws std::runtime_error if the buffer would pass 2 GB.
+  // Each returns the number of the added item. Throws std::runtime_error if the buffer would pass 2 GB.
   int add_view(const void* data, size_t size, int target);
   int add_accessor(const void* data, size_t count, int type, int component, int target, bool bounds = false);
   // Keys of a clip: accessors that share a view, since a view for each takes more bytes than short keys do.

@@ -120,8 +120,8 @@ class ChannelReader {
   const std::string where_;
 };
 
-// The derivative at 0 s of a cubic between the keys next - 1 and next; of a rotation that of the unit quaternion, but
-// for what lies along it.
+// The derivative at 0 s of a cubic between the keys next - 1 and next. For a rotation it is the derivative of the unit
+// quaternion, plus a part along the quaternion.
 std::vector<double> slope_at_zero(const Channel& from, size_t next) {
   const double start = from.times[next - 1], d = static_cast<double>(from.times[next]) - start;
   const double s = -start / d, s2 = s * s, s3 = s2 * s;
@@ -142,8 +142,8 @@ std::vector<double> slope_at_zero(const Channel& from, size_t next) {
   return out;
 }
 
-// Cuts off what lies before 0 s, where others begin to play. The curve behind is the same: a part of a cubic is a
-// cubic, and its tangents are slopes per second. False: nothing lies before.
+// Cuts off the part before 0 s, as other players begin at 0 s. The curve behind is the same: a part of a cubic is a
+// cubic, and its tangents are slopes per second. False: there is no such part.
 bool begin_at_zero(Channel& channel) {
   if (!(channel.times.front() < 0)) return false;
   const auto next =
@@ -182,7 +182,7 @@ void complete_axes(glm::dmat3& axes, const glm::dvec3& scale) {
   }
 }
 
-// matrix = T R S for an animated node. What a shear leaves over is lost, with a warning.
+// matrix = T R S for an animated node. The rest of a shear is lost, with a warning.
 void take_apart(Conversion& in, size_t n) {
   Node& node = in.model.nodes[n];
   const glm::dmat4 matrix = *node.matrix;

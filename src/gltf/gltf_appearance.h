@@ -1,4 +1,5 @@
-// Inner header of gltf_read.cpp and gltf_write.cpp: what is carried through unchanged, in tinygltf's own types.
+// Inner header of gltf_read.cpp and gltf_write.cpp: the parts that are carried through unchanged, in tinygltf's own
+// types.
 #ifndef HF_GLTF_GLTF_APPEARANCE_H
 #define HF_GLTF_GLTF_APPEARANCE_H
 

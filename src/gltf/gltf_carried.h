@@ -32,7 +32,7 @@ Carried take_carried(nlohmann::json& object, std::vector<std::string>& dropped);
 // Whether an extension names accessors, views or samplers.
 bool extension_names_data(const std::string& extension, const nlohmann::json& value);
 
-// What stays of a document's extras and extensions in a model of other nodes: extensions that name none.
+// The extras and extensions of a document that a model of other nodes keeps: extensions that name no node.
 Carried carried_without_nodes(const Carried& carried);
 
 // Adds them to an object that is written. Members of the object stay.

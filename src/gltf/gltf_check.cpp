@@ -102,7 +102,7 @@ class DocumentCheck : private TreeCheck {
       fail("asset.version", "is \"" + version.substr(0, 20) + "\"; only glTF 2.x is read, convert the file first");
     }
     if (text(*asset, "minVersion", "asset", false) && (*asset)["minVersion"] != "2.0") {
-      fail("asset.minVersion", "asks for more than glTF 2.0");
+      fail("asset.minVersion", "needs a newer glTF than 2.0");
     }
     json kept = *asset;
     for (const char* key : {"version", "minVersion", "generator"}) kept.erase(key);
@@ -203,8 +203,8 @@ class DocumentCheck : private TreeCheck {
     return 0;
   }
 
-  // count elements of element_bytes from offset, stride apart, within a view. All operands are at most 2^53, 65535 or
-  // 144, the count is bounded by the limit on decoded bytes: no product leaves 64 bits.
+  // count elements of element_bytes from offset, stride apart, within a view. Every operand is at most 2^53, and the
+  // limit on decoded bytes bounds the count. So no product leaves 64 bits.
   void check_range(uint64_t view, uint64_t offset, uint64_t count, uint64_t element_bytes, Where where) {
     const json& o = document_["bufferViews"][view];
     const uint64_t available = o["byteLength"].get<uint64_t>();

@@ -34,7 +34,7 @@ struct GltfContainer {
 GltfContainer open_container(const std::vector<uint8_t>& bytes, const std::string& name, const ReadLimits& limits,
                              std::vector<std::string>& warnings);
 
-// carried: what is written again without being read.
+// carried: the parts that are written again without being read.
 void check_document(nlohmann::json& document, const std::string& name, const ReadLimits& limits,
                     CarriedDocument& carried, std::vector<std::string>& warnings);
 

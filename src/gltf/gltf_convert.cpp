@@ -188,7 +188,7 @@ class Converter {
     model.scene_roots = model.scenes[model.shown_scene].roots;
   }
 
-  // The lists of the carried document are as long as those of the model: both count the checked document.
+  // The lists of the carried document are as long as the lists of the model: both count the checked document.
   void carry(Model& model, CarriedDocument& from) {
     model.carried = std::move(from.top);
     model.asset = std::move(from.asset);

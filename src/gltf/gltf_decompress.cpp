@@ -24,7 +24,7 @@ uint64_t component_count(const std::string& type) {
   throw std::runtime_error(printable(where + " " + message));
 }
 
-// Calls decode and puts the place in front of what it throws.
+// Calls decode and puts the place in front of the message that it throws.
 template <typename Decode>
 void decode_at(const std::string& where, Decode&& decode) {
   try {

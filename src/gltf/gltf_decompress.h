@@ -30,7 +30,7 @@ struct BufferStore {
 };
 
 // Decodes every compressed view and primitive of a checked document. The views and accessors then name new buffers.
-// Throws std::runtime_error: element and what is wrong, without the name of the file.
+// Throws std::runtime_error: the element and the fault, without the name of the file.
 void decompress(nlohmann::json& document, const BufferStore& store);
 
 // ---- one stream each; the functions throw std::runtime_error with the end of a sentence ----

@@ -162,7 +162,7 @@ void check_header(const StreamHeader& header, size_t point_count, size_t index_c
                   uint64_t memory_limit) {
   const uint64_t most = strip ? index_count : index_count / 3;
   if (header.triangles == 0 || header.triangles > most) {
-    damaged("has " + std::to_string(header.triangles) + " triangles, where the accessor asks for " +
+    damaged("has " + std::to_string(header.triangles) + " triangles, where the accessor has " +
             std::to_string(index_count) + " indices");
   }
   if (header.vertices > point_count) {

@@ -1,8 +1,8 @@
 // Mesh primitives of a glTF file: attributes, indices, morph targets. See gltf_convert_parts.h.
 //
-// Strips and fans become triangles in the order the specification gives: strip triangle i is (i, i + 1 + i % 2,
-// i + 2 - i % 2), fan triangle i is (i + 1, i + 2, 0). Triangles of a strip that name a vertex twice are its stitching
-// and are left out; in lists they are kept, what they mean is the user's matter.
+// Strips and fans become triangles in the order of the specification. Strip triangle i is (i, i + 1 + i % 2, i + 2 - i
+// % 2). Fan triangle i is (i + 1, i + 2, 0). Triangles of a strip that name a vertex twice are its stitching and are
+// left out; in lists they are kept, and their meaning is the user's matter.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -97,8 +97,8 @@ class PrimitiveReader {
     return false;
   }
 
-  // Attributes of a host's own, and colours and texture coordinates beyond those that are read. What glTF does not
-  // allow is not kept: sets with gaps, other types, own attributes of 32-bit integers.
+  // Attributes of a host's own, and colours and texture coordinates beyond those that are read. Attributes that glTF
+  // does not allow are not kept: sets with gaps, other types, own attributes of 32-bit integers.
   bool carry_attribute(const std::string& name, int accessor, Primitive& to) {
     const bool own = name[0] == '_', color = name.compare(0, 6, "COLOR_") == 0;
     const bool texcoord = name.compare(0, 9, "TEXCOORD_") == 0;

@@ -1,4 +1,4 @@
-// What a Model must satisfy before it is written. See gltf_write.h.
+// The rules that a Model must satisfy before it is written. See gltf_write.h.
 #include <tiny_gltf.h>
 
 #include <algorithm>

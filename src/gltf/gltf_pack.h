@@ -1,7 +1,7 @@
 // Inner header of gltf_write.cpp: what tinygltf's structures become a file with.
 //
-// tinygltf writes the JSON of its structures without a buffer. pack_gltf() adds what is carried past it, the list of
-// extensions, and the bytes.
+// tinygltf writes the JSON of its structures without a buffer. The function pack_gltf() adds the parts that are carried
+// past it, the list of extensions, and the bytes.
 #ifndef HF_GLTF_GLTF_PACK_H
 #define HF_GLTF_GLTF_PACK_H
 

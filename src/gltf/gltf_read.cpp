@@ -1,5 +1,5 @@
-// See gltf_read.h. Here: bytes -> checked text -> tinygltf's structures with every buffer in memory. What they mean is
-// gltf_convert.cpp's matter.
+// See gltf_read.h. Here: bytes -> checked text -> tinygltf's structures with every buffer in memory. gltf_convert.cpp
+// interprets them.
 #include "gltf/gltf_read.h"
 
 #include <tiny_gltf.h>
@@ -187,7 +187,7 @@ class Loader {
     return {};
   }
 
-  // An image that cannot be read is no reason to refuse a model: its URI is kept and stands in the output again.
+  // An image that cannot be read is no reason to refuse a model: its URI is kept and is in the output again. Parameter
   // copied_limit: bytes of views that images may copy.
   void load_images(json& document, uint64_t copied_limit) {
     const auto found = document.find("images");

@@ -1,7 +1,7 @@
 // Reads glTF 2.0 files, .gltf and .glb, that may be damaged or hostile.
 //
-// Each step checks what the next one trusts:
-// 1. The size of the file. The header and chunks of a GLB. The depth and length of the JSON text. Then the JSON.
+// Each step checks the data that the next one trusts: 1. The size of the file. The header and chunks of a GLB. The
+// depth and length of the JSON text. Then the JSON.
 // 2. Every index, count, offset, stride and type in use, and the node graph (gltf_check.h).
 // 3. The buffers. They are read only from below the file's own folder.
 // 4. tinygltf gets the checked text and opens no file: its callbacks serve the bytes read before.
@@ -15,7 +15,8 @@
 // morph targets, skins and animations, also from sparse accessors and with KHR_mesh_quantization. It carries through
 // scenes, cameras, instances (EXT_mesh_gpu_instancing), other attributes, channels of KHR_animation_pointer, extras,
 // and extensions that name no accessor. It mends skin weights. It skips clips, meshes and skins without elements, and
-// keys before 0 s. What is mended or not kept, it says. It refuses required extensions that it does not know, by name.
+// keys before 0 s. It reports mended parts and parts that it does not keep. It refuses required extensions that it does
+// not know, by name.
 //
 // The cost is linear in the size of the file. On failure it throws std::runtime_error with a sentence that names the
 // file and the element, and keeps nothing.

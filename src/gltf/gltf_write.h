@@ -2,10 +2,10 @@
 // .vrm is a .glb; only a model that was read with the extension VRM or VRMC_vrm is written as one.
 //
 // Written: scenes, node hierarchy, meshes with all attributes of the model, lines, points, vertex colours, skins,
-// morph targets, animations, and the looks carried through (image bytes are embedded; an image whose bytes were not
-// read keeps its URI). Cameras, instances, attributes, channels, extras and extensions that were carried past the
-// reader come back. Floats are written as floats, joints as bytes or shorts, indices as shorts or ints. The output has
-// no errors under the Khronos validator; tests/unit/gltf checks that.
+// morph targets, animations, and the looks carried through. Image bytes are embedded. An image whose bytes were not
+// read keeps its URI. Cameras, instances, attributes, channels, extras and extensions that were carried past the reader
+// come back. Floats are written as floats, joints as bytes or shorts, indices as shorts or ints. The output has no
+// errors under the Khronos validator; tests/unit/gltf checks that.
 //
 // The model is checked first (index ranges, array lengths, finite numbers, increasing key times): a fault is a
 // std::runtime_error naming the element and the file is not touched. The file appears under its name only when

@@ -58,7 +58,7 @@ json parse_json(const char* text, size_t size, const std::string& what, size_t m
   try {
     return json::parse(text + begin, text + size);
   } catch (const json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: ..." -> what stands behind the bracket
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: ..." -> the text behind the bracket
     const std::string message = error.what();
     const size_t bracket = message.find("] ");
     throw std::runtime_error(

@@ -1,8 +1,8 @@
 // Reading and writing the samples' own small JSON files (handle lists, settings) with errors that say where.
 //
 // JsonReader remembers the file and the key path, so that a wrong value is reported as
-//   "pairs.json: handles[3].vertex: expected a whole number from 0 to 4399, found \"nose\""
-// Text is parsed with a limit on size and depth; nothing is allocated for a file above the limit.
+//   "pairs.json: handles[3].vertex: expected a whole number from 0 to 4399, found \"nose\"". Text is parsed with a
+//   limit on size and depth; nothing is allocated for a file above the limit.
 #ifndef HF_GLTF_JSON_FILE_H
 #define HF_GLTF_JSON_FILE_H
 

@@ -11,7 +11,7 @@ namespace hf_gltf {
 namespace {
 
 // A channel's part of the tolerance: errors of a chain of joints add up, and some cancel. The part is halved until the
-// clip is within the tolerance, at most so many times; then the clip keeps its keys.
+// clip is within the tolerance. After this many halvings the clip keeps its keys.
 constexpr double first_part = 2;
 constexpr int most_halvings = 9;
 // Then larger parts are tried, between the last that was too large and the first that was not.
@@ -94,7 +94,7 @@ Channel reduced(const Channel& from, double reach, double unit, double tolerance
   };
   for (size_t a = 0; a < last;) {
     size_t b = a + 1;
-    while (b < last && holds(b - 1) == holds(b)) {  // what stands still stays so
+    while (b < last && holds(b - 1) == holds(b)) {  // a node at rest stays at rest
       bool good = true;
       const double most = std::min(tolerance, bend * static_cast<double>(b - a));
       for (size_t k = a + 1; k <= b && good; ++k) good = miss(from, a, k, b + 1, reach, unit) <= most;

@@ -92,7 +92,7 @@ std::vector<std::string> lines_of(const hf_inner::Vector<char>& text) {
   return out;
 }
 
-// A mesh that hangs on a joint without a skin is of the same part. What hands hold is not.
+// A mesh that hangs on a joint without a skin is of the same part. Things in hands are not.
 void pass_to_meshes(const Model& model, const std::vector<uint8_t>& bound, std::vector<KnownNode>& nodes) {
   for (size_t n = 0; n < nodes.size(); ++n) {
     if (bound[n]) continue;

@@ -1,5 +1,5 @@
-// What the skeleton of a model says about its body: axes, and which joint is part of what. The room skeleton finds it
-// (skeleton/character.h); this library has a copy of that room inside.
+// Reads the body from the skeleton of a model: its axes, and the part of the body for each joint. The room skeleton
+// finds it (skeleton/character.h); this library has a copy of that room inside.
 #ifndef HF_GLTF_KNOWN_BODY_H
 #define HF_GLTF_KNOWN_BODY_H
 
@@ -25,7 +25,7 @@ struct KnownBody {
   std::string up_why, forward_why;  // a few words
   std::vector<std::string> why;     // sentences
   std::vector<KnownNode> nodes;     // as the model's; empty: there is no skeleton
-  // Of what is upright, along the joints to the ground; else how high the hind legs begin. 0: there are no legs.
+  // of an upright body, along the joints to the ground; else how high the hind legs begin. 0: there are no legs.
   double leg_length = 0;
   bool upright = false;  // the way from the hips to the head leads up
   bool knows_axes() const;
@@ -35,9 +35,9 @@ struct KnownBody {
 // given: axes that the caller knows, or null. pose: the pose of the mesh's positions; null: the pose of the file.
 KnownBody know_body(const Model& model, const FlatMesh& mesh, const Axes* given = nullptr, const Pose* pose = nullptr);
 
-// How far the target's body goes for one length of the source's: the ratio of the lengths of their legs. 0: one of them
-// has no legs that are known, or neither is upright. Each rig of a four-legged body puts its shoulders and hips at
-// heights of its own, so the legs of the surfaces say more there.
+// The travel of the target's body for one length of the source's: the ratio of the lengths of their legs. 0: one of
+// them has no known legs, or neither is upright. Each rig of a four-legged body puts its shoulders and hips at heights
+// of its own, so the legs of the surfaces say more there.
 double leg_scale(const KnownBody& source, const KnownBody& target);
 
 }  // namespace hf_gltf

@@ -55,7 +55,7 @@ double Finder::toes() const {
   return soles > 0 && ankles > 0 ? (sole / soles - ankle / ankles) / height_ : 0;
 }
 
-// The skeleton's axes where it is sure. Else those of the surface.
+// The skeleton's axes where it is sure. Else the axes of the surface.
 void Finder::choose_axes() {
   if (out_.known.knows_axes()) {
     axes_ = out_.known.axes;
@@ -94,7 +94,7 @@ void Finder::find_axes() {
   }
 }
 
-// The lower end of each leg of the skeleton is a foot. Those of arms are kept in raised_.
+// The lower end of each leg of the skeleton is a foot. Tips of arms are kept in raised_.
 void Finder::find_known_feet() {
   struct End {
     BodyPart part = BodyPart::other;

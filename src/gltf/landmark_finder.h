@@ -14,12 +14,12 @@ namespace hf_gltf {
 constexpr double same_foot = 0.05;  // of the diagonal
 constexpr double ball = 0.03, trunk_ball = 0.04;
 
-// A place at which a body stands.
+// A place at which a body touches the ground.
 struct Foot {
   glm::dvec3 place{0, 0, 0};  // lowest vertex nearest to the middle
   uint32_t vertex = 0;
   double forward = 0, side = 0;
-  int known_side = 0;  // that of its leg's joints: 1 left, -1 right, 0 unknown
+  int known_side = 0;  // the side of its leg's joints: 1 left, -1 right, 0 unknown
 };
 
 class Finder {

@@ -211,7 +211,7 @@ Landmarks Finder::find(const Axes* axes) {
   } else {
     choose_axes();
   }
-  // sides are those of the axes, also where the caller's are others than the skeleton's
+  // sides follow the axes, also where the caller has other axes than the skeleton
   if (glm::dot(out_.known.axes.right, axes_.right) < 0)
     for (KnownNode& node : out_.known.nodes) node.side = -node.side;
   const RegionFinder finder(model_, mesh_, axes_);

@@ -1,7 +1,7 @@
 // A glTF 2.0 asset in memory, decoded: plain arrays of floats, no buffers, no accessors, no quantisation.
 //
-// read_gltf() fills it and guarantees what stands behind each field; write_gltf() writes it. The programs change it in
-// between. Looks (materials, textures, images) are carried through unchanged in an opaque block.
+// The function read_gltf() fills it and guarantees the comment of each field; write_gltf() writes it. The programs
+// change it in between. Looks (materials, textures, images) are carried through unchanged in an opaque block.
 //
 //   Model model = read_gltf("horse.glb");
 //   FlatMesh mesh = flatten(model);                       // flat_mesh.h: world rest pose, one vertex array, welded
@@ -32,8 +32,8 @@ struct Instances {
   std::vector<glm::vec4> rotations;  // x y z w
 };
 
-// Numbers that no program reads, as the file stores them: `count` elements without gaps. component and type are those
-// of glTF; type is the number of components, 1 to 4.
+// Numbers that no program reads, as the file stores them: `count` elements without gaps. component and type have glTF's
+// values; type is the number of components, 1 to 4.
 struct CarriedNumbers {
   int component = 0, type = 0;
   bool normalized = false;
@@ -116,8 +116,8 @@ struct Skin {
 enum class Interpolation { step, linear, cubic_spline };
 enum class Path { translation, rotation, scale, weights };
 
-// Key times increase strictly and are not negative. values holds, per key, `width` floats (3, 4 = x y z w, or the
-// number of morph targets); for cubic splines three groups of them per key: in-tangent, value, out-tangent.
+// Key times increase strictly and are not negative. The array values holds, per key, `width` floats: 3, 4 (x y z w), or
+// the number of morph targets. For cubic splines it holds three groups of them per key: in-tangent, value, out-tangent.
 struct Channel {
   int node = -1;
   Path path = Path::translation;
@@ -143,7 +143,8 @@ struct Animation {
   Carried carried;
 };
 
-// What pictures need of a material; the full one is carried through in Model::appearance under the same index.
+// The part of a material that pictures need. The full material is carried through in Model::appearance under the same
+// index.
 struct Material {
   std::string name;
   glm::vec4 base_color{1, 1, 1, 1};  // linear
@@ -155,7 +156,7 @@ struct Material {
 // Materials, textures, images and samplers as the file has them; defined in gltf_appearance.h for reader and writer.
 struct Appearance;
 
-// What a caller says of a joint: it is of a chain with this part and side.
+// A caller's statement about a joint: its chain has this part and side.
 struct SaidJoint {
   int node = -1;
   std::string part;  // as role_name of skeleton/character.h
@@ -182,7 +183,7 @@ struct Model {
   std::vector<std::string> required_extensions;  // written as required where they are still in use
   std::vector<SaidJoint> said;                   // no part of the file
   std::vector<std::string> notes;                // about the file, one sentence each; nothing is wrong
-  std::vector<std::string> warnings;             // what was skipped, repaired or not kept; one sentence each
+  std::vector<std::string> warnings;             // skipped, repaired and lost parts; one sentence each
 };
 
 }  // namespace hf_gltf

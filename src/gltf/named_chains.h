@@ -24,7 +24,7 @@ struct NamedChain {
 // Throws std::runtime_error that names the file, the key and the fault.
 std::vector<NamedChain> read_chains(const JsonReader& json);
 
-// Writes the chains into Model::said of both models. Throws std::runtime_error that names the chain and the joint: the
+// Writes the chains of both models into Model::said. Throws std::runtime_error that names the chain and the joint: the
 // model has no such joint, several joints have the name, or a joint is in two chains. Model::said may then be partial.
 void say_chains(const std::vector<NamedChain>& chains, Model& source, Model& target);
 

@@ -21,7 +21,7 @@ constexpr double direction_step = 0.02;
 
 std::string plain(const std::string& name) { return name.substr(name.rfind(':') + 1); }
 
-// Joints of skins and what stands above them; all nodes where there is no skin.
+// Joints of skins and the nodes above them; all nodes where there is no skin.
 std::vector<char> skeleton_of(const Model& model) {
   std::vector<char> out(model.nodes.size(), model.skins.empty() ? 1 : 0);
   for (const Skin& skin : model.skins)
@@ -46,7 +46,7 @@ class Matcher {
     match_unique([](const Node& node) { return plain(node.name); });
     match_above();
     match_below();
-    // what is no joint, such as a weapon
+    // a node that is no joint, such as a weapon
     candidates_.clear();
     for (size_t n = 0; n < to_.nodes.size(); ++n)
       if (!skeleton[n] && !taken_[n]) candidates_.push_back(static_cast<int>(n));
@@ -150,7 +150,7 @@ class Matcher {
       for (const int n : level) {
         const bool open = !taken_[static_cast<size_t>(n)];
         if (open && plain(node_there(n).name) == name) out.push_back(n);
-        // what stands below a taken node is found from there
+        // nodes below a taken node are found from there
         if (open || above < 0) next.insert(next.end(), node_there(n).children.begin(), node_there(n).children.end());
       }
       level.swap(next);

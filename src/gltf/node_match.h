@@ -1,8 +1,8 @@
-// Which nodes of one model are those of another, where names can occur several times.
+// Matches the nodes of one model with the nodes of another, where names can occur several times.
 //
-// A name that both have once decides, and what stands above two such nodes follows from them. All other nodes are found
-// from above: among the children of their parent's node. Children of one name are told apart by the directions of their
-// rest translations, then by their order. A prefix up to a ':' counts only where a name without it is not enough.
+// A name that both have once decides. The nodes above two such nodes follow from them. All other nodes are found from
+// above: among the children of their parent's node. Children of one name are told apart by the directions of their rest
+// translations, then by their order. A prefix up to a ':' counts only where a name without it is not enough.
 #ifndef HF_GLTF_NODE_MATCH_H
 #define HF_GLTF_NODE_MATCH_H
 

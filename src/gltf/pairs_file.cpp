@@ -172,7 +172,7 @@ void add_regions(const std::vector<PairEntry>& pairs, const RegionFinder& source
     if (covered < 0) continue;
     throw std::runtime_error("pair \"" + pairs[static_cast<size_t>(covered) - before].name + "\": its region on the " +
                              (covered_source >= 0 ? "source" : "target") +
-                             " lies inside those of other pairs; move it or make the radius smaller");
+                             " is inside the regions of other pairs; move it or make the radius smaller");
   }
 }
 

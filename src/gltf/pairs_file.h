@@ -26,7 +26,7 @@ struct TransferSettings {
   double width = 0, scale = 0, alignment_degrees = 0;  // 0 = the library's default; negative = never
 };
 
-// What an animator turns; neutral as made (hf_transfer_dials).
+// The dials of an animator; neutral as made (hf_transfer_dials).
 struct TransferDials {
   double stride = 1, hip_height_share = 0, neck_follow = 0, tail_follow = 0, arm_space_degrees = 0, long_follow = 0;
 };
@@ -43,7 +43,7 @@ struct PairsFile {
 // arm for hand or arm. Empty: no limb.
 std::string limb_of(const std::string& pair_name);
 
-// Throws std::runtime_error "file: key path: what is wrong". chains_do: chains without pairs are enough.
+// Throws std::runtime_error "file: key path: the fault". chains_do: chains without pairs are enough.
 PairsFile read_pairs(const std::filesystem::path& file, bool chains_do = false);
 // Reads the pairs from a JSON value. `what` names it in messages.
 PairsFile parse_pairs(const nlohmann::json& value, const std::string& what);

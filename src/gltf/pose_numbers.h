@@ -11,7 +11,7 @@ namespace hf_gltf {
 
 // Appends 10 numbers a node: translation, rotation x y z w, scale. A matrix is split.
 void append_trs(const Pose& pose, std::vector<double>& out);
-// The pose of such numbers. The rest gives what they leave out.
+// The pose of such numbers. The rest pose gives the parts that they leave out.
 Pose pose_of(const Pose& rest, const std::vector<double>& trs);
 
 // The clip of the poses: channels for nodes that leave the pose of the file.

@@ -85,7 +85,7 @@ Selector read_selector(const JsonReader& json) {
     for (size_t i = 0; i < list.size(); ++i)
       out.vertices.push_back(static_cast<uint32_t>(list.at(i).integer(0, 0xFFFFFFFEll)));
     if (!out.joints.empty() || out.has_position)
-      json.fail("\"vertices\" stands alone; use a list of selectors to join several");
+      json.fail("\"vertices\" must be the only key; use a list of selectors to join several");
   }
   if (out.joints.empty() && !out.has_position && out.vertices.empty())
     json.fail("expected \"joint\", \"joints\", \"position\" or \"vertices\"");

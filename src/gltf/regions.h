@@ -27,7 +27,7 @@ Axes read_axes(const JsonReader& json);
 struct Selector {
   std::vector<std::string> joints;  // owners; may be empty
   bool with_children = false;       // the joints below them too
-  std::vector<uint32_t> vertices;   // as given in the file: flat vertices
+  std::vector<uint32_t> vertices;   // flat vertices, as in the file
   std::string extreme;              // up, down, forward, back, left, right, away; empty: none
   bool has_position = false, has_radius = false;
   glm::dvec3 position{0, 0, 0};

@@ -1,4 +1,4 @@
-// Compares the places of meshes without a skin with those of joints, in the clips of the model.
+// Compares the places of meshes without a skin with the places of joints, in the clips of the model.
 #include "gltf/riders.h"
 
 #include <algorithm>
@@ -17,14 +17,14 @@ constexpr double rides_within = 1e-2;
 // Below this share of it joints are alike, and the nearest counts: less is rounding, more takes a collar that hardly
 // moves for the chest.
 constexpr double alike = 0.005;
-// Clips that are read, and times of each. A body shows in few poses what moves with what; more cost time.
+// Clips that are read, and times of each. A few poses of a body show which nodes move together; more cost time.
 constexpr size_t rider_clips = 8, times_of_clip = 6;
 // Comparisons of two transforms in one search. A body of 100 joints takes at most 15,000 for a node, and most joints
-// are out after the first few, so thousands of nodes are looked at. Half of it loses props in a large scene; double
-// costs another tenth of a second there.
+// are out after the first few, so the search can compare thousands of nodes. Half of it loses props in a large scene;
+// double costs another tenth of a second there.
 constexpr size_t most_comparisons = 1'000'000;
-// A transform whose volume is below this share of the product of its axes is flat: nothing can ride in its space. Half
-// or double changes nothing, as rounding is far below and bones are far above.
+// A transform whose volume is below this share of the product of its axes is flat: no node can follow it. Half or
+// double changes nothing, as rounding is far below and bones are far above.
 constexpr double flat = 1e-9;
 
 struct RiderCandidate {
@@ -41,7 +41,7 @@ bool hangs_on_joint(const Model& model, const std::vector<uint8_t>& bound, int n
 }
 
 // The node that moves a mesh by itself: the lowest one at or over it that clips move and that carries no joint; else
-// the node of the mesh. Props of one group may ride on different joints.
+// the node of the mesh. Props of one group may follow different joints.
 int moved_above(const Model& model, const std::vector<uint8_t>& animated, const std::vector<uint8_t>& carries,
                 int node) {
   for (int n = node; n >= 0 && !carries[static_cast<size_t>(n)]; n = model.nodes[static_cast<size_t>(n)].parent)
@@ -96,8 +96,8 @@ double moved_by(const RiderCandidate& c, const glm::dmat4& a, const glm::dmat4& 
   return out;
 }
 
-// Looks for the joints on which nodes ride, in sampled poses of the clips. Transforms are kept for joints and
-// candidates alone: a file can have 30,000 other nodes.
+// Looks for the joints that nodes follow, in sampled poses of the clips. Transforms are kept for joints and candidates
+// alone: a file can have 30,000 other nodes.
 class Search {
  public:
   Search(const Model& model, const FlatMesh& mesh, const Pose& rest, const std::vector<uint8_t>& body,
@@ -120,13 +120,13 @@ class Search {
     for (const glm::dmat4& m : poses_[0]) from_first_.push_back(is_flat(m) ? glm::dmat4(0) : glm::inverse(m));
   }
 
-  // Adds what is found for candidate k.
+  // Adds the result for candidate k.
   void look(const RiderCandidate& c, size_t k, Riders& out) {
     const size_t node = joints_ + k;
     if (is_flat(at_rest_[node])) return;  // it is not seen
     bool body_moves = false;
     int best = -1;
-    // A joint on which it rides from its rest on is better than one that clips alone keep at its side.
+    // A joint that it follows from its rest on is better than one that only clips keep at its side.
     for (const std::vector<glm::dmat4>* first : {&at_rest_, poses_.empty() ? &at_rest_ : &poses_[0]}) {
       best = nearest_still(c, node, *first, body_moves);
       if (best < 0) continue;
@@ -171,7 +171,7 @@ class Search {
       nearest = distance;
       best = static_cast<int>(j);
     }
-    return comparisons_ < most_comparisons ? best : -1;  // a joint that was not looked at may be better
+    return comparisons_ < most_comparisons ? best : -1;  // a joint that was not compared may be better
   }
 
   std::vector<int> nodes_;  // joints of the body, then candidates
@@ -214,7 +214,7 @@ void place_riders(const Model& model, const Riders& riders, Pose& pose) {
   const std::vector<glm::dmat4> globals = global_matrices(model, pose);
   for (const Rider& rider : riders.known) {
     const glm::dmat4 above = above_of(model, pose, rider.node), &joint = globals[static_cast<size_t>(rider.joint)];
-    if (is_flat(above) || is_flat(joint)) continue;  // it is not seen, or there is nothing to ride on
+    if (is_flat(above) || is_flat(joint)) continue;  // it is not seen, or there is no joint to follow
     NodePose node = pose[static_cast<size_t>(rider.node)];
     node.fixed = true;
     node.matrix = glm::inverse(above) * joint * rider.on_joint;

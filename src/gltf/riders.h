@@ -1,4 +1,4 @@
-// Finds the joints on which meshes without a skin ride, such as a helmet or a pack that stands beside the skeleton.
+// Finds the joints that meshes without a skin follow (riders), such as a helmet or a pack beside the skeleton.
 #ifndef HF_GLTF_RIDERS_H
 #define HF_GLTF_RIDERS_H
 
@@ -17,13 +17,14 @@ struct Rider {
 
 struct Riders {
   std::vector<Rider> known;
-  std::vector<int> unknown;  // nodes with a mesh of which no clip says where they ride, scenery too
+  std::vector<int> unknown;  // nodes with a mesh for which no clip shows a joint to follow, scenery too
 };
 
-// Reads the clips of the model: a node rides on the joint of the body against which it does not move, while that joint
-// moves. Where several are such, on the one against which it moves least, then on the nearest. A node that stands still
-// while the body moves rides on none, and is not listed; neither is one whose scale is 0 at rest. body: of each node,
-// 1: a joint that the body moves. Cost: bounded; a file of thousands of such nodes has the last ones as unknown. Polls.
+// Reads the clips of the model: a node follows the joint of the body against which it does not move, while that joint
+// moves. Among several such joints it follows the one against which it moves least, then the nearest. A node at rest
+// while the body moves follows no joint and is not listed. A node whose scale is 0 at rest is not listed either. body:
+// of each node, 1: a joint that the body moves. Cost: bounded; a file of thousands of such nodes has the last ones as
+// unknown. Polls.
 Riders find_riders(const Model& model, const FlatMesh& mesh, const Pose& rest, const std::vector<uint8_t>& body);
 
 // Puts the riders on their joints. A rider under a node or on a joint of scale 0 stays as it is.

@@ -18,29 +18,29 @@ constexpr double keep_rest = 1e-3;
 // The same for the difference from the frames beside. With 0 a robot's jump and a fox's gallop have a spike each.
 constexpr double keep_even = 0.01;
 // The weight k_m of misses that change from frame to frame, beside 1 for misses (rig_fit.h): trades places that are met
-// for motion without jumps. Twelve runs have 36 spikes with 0, 5 with 1, and none with 3. 10 holds the largest
-// accelerations down more, and needs more passes.
+// for motion without jumps. Twelve runs have 36 spikes with 0, and none with 3. A value of 10 reduces the largest
+// accelerations more, and needs more passes.
 constexpr double keep_miss = 3;
 // Passes over the clip, there and back, at most. With 20, a man who walks like a wolf accelerates 1.26 instead of 1.28
 // times as much as his source.
 constexpr int most_rounds = 10;
-// A frame is left out of a pass if neither it nor those beside it moved a vertex by more than this share of the box
-// before: trades passes for misses that are not quite even. Of every 60th run half takes 7 % more fits and double 9 %
-// fewer. No figure changes.
+// A pass skips a frame if neither it nor the frames beside it moved a vertex by more than this share of the box before.
+// More saves passes and leaves errors that are not quite even. On every 60th run half takes 7 % more fits and double 9
+// % fewer. No figure changes.
 constexpr double settled = 2e-5;
 // Frames in which no vertex moves by more than this share of the box are one: trades still poses for slow motion. Half
 // and double change no figure there.
 constexpr double hold_step = 1e-5;
 // The weight of all ties together, beside 1 for all vertices. It trades feet that slide for pieces that stay together.
-// With 0, 1, 10 and 100 a knight's run on a robot opens by .096, .076, .026 and .016 of the box, and its feet slide by
-// .0010, .0012, .0015 and .0021.
+// From 0 to 100, the opening of a knight's run on a robot falls from .096 to .016 of the box. The slides of its feet
+// double.
 constexpr double tie_weight = 10;
 // The weight of a vertex of a foot that stands, beside 1, so that it does not slide. 3000 halves slides, and makes four
 // times as many spikes.
 constexpr double foot_weight = 300;
 // The weight of the depth of a vertex under the ground, beside 1: trades parts that sink for a motion that is met less
-// well. Of every 10th run of that half 43 sink by more than 0.01 of the box with 0, 3 with 100 and none with 300, 1000
-// and 3000. The deepest are 0.058, 0.013, 0.0088, 0.0055 and 0.0045.
+// well. On every 10th run of that half, 43 runs sink by more than 0.01 of the box with 0. With 100 it is 3, from 300 on
+// none. The deepest sinks 0.058 with 0, 0.0055 with 1000, and 0.0045 with 3000.
 constexpr double ground_weight = 1000;
 // A system has up to six unknowns a joint, so memory grows as their square and a step as their cube. This many joints
 // take 250 MB, or 700 if all of them shift. Characters have 20 to 500.
@@ -280,8 +280,8 @@ void RigFit::find_joints() {
   number_unknowns(carries);
 }
 
-// Every joint turns; some shift. The path of a body goes into one joint: where two move the same vertices, only the
-// upper one of those that the model's own clips move shifts. carries: by node, whether vertices follow it.
+// Every joint turns; some shift. The path of a body goes into one joint. If two joints move the same vertices, only the
+// upper of the joints that the model's own clips move shifts. carries: by node, whether vertices follow it.
 void RigFit::number_unknowns(const std::vector<char>& carries) {
   const Pose& rest = whole_rest_;
   const std::vector<glm::dmat4> globals = global_matrices(model_, rest);
@@ -458,7 +458,7 @@ glm::dvec3 RigFit::turned(const RigPose& pose, const RigPose& from, const std::v
   return parent * rotation_vector(pose.nodes[node].rotation * glm::conjugate(from.nodes[node].rotation));
 }
 
-// How deep a vertex lies under the ground, 0 or more.
+// The depth of a vertex under the ground, 0 or more.
 double RigFit::depth(const Task& task, const std::vector<glm::dmat4x3>& at, size_t vertex) const {
   if (!task.ground->sinking.empty() && task.ground->sinking[vertex]) return 0;
   double out = task.floor;
@@ -496,7 +496,7 @@ double RigFit::energy(const Task& task, const RigPose& pose) const {
   return out;
 }
 
-// Adds what lies under the ground to the normal equations: a row for each such vertex.
+// Adds the vertices under the ground to the normal equations: a row for each.
 void RigFit::add_ground(const Task& task, const std::vector<glm::dmat4>& globals, const std::vector<glm::dmat4x3>& at,
                         System& to) const {
   std::vector<glm::dvec4> moved(joints_.size(), glm::dvec4(0));  // weight times place, and the weight
@@ -650,7 +650,7 @@ RigPose RigFit::fit(const std::vector<double>& frame, const RigPose& start, cons
   const auto place = [&](uint32_t v) { return place_of(frame, v); };
   // places count from the middle, so that sums keep their digits far from the origin
   glm::dvec3 centre(0);
-  const auto counts = [](const Row& row) { return row.weight > 0; };  // what is loose does not
+  const auto counts = [](const Row& row) { return row.weight > 0; };  // loose parts do not
   const auto count = static_cast<double>(std::count_if(vertices_.begin(), vertices_.end(), counts));
   for (uint32_t v = 0; v < vertices_.size(); ++v)
     if (counts(vertices_[v])) centre += place(v) / count;
@@ -684,7 +684,7 @@ RigPose RigFit::fit(const std::vector<double>& frame, const RigPose& start, cons
   RigPose pose = start;
   double now = energy(task, pose), damping = first_damping;
   const size_t n = unknowns_;
-  // Turns and shifts have means of their own: the ratio of their diagonals is that of the unit squared.
+  // Turns and shifts have means of their own: the ratio of their diagonals is the unit squared.
   std::vector<size_t> shifts(n, 0);
   for (const Joint& joint : joints_)
     for (int c = 0; c < 3 && joint.translation >= 0; ++c) shifts[static_cast<size_t>(joint.translation + c)] = 1;
@@ -718,7 +718,7 @@ RigPose RigFit::fit(const std::vector<double>& frame, const RigPose& start, cons
   return pose;
 }
 
-// How far the vertices of a pose lie from those of a frame.
+// The distance of the vertices of a pose from the vertices of a frame.
 std::vector<double> RigFit::missed(const RigPose& pose, const std::vector<double>& frame) const {
   const std::vector<glm::dmat4x3> at = slot_matrices(globals_of(pose), glm::dvec3(0));
   std::vector<double> out;
@@ -743,8 +743,8 @@ std::vector<RigPose> RigFit::fit_all(const std::vector<double>& times, const std
     if (!before.empty()) hold.changed = step_between(before, hold.miss);
   };
   for (size_t h = 0; h < count; ++h) meet(holds.all[h], h == 0 ? rest_ : holds.all[h - 1].pose, {});
-  // Then each follows those beside it, there and back, until it and they stay where they are. Of two neither lies
-  // between others: each would lag behind the other.
+  // Then each follows those beside it, there and back, until it and they stay where they are. If there are only two,
+  // neither lies between others: each would lag behind the other.
   for (int round = 0; round < most_rounds && count > 2; ++round) {
     for (size_t k = 0; k < count; ++k) {
       const size_t h = round % 2 == 0 ? k : count - 1 - k;

@@ -10,11 +10,11 @@
 // world space, in double.
 // A ground (RigGround) adds k_g sum_v a_v d_v^2, where v lies d_v under it. It comes in without a step: neither the sum
 // nor its slope jumps where a vertex touches the ground. A vertex under it adds a row to the system.
-// Over a clip, misses change evenly. Let r_f be what the fit of frame f misses: place minus goal, of each vertex. The
-// sum over the clip has k_m |r_f - r_g|^2 for each two frames f and g beside each other. For one frame with n others
-// beside it this is the fit above with the goals y_f + k_m (sum_g r_g) / (1 + n k_m), where the other terms count by
-// 1 / (1 + n k_m). Feet that stand and the ground keep their full weight. So a leg that is shorter in the frames than
-// its bones does not snap from one bend of its knee to the other.
+// Over a clip, misses change evenly. Let r_f be the residual of the fit of frame f: place minus goal, of each vertex.
+// The sum over the clip has k_m |r_f - r_g|^2 for each two frames f and g beside each other. For one frame with n
+// others beside it this is the fit above with the goals y_f + k_m (sum_g r_g) / (1 + n k_m), where the other terms
+// count by 1 / (1 + n k_m). Feet that stand and the ground keep their full weight. So a leg that is shorter in the
+// frames than its bones does not snap from one bend of its knee to the other.
 #ifndef HF_GLTF_RIG_FIT_H
 #define HF_GLTF_RIG_FIT_H
 
@@ -52,7 +52,7 @@ class RigFit {
   // Throws std::runtime_error when no mesh of the model has a skin, or when its skins have too many joints.
   RigFit(const Model& model, const FlatMesh& mesh, const std::vector<RigTie>& ties = {});
 
-  // What a frame asks of a pose beside its own places.
+  // The terms of a frame for a pose beside its own places.
   struct Beside {
     const RigPose* middle = nullptr;             // turns that the frame leaves open follow it
     const std::vector<double>* moved = nullptr;  // x y z of every flat vertex that is not met firmly, instead
@@ -62,9 +62,9 @@ class RigFit {
   const RigPose& rest() const { return rest_; }
   // The pose of every node of the model.
   Pose whole(const RigPose& pose) const;
-  // Finds the pose of a frame, starting from `start`. frame: x y z of every flat vertex. firm: empty, or 0 to 1 for
-  // every flat vertex. At 1 the vertex is met as exactly as a foot that stands. ground: NULL, or the ground;
-  // heights[number] counts.
+  // Finds the pose of a frame, starting from `start`. frame: x y z of every flat vertex. The list `firm`: empty, or 0
+  // to 1 for every flat vertex. At 1 the fit meets the vertex as exactly as a planted foot. ground: NULL, or the
+  // ground; heights[number] counts.
   RigPose fit(const std::vector<double>& frame, const RigPose& start, const std::vector<double>& firm,
               const Beside& beside, const RigGround* ground = nullptr, size_t number = 0) const;
   // The poses of frames, each from the one before, then from those beside it. Frames beside each other that are alike
@@ -83,7 +83,7 @@ class RigFit {
     int node = -1, parent = -1;           // node: in nodes_; parent: in joints_, -1 at the top
     int rotation = -1, translation = -1;  // first unknown
   };
-  struct Slot {                 // what moves vertices: a joint of a skin, or a node
+  struct Slot {                 // movers of vertices: a joint of a skin, or a node
     int node = -1, joint = -1;  // node: in nodes_; joint: in joints_, the lowest that may move; -1 when none above does
     glm::dmat4 bind{1};
   };
@@ -133,7 +133,7 @@ class RigFit {
 
   const Model& model_;
   Pose whole_rest_;          // of every node of the model
-  std::vector<Kept> nodes_;  // those of RigPose, parents first
+  std::vector<Kept> nodes_;  // joints of RigPose, parents first
   RigPose rest_;
   std::vector<Joint> joints_;
   std::vector<int> joint_of_node_;

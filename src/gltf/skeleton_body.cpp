@@ -59,7 +59,7 @@ void SkeletonBody::look() {
 
 void SkeletonBody::find_off() {
   // Sizes of the limb: a turn about a point farther away throws it off the body. Half comes near to thighs that begin
-  // above their skin, as those of the fox of Khronos; double loses pieces whose joint is the middle of the model.
+  // above their skin, as in the fox of Khronos; double loses pieces whose joint is the middle of the model.
   constexpr double far = 0.5;
   std::map<int, size_t> limb_of_node;
   for (size_t k = 0; k < limbs.size(); ++k) {
@@ -124,8 +124,8 @@ bool is_trunk(Role role) { return role == Role::spine || role == Role::neck || r
 // A wing is as unknown as an arm that looks like one: where arms have no partner, nothing leads either.
 bool is_unknown(Role role) { return role == Role::other || role == Role::wing; }
 
-// Of each node of unknown part that hangs on the trunk: the topmost such node above it. -1: its part is known, or it
-// hangs on another part.
+// For each node of unknown part below the trunk: the topmost such node above it. -1: its part is known, or it is below
+// another part.
 std::vector<int> unknown_parts(const Model& model, const Character& c) {
   std::vector<int> out(model.nodes.size(), -1);
   for (size_t n = 0; n < out.size(); ++n) {
@@ -145,7 +145,8 @@ std::vector<int> unknown_parts(const Model& model, const Character& c) {
 size_t SkeletonBody::unknown_arms() const {
   // Shares of the height. A part is as large as an arm may be: half takes a pouch for an arm, double loses the arm of a
   // robot. Its middle is beside the plane of symmetry: half takes a pack that hangs askew, double loses an arm that
-  // hangs close. It begins above the hips by this share of what is above them: a skirt begins there, a shoulder at .6.
+  // hangs close. It begins above the hips by this share of the height above them: a skirt begins there, a shoulder at
+  // .6.
   constexpr double large = 0.15, beside = 0.06, above_hips = 0.25;
   const Character& c = *character;
   const glm::dvec3 up = vector_of(c.up), left = vector_of(c.left), middle = vector_of(c.middle);

@@ -20,7 +20,7 @@ using hf_inner::CharacterInput;
 using hf_inner::Role;
 using hf_inner::Side;
 
-// What the skeleton says is taken from here on. Below, it is a guess.
+// From here on the skeleton decides. Below, it is a guess.
 inline constexpr double enough = 0.5;
 // A trunk that rises by this cosine stands upright: 53 degrees.
 inline constexpr double upright_trunk = 0.6;
@@ -29,8 +29,8 @@ inline bool is_understood(const Character& c) {
   return c.role_confidence >= enough && c.up_confidence >= enough && c.forward_confidence >= enough;
 }
 
-// A body stands if its joints are this near to the mirror images of their mates, a share of its height. Half would
-// refuse bodies that shift their weight to one leg; double would take a stride for a stance.
+// A pose counts as standing if its joints are this near to the mirror images of their mates, a share of the height.
+// Half would refuse bodies that shift their weight to one leg; double would take a stride for a stance.
 inline constexpr double most_uneven = 0.08;
 // How far arms and legs are from mirroring each other: the mean over their joints, a share of the height. Infinity: no
 // joint of an arm or leg has a mate.
@@ -49,7 +49,8 @@ struct BodyLimb {
   int nodes[3] = {-1, -1, -1};
   std::vector<int> path;       // from root to end
   std::vector<double> shares;  // of its length, from root to each
-  bool off = false;            // its first joint lies far from what it moves, so a turn throws the limb off the body
+  bool off = false;            // its first joint is far from the vertices it moves, so a turn takes the limb off the
+                               // body
 };
 
 struct SkeletonBody {

@@ -49,11 +49,10 @@ void check_named(const SkeletonBody& a, const SkeletonBody& b) {
     if (to == others.end() || from.part == role_name(Role::other)) continue;
     const Chain *one = chain_of(a, from.node), *two = chain_of(b, to->node);
     if (one && two && one->role == two->role && one->side == two->side && one->number == two->number) continue;
-    throw std::runtime_error(
-        "chain \"" + from.chain + "\": on " + a.side.model.name + " it is " + chain_text(one) + ", on " +
-        b.side.model.name + " " + chain_text(two) +
-        ". Legs count from the front, other parts in the order of their joints: name all chains of this part, and what "
-        "is none of them as \"other\"");
+    throw std::runtime_error("chain \"" + from.chain + "\": on " + a.side.model.name + " it is " + chain_text(one) +
+                             ", on " + b.side.model.name + " " + chain_text(two) +
+                             ". Legs count from the front, other parts in the order of their joints. Name all chains "
+                             "of this part, and call the other chains \"other\"");
   }
 }
 
@@ -230,7 +229,7 @@ JointClip SkeletonPair::play(const Animation& clip, const std::vector<double>& t
   const Pose rest = target.rest_of();
   std::vector<double> trs(10 * rest.size());
   Riders riders = in_->riders;
-  if (retarget.report().same_skeleton) {  // what the clip itself moves is copied
+  if (retarget.report().same_skeleton) {  // nodes that the clip itself moves are copied
     const std::vector<uint8_t> moved = moved_by_clip(source.side.model, clip);
     std::vector<std::uint32_t> partners(rest.size(), HF_NO_INDEX);
     retarget.partners(partners.data());

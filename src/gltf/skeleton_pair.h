@@ -21,13 +21,13 @@ struct JointSide {
   const Model& model;
   const FlatMesh& mesh;        // in the pose of rest; may be empty
   const Axes* axes = nullptr;  // given by the caller, or null
-  const Pose* rest = nullptr;  // a pose in which both bodies stand alike; null: the pose of the file
+  const Pose* rest = nullptr;  // a pose in which both are alike; null: the pose of the file
 };
 
 struct JointOptions {
   bool in_place = false;   // the straight travel along the ground is taken out
   bool ground = true;      // feet reach their places and nothing sinks
-  bool foot_path = false;  // feet take the scaled path of the source's; else legs point as the source's
+  bool foot_path = false;  // feet follow the scaled path of the source's; else legs point as the source's
   double stride = 1;       // times the ratio of leg lengths
   double scale = 0;        // of travel; 0: found
 };
@@ -61,14 +61,14 @@ struct PoseFit {
   double degrees = -1, worst = 0;             // mean over them, below 0: unknown; worst frame of the worst limb
   double trunk_degrees = 0, trunk_worst = 0;  // hips to neck, since rest
   size_t source_limbs = 0, target_limbs = 0;  // arms and legs
-  // Arms and legs of the target that nothing leads, or whose first joint lies far from what it moves, and arms and legs
-  // of the source without a partner for which the target has a limb of unknown part. A share of the arms and legs of
-  // the body that has more.
+  // Arms and legs of the target that nothing leads, or whose first joint is far from its vertices, and arms and legs of
+  // the source without a partner for which the target has a limb of unknown part. A share of the arms and legs of the
+  // body that has more.
   double unmatched = 0;
 };
 
-// Gives the first clips of a model keys for what rides on joints (riders.h) and is not moved by them. bound: the target
-// with these clips put in. For clips that name joints alone, such as those of bind_clips.
+// Gives the first clips of a model keys for riders of joints (riders.h) that the clips do not move. bound: the target
+// with these clips put in. For clips that name joints alone, such as the clips of bind_clips.
 void add_riders(const Model& target, Model& bound, size_t clips);
 
 class SkeletonPair {
@@ -84,11 +84,11 @@ class SkeletonPair {
   bool two_legged() const;
   // Whether both have two pairs.
   bool four_legged() const;
-  // Nodes of the target with a mesh beside the skeleton of which no clip says on which joint they ride: they stay.
+  // Nodes of the target with a mesh beside the skeleton for which no clip shows a joint to follow. They do not move.
   // Scenery is among them.
   const std::vector<int>& left_behind() const;
-  // How uneven the rests are of which the motion counts: how far arms and legs are from mirroring each other, beyond
-  // what a standing body may be. 0: both stand. 1: twice that.
+  // How uneven the rest poses are from which the motion counts. It measures how far arms and legs are from mirroring
+  // each other, beyond the limit of a standing body. 0: both stand. 1: twice the limit.
   double unevenness() const;
   // "2 legs and 2 arms"
   std::string limbs_text() const;

@@ -1,8 +1,8 @@
 // A computed motion as a skinned glTF: per-frame rigid joint motions and per-vertex weights become a skin and a clip.
 //
-// The joints stand flat under one root node, each with its pivot c at the point given. A joint's motion takes x to
-// R x + t. Its node has translation R c + t, rotation R and inverse bind matrix translate(-c). So interpolation between
-// keys turns about the pivot and not about the origin. A joint that stretches by s along its axes B takes x to
+// The joints are direct children of one root node, each with its pivot c at the given point. A joint's motion takes x
+// to R x + t. Its node has translation R c + t, rotation R and inverse bind matrix translate(-c). So interpolation
+// between keys turns about the pivot and not about the origin. A joint that stretches by s along its axes B takes x to
 // R B diag(s) B' (x - c) + R c + t. Its node has rotation R B, scale s and inverse bind matrix B' translate(-c). Keys
 // are LINEAR. Quaternion signs are made continuous. Vertex positions are the rest positions in world space. Materials
 // and texture coordinates of every primitive are kept. Neighbouring primitives of one look become one.
@@ -25,8 +25,8 @@ struct SkinJoint {
   glm::dquat axes{1, 0, 0, 0};
 };
 
-// rotations[f * joints + j], translations the same: the motion x -> R x + t of joint j at times[f]. scales the same, or
-// none: what is stretched about the pivot before.
+// rotations[f * joints + j], translations the same: the motion x -> R x + t of joint j at times[f]. The array scales is
+// the same, or none: the stretch about the pivot before.
 struct SkinClip {
   std::string name;
   std::vector<double> times;  // increasing, from 0
@@ -47,8 +47,8 @@ struct SkinDescription {
 // Throws std::runtime_error naming the joint, vertex or frame that does not fit.
 Model skin_model(const Model& source, const FlatMesh& mesh, const SkinDescription& skin);
 
-// What a file says beside its shape: copyright, extras, cameras, lights. Nodes that carry them stand where they stood
-// at rest, at the top of the scene.
+// The contents of a file beside its shape: copyright, extras, cameras, lights. Nodes that carry them stand where they
+// stood at rest, at the top of the scene.
 void keep_carried(const Model& from, Model& out);
 
 // Gives the only mesh of `out`, the flat mesh of `from` vertex by vertex, the morph targets of `from`. Targets of equal

@@ -32,9 +32,8 @@ std::ptrdiff_t lifted_legs(const Character& c) {
 
 // Returns whether a body faces its declared direction, as far as its shape shows where it faces.
 bool faces_as_said(hf_inner::CharacterInput input, hf_inner::Memory& memory) {
-  // The cosine of 45 degrees: farther off, another axis of the body is nearer. Half, 70 degrees, would take a pose that
-  // a clip turns aside for one that faces as said; a cosine near 1 would refuse a body that a clip turns by a few
-  // degrees.
+  // The cosine of 45 degrees: farther off, another axis of the body is nearer. Half, 70 degrees, would accept a pose
+  // that a clip turns aside. A cosine near 1 would refuse a body that a clip turns by a few degrees.
   constexpr double near = 0.7;
   const glm::dvec3 said(input.forward[0], input.forward[1], input.forward[2]);
   input.forward = nullptr;

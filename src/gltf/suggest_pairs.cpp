@@ -51,7 +51,7 @@ std::string names_of(const Landmarks& landmarks) {
   return out;
 }
 
-// What a place of the source is called on a body of the other build: four legs on two and the other way round.
+// The name of a place of the source on a body of the other build: four legs on two, or the reverse.
 std::string counterpart(const std::string& name, const Landmarks& from, const Landmarks& to) {
   if (to.get(name)) return name;
   static const char* const across[][2] = {{"nose", "head"},
@@ -80,8 +80,8 @@ struct Candidate {
   Selector source, target;
 };
 
-// Takes out pairs that the program itself would refuse: a region without a vertex, or inside those of other pairs. The
-// less certain of two pairs goes.
+// Takes out pairs that the program itself would refuse: a region without a vertex, or inside the regions of other
+// pairs. The less certain of two pairs goes.
 void keep_accepted(const RegionFinder& source, const RegionFinder& target, std::vector<Candidate>& candidates,
                    std::vector<std::string>& notes) {
   std::vector<Candidate> ordered = candidates;

@@ -17,10 +17,10 @@ struct SuggestedPair {
 };
 
 struct Suggestion {
-  nlohmann::json file;  // what read_pairs reads
+  nlohmann::json file;  // the file for read_pairs
   std::vector<SuggestedPair> pairs;
-  std::vector<std::string> notes;  // places only one of them has, axes, what to check
-  Landmarks source, target;        // what was found on each
+  std::vector<std::string> notes;  // places only one of them has, axes, things to check
+  Landmarks source, target;        // the findings on each
 };
 
 // Proposes only pairs that a session accepts. Throws std::runtime_error when the two models have too little in common;

@@ -8,8 +8,8 @@
 namespace hf_inner {
 namespace {
 
-// Angles that differ by less than this are one. It is above their rounding, 1e-16 but for needles. More takes
-// triangles that lie on one another in a bent surface for flat ones.
+// Angles that differ by less than this are one. It is above their rounding, which is 1e-16. Needles have more. More
+// takes triangles that lie on one another in a bent surface for flat ones.
 constexpr double same_angle = 1e-9;
 
 // Whether the edge runs from the place that comes first, by x, y and z, to the other one.

@@ -25,7 +25,7 @@ Vector<double> inverse_masses(const Mesh& mesh, Vector<double> areas);
 
 // Limits the weights of L to `times` their median and returns how many weights it changed. K squares the weights.
 // Weights between vertices that nearly coincide would then exceed the rest of K by more digits than a double has, and K
-// would not be positive definite. changed: NULL, or by vertex; it is set where a weight was limited. rounding: weights
+// would not be positive definite. changed: NULL, or by vertex. It is set where a weight was limited. rounding: weights
 // of at most this size do not count for the median.
 std::int32_t cap_weights(SymmetricMatrix& laplacian, double times, Memory& memory,
                          Vector<std::uint8_t>* changed = nullptr, double rounding = 0);

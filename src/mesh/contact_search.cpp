@@ -129,7 +129,7 @@ bool ContactSearch::are_kin(Index a, Index b) const noexcept {
 
 double ContactSearch::least_skin_cost(Index a, Index b) const noexcept {
   if (joint_start_.empty()) return 0;
-  constexpr double rounding = 1e-9;  // far above that of the sums
+  constexpr double rounding = 1e-9;  // far above the rounding of the sums
   double common = rounding;
   for (Index i = joint_start_[at(a)], j = joint_start_[at(b)];
        i < joint_start_[at(a) + 1] && j < joint_start_[at(b) + 1];) {

@@ -29,18 +29,18 @@ class ContactSearch {
   Span<const Index> vertices_of(Index piece) const noexcept {
     return {vertex_.data() + start_[at(piece)], at(start_[at(piece) + 1] - start_[at(piece)])};
   }
-  // Returns the squared distance from p to a piece if it is below `within`, else `within`. enough: a squared distance;
-  // the search ends at the first triangle that is at least that near. hint: a triangle that may be near, or -1.
+  // Returns the squared distance from p to a piece if it is below `within`, else `within`. enough: a squared distance.
+  // The search ends at the first triangle that is at least that near. hint: a triangle that may be near, or -1.
   // triangle: the nearest, of equal ones the first, or -1.
   double nearest(Index piece, const Vec3& p, double within, double enough, Index hint, Index& triangle) const noexcept;
-  // A lower bound of what the difference of skin weights adds to the cost of contacts between two pieces.
+  // A lower bound of the amount that the difference of skin weights adds to the cost of contacts between two pieces.
   double least_skin_cost(Index a, Index b) const noexcept;
   // Whether joints that own the pieces are parent and child. Without a skeleton none are.
   bool are_kin(Index a, Index b) const noexcept;
   // Appends the contacts of piece `from` with piece `to` that are nearer than reach, in ascending order of the
-  // vertices. reach falls to the distance at which a contact costs `depth` more than the cheapest, or more. Contacts
-  // that cost more are not needed, but some are found. most: where more vertices may have contacts, about so many are
-  // tried, spread over all of them.
+  // vertices. The call lowers reach to the distance at which a contact costs `depth` more than the cheapest, or more.
+  // Contacts that cost more are not needed, but some are found. most: where more vertices may have contacts, about so
+  // many are tried, spread over all of them.
   void find(Index from, Index to, double depth, double& reach, Vector<Contact>& out, std::size_t most) const;
   // Keeps for each vertex of piece `from` its cheapest contact. best: by vertex; the cost of none is unbounded.
   void improve(Index from, Index to, double range, Vector<Contact>& best) const;

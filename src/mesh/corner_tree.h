@@ -1,9 +1,9 @@
 // Some corners of one face by place, so that those inside a triangle of corners are found without looking at all.
 //
 // A k-d tree (Bentley 1975) over all corners. Each node counts the corners below it that are in; corners come and go. A
-// search leaves out what has no corner in, what lies beside the triangle's box, and what lies beyond one of its sides.
-// Cost: O(n log n) to make, O(log n) for a corner that comes or goes. A search costs O(log n) and what it finds near
-// the triangle.
+// search leaves out three kinds of nodes: empty ones, nodes outside the triangle's box, and nodes beyond one of its
+// sides. Cost: O(n log n) to make, O(log n) for a corner that comes or goes. A search costs O(log n) plus the corners
+// near the triangle.
 #pragma once
 #include <algorithm>
 #include <cmath>

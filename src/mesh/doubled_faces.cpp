@@ -15,7 +15,7 @@ constexpr std::uint64_t hash_factor = 0x9e3779b97f4a7c15u;
 
 using FaceCorners = Span<const Index>;
 
-// What a face is a copy of: the first face with its corners, which can be itself.
+// The original of each face: the first face with its corners, which can be itself.
 struct First {
   Index face;
   bool mirrored;
@@ -66,7 +66,7 @@ Vector<First> first_triangles(const Mesh& mesh, std::size_t vertex_count, Memory
 }
 
 // Where the smallest rotation of the corners begins, in the order of their numbers. step: 1, or -1 for the order
-// backwards from the last corner. Both candidates i and j skip what the other one has shown to be larger.
+// backwards from the last corner. Both candidates i and j skip items that the other one has shown to be larger.
 struct Around {
   FaceCorners corner;
   bool backwards;
@@ -99,7 +99,7 @@ bool is_less(const Around& a, const Around& b) noexcept {
   return false;
 }
 
-// Every face gets the smallest of its rotations in both directions. Faces are sorted by a hash of it. Those of one hash
+// Every face gets the smallest of its rotations in both directions. Faces are sorted by a hash of it. Faces of one hash
 // are then compared.
 Vector<First> first_faces(const Faces& faces, Memory& memory) {
   struct Key {
@@ -182,9 +182,9 @@ void set_doubled_aside(Mesh& mesh, std::size_t vertex_count, Memory& memory) {
 
 namespace {
 
-// By face: whether it is to be turned round. Faces of one side keep their direction. Those of two sides follow most of
-// their neighbours of one side, and without such neighbours one that is decided. An edge of more than two faces passes
-// nothing on.
+// By face: whether it is to be turned round. Faces of one side keep their direction. Faces of two sides follow most of
+// their neighbours of one side. Without such neighbours they follow a decided one. An edge of more than two faces
+// passes nothing on.
 class Turning {
  public:
   Turning(const Mesh& mesh, const Topology& topology, Vector<std::uint8_t> two_sided, Memory& memory)

@@ -40,8 +40,8 @@ constexpr double queue_step = 1;
 // Windows in a block of the queue. Larger blocks waste memory in steps of few windows. In smaller ones the processor
 // reads less ahead: windows that lay alone waited for memory, a third of the time.
 constexpr std::size_t block_windows = 16;
-// Steps of the queue that have stacks of their own; what lies farther waits in one more stack, which is sorted in when
-// they are used up. It trades memory for that sorting. Half and double, and 4, give the same bits on seven shapes.
+// Steps of the queue that have stacks of their own. Windows farther away wait in one more stack, which is sorted in
+// when they are used up. It trades memory for that sorting. Half and double, and 4, give the same bits on seven shapes.
 constexpr std::size_t queue_steps = 4096;
 // Width of a step of the queue at least, in box diagonals: meshes without lengths would have steps of 0. It is a guard:
 // half and double give the same bits on seven shapes.
@@ -338,8 +338,8 @@ class Propagation {
   };
   double distance(Index v) const noexcept { return result_.distance[at(v)]; }
 
-  // A stack holds the windows of a step of the queue, from base_ on; the last one holds what lies beyond. Windows that
-  // follow each other lie in one block, so that the processor reads ahead.
+  // A stack holds the windows of a step of the queue, from base_ on; the last one holds the windows beyond. Windows
+  // that follow each other lie in one block, so that the processor reads ahead.
   struct Stack {
     Index block = Mesh::none, count = 0;  // the one on top, and its windows
   };
@@ -529,7 +529,7 @@ class Propagation {
     }
   }
 
-  // A window leaves a triangle through a side. Coordinates are those of that side; (x, y) is the pseudo-source, on the
+  // A window leaves a triangle through a side. Coordinates belong to that side; (x, y) is the pseudo-source, on the
   // side of the triangle. turn: of the frame of the side, seen from beyond it.
   void emit(Index side, double begin, double end, double x, double y, double sigma, Index from,
             const Turn& turn = {0, 1}) {

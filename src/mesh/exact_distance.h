@@ -1,19 +1,19 @@
 // Computes exact geodesic distances on a polyhedral surface, with windows (Mitchell, Mount and Papadimitriou 1987).
 //
 // A window is an interval of an edge. All its points see the same pseudo-source along straight lines, after the
-// triangles between are unfolded into a plane. A pseudo-source is a source, or a vertex where a shortest path may bend:
-// one at a border, at an edge of three triangles, or with angles that sum to more than 2 pi. Windows pass from triangle
-// to triangle in about the order of their distance. Three rules bound or drop a window:
+// triangles between are unfolded into a plane. A pseudo-source is a source, or a vertex where a shortest path may bend.
+// Such a vertex is at a border, at an edge of three triangles, or has angles that sum to more than 2 pi. Windows pass
+// from triangle to triangle in about the order of their distance. Three rules bound or drop a window:
 //
 //   - A ray that reaches a corner sooner bounds it (Chen and Han 1990).
 //   - A path by a corner of the triangle is shorter to every point of the window (Xin and Wang 2009).
 //   - Behind a vertex, only directions at an angle of at least pi to both sides of the incoming path are of use.
 //
-// At edges of three and more triangles a fourth rule holds (shortest_on_edges.h): a window goes on only where it is
-// shorter than those before. Triangles with the same corners count once, so a two-sided sheet is a single one.
+// At edges of three and more triangles a fourth rule holds (shortest_on_edges.h): a window continues only where it is
+// shorter than the windows before. Triangles with the same corners count once, so a two-sided sheet is a single one.
 //
 // The result is exact up to rounding on every set of triangles: with borders, edges of three triangles and slivers.
-// Memory: 100 bytes a triangle for the tables of sides, 64 for each call, and 56 for each window of the front.
+// Memory: 100 bytes per triangle for the tables of sides, 64 for each call, and 56 for each window of the front.
 #pragma once
 #include <cstdint>
 
@@ -29,7 +29,7 @@ struct TriangleSides {
 
   static std::int32_t next(std::int32_t side) noexcept { return side % 3 == 2 ? side - 2 : side + 1; }
   static std::int32_t last(std::int32_t side) noexcept { return side % 3 == 0 ? side + 2 : side - 1; }
-  // Tells whether an earlier triangle has the same corners, as those of two-sided sheets. Paths ignore copies.
+  // Tells whether an earlier triangle has the same corners. Two-sided sheets have such triangles. Paths ignore copies.
   bool is_copy(std::int32_t triangle) const noexcept { return edge[3 * static_cast<std::size_t>(triangle)] < 0; }
   // Returns the vertex where the side starts.
   std::int32_t start(std::int32_t side) const noexcept { return mesh.corners[static_cast<std::size_t>(side)]; }
@@ -63,7 +63,8 @@ struct PathEnd {
   double x = 0, y = 0;            // its place (x, -y) in the frame of the side
 };
 
-// A point of the surface: a vertex, or its place in each triangle that has it, one or those of an edge.
+// A point of the surface: a vertex, or its place in each triangle that has it. A point on an edge is in all triangles
+// of the edge.
 struct GeodesicPoint {
   struct Place {
     std::int32_t triangle;
@@ -72,7 +73,7 @@ struct GeodesicPoint {
   // Weights up to this share of their sum count as 0. So a ray that hits an edge gives a point of the edge, whatever
   // its rounding (1e-15). Larger values move points that are meant to lie beside an edge.
   static constexpr double least_weight = 1e-12;
-  // corners: those of a triangle; one of weight 0 may be Mesh::none. Without such a triangle, found() is false.
+  // corners: of a triangle; a corner of weight 0 may be Mesh::none. Without such a triangle, found() is false.
   GeodesicPoint(const TriangleSides& sides, const std::int32_t* corners, const double* weights, Memory& memory);
   bool found() const noexcept { return vertex >= 0 || !places.empty(); }
   Vec3 position(const Mesh& mesh) const noexcept;

@@ -14,8 +14,8 @@ namespace {
 // smaller share loses paths to rounding, a larger one could take a wrong corner. Half and double pass the 81 tests of
 // the mesh.
 constexpr double place_rounding = 1e-7;
-// A line that crosses more sides than this times those of the mesh goes in circles by rounding, and is lost. A straight
-// line crosses each at most once, so more only costs time.
+// A line that crosses more sides than this times the number of sides of the mesh goes in circles by rounding, and is
+// lost. A straight line crosses each at most once, so more only costs time.
 constexpr std::size_t most_rounds_of_line = 4;
 // Guards a division: a line along a side is off it by 0 on both ends. With 0 the 81 tests of the mesh pass too.
 constexpr double least_off_side = 1e-300;

@@ -19,9 +19,9 @@ constexpr double largest_part = 2.0 / 3.0;
 // 13. Half would correct quads alone: jittered hexagons then have an error of 328e-6 instead of 193e-6
 // (docs/surfaces.md). The double gives 120 pairs for 29.
 constexpr std::size_t most_corrected = 8;
-// Rounds in which faces take equal parts of what is left of the weights: trades passes over the faces for what a
-// neighbour with a lower limit did not take. On the 12 sheets of quads of docs/surfaces.md one round has errors
-// up to 0.4 % larger, two rounds up to 0.08 %. Six and twelve rounds change no error by more than 0.02 %.
+// Rounds in which faces share the rest of the weights equally. More rounds pass over the faces more often, and place
+// the weights that a neighbour with a lower limit could not. On the 12 sheets of quads of docs/surfaces.md one round
+// has errors up to 0.4 % larger, two rounds up to 0.08 %. Six and twelve rounds change no error by more than 0.02 %.
 constexpr int share_rounds = 3;
 // Faces or rows that one thread's job takes; the figures of polygon_laplacian.cpp hold.
 constexpr std::size_t correction_piece = 8192;

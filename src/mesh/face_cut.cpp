@@ -10,8 +10,8 @@ namespace {
 
 constexpr double no_ear = std::numeric_limits<double>::max(), cut_off = std::numeric_limits<double>::infinity();
 // Costs of cuts that differ by less than this share are equal, and the vertex numbers decide. A larger share would take
-// a worse diagonal, a smaller one would let rounding decide. Of 7,402 quads of 12 sheets and a double torus, 2,400 have
-// costs within 6e-15, and no other difference is below 2e-7. So half and double give the same cuts.
+// a worse diagonal, a smaller one would let rounding decide. Among 7,402 quads of sheets and a double torus, 2,400 have
+// costs within 6e-15. No other difference is below 2e-7. So half and double give the same cuts.
 constexpr double equal_costs = 1e-9;
 // A triangle of the cut must have at least this share of its face's area, on the face's side. It keeps rounding from
 // choosing triangles without area; at 0 a corner on a straight side may become one. On 52 generated sheets, ladders and
@@ -22,8 +22,8 @@ constexpr double least_area_share = 1e-9;
 // torus whose coordinates have six digits, and so weights by some 1e-12.
 constexpr double planar_bend = 1e-6;
 // Faces of fewer corners look at all reflex corners, larger ones at those near the ear. More is slower for large faces,
-// fewer for small ones: of a random star of 128 corners each costs 0.69 us with the tree and 0.95 without, of 64
-// corners 0.60 and 0.54, of 32 corners 0.50 and 0.38 (beside a build). The cuts are the same.
+// fewer for small ones. A corner of a random star of 128 costs 0.69 us with the tree and 0.95 without. In a star of 64
+// it costs 0.60 and 0.54. The cuts are the same.
 constexpr std::size_t least_in_tree = 128;
 // Divides by lengths of points at one place.
 constexpr double least_cross = 1e-300;

@@ -36,7 +36,7 @@ class FaceCutter {
     std::int32_t blocked = -1;            // the first of the ears that this corner blocks
     std::int32_t former = -1, next = -1;  // in the list of its blocker
   };
-  // What a search for the corners inside an ear reads of a reflex corner.
+  // The data of a reflex corner that a search for the corners inside an ear reads.
   struct Reflex {
     Vec3 point;
     std::int32_t key, corner;

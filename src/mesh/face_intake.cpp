@@ -13,7 +13,7 @@ namespace {
 // Most corners of one face. Cutting takes up to the square of them; a larger face is a mistake of the host.
 constexpr std::int64_t most_corners = 65535;
 // A face counts as not planar if a corner is farther than this share of its diameter from the mean plane. It is a count
-// for the report alone. Of 576 quads of a bumpy sheet it counts 330, half of it 454, the double 170.
+// for the report alone. It counts 330 of 576 quads of a bumpy sheet. Half of it counts 454, double counts 170.
 constexpr double report_bend = 0.01;
 // Faces between two looks at a cancel.
 constexpr std::uint32_t faces_per_poll = 65536;

@@ -59,13 +59,13 @@ struct Faces {
   SharedVector<std::int32_t> given;
   // 1 for a quad that is not planar: its operator uses both diagonals as cuts.
   SharedVector<std::uint8_t> second_cut;
-  // The number of corners of every face as given.
+  // The number of corners of every face of the caller.
   SharedVector<std::uint32_t> given_size;
-  // Faces as given that have four corners or more.
+  // Faces of the caller that have four corners or more.
   std::uint32_t polygon_count = 0;
   // Usable faces with a corner far from their mean plane.
   std::uint32_t non_planar_count = 0;
-  // The number of corners of the largest face as given.
+  // The number of corners of the largest face of the caller.
   std::uint32_t largest_size = 0;
 };
 

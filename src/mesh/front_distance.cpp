@@ -101,13 +101,13 @@ class FrontDistance::Fronts {
     carry(b, a, c, ab, bc, ac);
   }
 
-  // Carries the front of the source of a, which is not the source of b, if it can be nearer to c than what is known.
+  // Carries the front of the source of a, which is not the source of b, if it can be nearer to c than the known source.
   void carry(Index a, Index b, Index c, double ab, double ac, double bc) {
     const Index source = source_of_[at(a)];
     if (line(c, source) < out_[c]) offer(c, distance_across(out_[a], guess(a, b, ab), ab, ac, bc), source);
   }
 
-  // Guesses the distance of b from the source of its neighbour a, which is not the nearest to b: it exceeds the
+  // Guesses the distance of b from the source of its neighbour a, which is not the nearest source to b. It exceeds the
   // straight line by the same factor as the distance of a.
   double guess(Index a, Index b, double ab) const noexcept {
     const Index source = source_of_[at(a)];

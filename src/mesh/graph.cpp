@@ -24,7 +24,7 @@ constexpr double widest_spread = 1e30;
 // of one more look at a number. No result depends on it.
 constexpr std::size_t polled_piece = 16384;
 
-// One direction of an edge as given: its larger vertex and its weight.
+// One direction of an edge of the caller: its larger vertex and its weight.
 struct Arc {
   Index to;
   double weight;

@@ -22,7 +22,7 @@ struct GraphInput {
 };
 
 // Reads the arrays of a desc. Throws HF_ERROR_NULL_POINTER or HF_ERROR_INVALID_ARGUMENT; WeightedGraph::make checks
-// what is in them.
+// their contents.
 GraphInput read_graph(const hf_graph_desc& desc);
 
 struct WeightedGraph {
@@ -36,7 +36,7 @@ struct WeightedGraph {
   Topology topology;
   Vector<double> weights;        // by edge, in units of their component
   Vector<double> masses;         // by inner vertex
-  Vector<double> weight_unit;    // by component: a weight of 1 here is this weight as given; a power of two
+  Vector<double> weight_unit;    // by component: a weight of 1 here is this weight of the caller; a power of two
   Vector<std::uint8_t> limited;  // by inner vertex: 1 where a weight was too far from the median to be kept
 };
 

@@ -281,7 +281,7 @@ namespace {
 // quadratic time. No result depends on it.
 constexpr std::size_t short_row = 32;
 
-// Sorts the entries of a row by column and adds up those of one column. Equal columns are added from the smallest
+// Sorts the entries of a row by column and adds up the entries of one column. Equal columns are added from the smallest
 // weight on, so that both rows of parallel edges get the same sum. Returns the number of entries that are left.
 std::size_t sort_row(Index* column, double* weight, std::size_t count, Memory& memory) {
   if (count <= short_row) {

@@ -35,9 +35,9 @@ class IntrinsicTriangulation {
   // Makes an empty triangulation.
   explicit IntrinsicTriangulation(Memory& memory)
       : memory_(&memory), flipped_(&memory), doubled_(&memory), changed_(&memory) {}
-  // Makes the tufted cover (see above) of a mesh, with the mesh's own edges. held: null, or for each edge whether more
-  // of the surface lies beyond it. A held edge is no border and is never flipped; each of its half-edges is its own
-  // twin. Throws std::bad_alloc.
+  // Makes the tufted cover (see above) of a mesh, with the mesh's own edges. held: null, or for each edge whether the
+  // surface continues beyond it. A held edge is no border and is never flipped; each of its half-edges is its own twin.
+  // Throws std::bad_alloc.
   static IntrinsicTriangulation make(const Mesh& mesh, const Topology& topology, Memory& memory,
                                      JobRunner* jobs = nullptr, const Vector<std::uint8_t>* held = nullptr);
 

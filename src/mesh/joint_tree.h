@@ -14,7 +14,7 @@ class JointTree {
  public:
   // parents: by joint, HF_NO_INDEX of a root; without a circle. owns: by joint, whether it owns vertices.
   JointTree(Span<const std::uint32_t> parents, Span<const std::uint8_t> owns, Memory& memory);
-  // Of two joints that own vertices. Roots are 2 apart.
+  // For two joints that own vertices. Roots are 2 apart.
   Index steps(std::uint32_t a, std::uint32_t b) const noexcept;
   // The nearest ancestor that owns vertices, or the number of joints.
   std::uint32_t above(std::uint32_t joint) const noexcept { return above_[joint]; }

@@ -19,8 +19,8 @@ constexpr double least_gap = 1e-12;
 // change no bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr double closing_gap = 1e-6;
 // A cross product keeps fewer than seven digits if twice the area over the longest edge squared is below this number.
-// Such triangles take the slower way by their edges; a larger number takes it for nothing. Half and double change no
-// bit on eight shapes with needles, loose pieces and a long ribbon.
+// Such triangles go the slower way by their edges. A larger number uses the slower way without need. Half and double
+// change no bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr double least_area = 1e-9;
 // The clamped operator raises edge weights to this share of the median weight. Positive weights keep the field within
 // its site values. A smaller number would worsen the condition number of the matrix. A larger one changes fields. Half

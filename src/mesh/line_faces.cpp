@@ -166,7 +166,7 @@ class LineFaces {
     }
   }
 
-  // Whether two shared sides of a face overlap on its line. Then the face joins what lies beyond them.
+  // Whether two shared sides of a face overlap on its line. Then the face joins the triangles beyond them.
   bool joins(Index face) {
     struct Part {
       double begin, end;

@@ -2,7 +2,7 @@
 //
 // A face without area covers nothing. It can still join others: a sliver that shuts a T-junction joins the face at its
 // long edge to those at its short edges. So a face on a line stays if two of its shared edges overlap on that line. It
-// also stays if a corner is in no face with area: such a vertex would have no surface. What stays does not depend on
+// also stays if a corner is in no face with area: such a vertex would have no surface. The kept faces do not depend on
 // the order of faces or vertices.
 #pragma once
 #include "base/jobs.h"

@@ -30,7 +30,7 @@ constexpr double zero_area = 1e-12;
 // noise of the measurement (two threads). No result depends on this number.
 constexpr std::size_t report_piece = 65536;
 
-// Returns the number of triangles, of faces those of their cut.
+// Returns the number of triangles; for faces, the triangles of their cut.
 std::uint32_t check_sizes(const MeshInput& input) {
   if (input.vertex_count == 0) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "there are no vertices: positions.count is 0");
   if (input.triangle_count == 0 && input.faces.face_count == 0)

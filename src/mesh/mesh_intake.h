@@ -1,4 +1,4 @@
-// Reads the mesh of a hf_surface_desc: which arrays are set, and their strides. Mesh::make checks what is in them.
+// Reads the mesh of a hf_surface_desc: which arrays are set, and their strides. Mesh::make checks their contents.
 #pragma once
 #include "hf/surface.h"
 #include "mesh/mesh.h"
@@ -13,7 +13,7 @@ FaceRows read_faces(const hf_surface_desc& desc);
 // becomes the largest that they hold, which every limit refuses.
 std::uint32_t cut_size(const FaceRows& faces);
 
-// faces: those of the desc. Throws as read_faces does.
+// faces: from the desc. Throws as read_faces does.
 MeshInput read_mesh(const hf_surface_desc& desc, const FaceRows& faces);
 
 }  // namespace hf_inner

@@ -15,7 +15,7 @@ constexpr std::size_t mollify_piece = 16384;
 // the time. Half and double change no bit on eight shapes with needles, loose pieces and a long ribbon.
 constexpr int most_rounds = 64;
 // An edge grows by this factor more than needed, so that rounding does not break the triangle inequality. More moves
-// fields for nothing. Without it, and with twice the excess, fields on eight shapes move by 1e-9 of their range.
+// fields without need. Without it, and with twice the excess, fields on eight shapes move by 1e-9 of their range.
 constexpr double overshoot = 1.0001;
 
 void find_lengths(const Mesh& mesh, const Topology& topology, MollifiedLengths& out, JobRunner* jobs) {

@@ -16,8 +16,8 @@ namespace hf_inner {
 
 // In a triangle with edges a >= b >= c, b + c - a must be at least this share of a. A flat triangle then gets
 // cotangents of 3,500. Less leaves larger cotangents and fewer digits, more moves fields. On a triceratops with angles
-// of 0.0002 degrees half and double move a field of 300 sites by 6e-6 and 8e-6 of its range; on seven other shapes by
-// 7e-7.
+// of 0.0002 degrees half and double move a field of 300 sites by at most 8e-6 of its range. On seven other shapes they
+// move it by 7e-7.
 constexpr double mollify_closing = 1e-8;
 // The longest edge of a triangle counts as at least this share of the mean edge. It gives triangles with three equal
 // positions a size. It is a guard. Half and double change no bit on eight shapes with needles, loose pieces and a long

@@ -1,7 +1,7 @@
 // Tells whether two sets of points come within a tolerance of each other.
 //
 // Distances are computed on differences scaled by a power of two that brings the tolerance near 1, so that no tolerance
-// overflows or underflows. Every answer is that of comparing all pairs with Nearness::near, to the last bit.
+// overflows or underflows. Comparing all pairs with Nearness::near gives the same answers, to the last bit.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ class Nearness {
   Vec3 scaled(Vec3 difference) const noexcept { return scale_ * difference; }
   double scaled(double difference) const noexcept { return scale_ * difference; }
   double tolerance() const noexcept { return tolerance_; }  // scaled
-  // Of a scaled difference.
+  // d: a scaled difference.
   bool near(Vec3 d) const noexcept { return !(dot(d, d) > square_); }
 
  private:

@@ -19,7 +19,7 @@ PickTarget read_target(const Mesh& mesh, const hf_pick_desc& desc);
 Vec3 read_direction(const double* direction);
 
 struct RayHit {
-  std::uint32_t triangle = HF_NO_INDEX;                           // or face, as given
+  std::uint32_t triangle = HF_NO_INDEX;                           // or face, of the caller
   std::int32_t corner[3] = {Mesh::none, Mesh::none, Mesh::none};  // inner: what `weight` belongs to
   std::int32_t vertex = Mesh::none;                               // its corner nearest to the hit, inner
   double weight[3] = {0, 0, 0};

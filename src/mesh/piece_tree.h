@@ -3,7 +3,7 @@
 // A block holds the boxes of four triangles or of four blocks, in single precision and a little wider, so that
 // compilers test four together. The caller tests the triangles in double precision, so no result depends on this
 // rounding. The triangles of a piece are in the order of a space-filling curve (Morton). Cost: O(n log n) to build, and
-// less than that of cuts at medians. It is immutable, so any number of threads may search it.
+// less than cuts at medians. It is immutable, so any number of threads may search it.
 #pragma once
 #include <algorithm>
 #include <cstring>

@@ -9,7 +9,8 @@ namespace hf_inner {
 namespace {
 
 // Barycentric weights may sum to 1 within this. Three of single precision are off by at most 9e-8, so half and double
-// take them too; a larger bound would hide wrong ones. bad_sites_test reaches it with sums of 0.999 and 1.001.
+// accept them too. A larger bound would hide wrong ones. The test bad_sites_test reaches it with sums of 0.999 and
+// 1.001.
 constexpr double weight_sum_error = 1e-6;
 // A place whose weight at a corner exceeds 1 minus this number becomes that vertex. A larger number would move places
 // that the host put near a corner. Half and double change no bit on eight shapes with needles, loose pieces and a long

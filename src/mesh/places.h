@@ -52,14 +52,14 @@ inline std::uint32_t component_of(const Mesh& mesh, std::int32_t inner) noexcept
 // Whether the inner vertices are the caller's, in the same order: none is welded, none isolated.
 bool keeps_vertices(const Mesh& mesh) noexcept;
 
-// Returns by inner triangle the triangle or face as given.
+// Returns by inner triangle the triangle or face of the caller.
 Vector<std::uint32_t> given_triangles(const Mesh& mesh, Memory& memory);
 
 // Returns a point of the caller: xyz. Throws HF_ERROR_NULL_POINTER or HF_ERROR_NON_FINITE.
 Vec3 read_point(const double* p, const char* name);
 
-// A point that names a part of the surface lies up to this many box diagonals from the middle of the box: one that lies
-// farther has another unit than the mesh. The surface ends half a diagonal from there; half and double take other
+// A point that names a part of the surface is at most this many box diagonals from the middle of the box. A point
+// farther away has another unit than the mesh. The surface ends half a diagonal from there; half and double take other
 // mistakes for meant.
 constexpr double farthest_point = 2;
 // Returns the inner place of such a point: xyz. name, i: the point in the text of errors. Throws HF_ERROR_NON_FINITE or
@@ -71,7 +71,7 @@ Vec3 read_point_near(const Mesh& mesh, const double* p, const char* name, std::u
 constexpr double farthest_pose = 1e15;
 inline bool is_too_far(Vec3 inner) noexcept { return !(norm(inner) <= farthest_pose); }
 
-// Throws HF_ERROR_UNSUPPORTED for a surface that was made of a graph. purpose: what the call needs triangles for.
+// Throws HF_ERROR_UNSUPPORTED for a surface that was made of a graph. purpose: why the call needs triangles.
 void require_triangles(const Mesh& mesh, const char* purpose, std::uint32_t index = HF_NO_INDEX);
 
 }  // namespace hf_inner

@@ -5,7 +5,7 @@
 
 namespace hf_inner {
 
-// The triangles of a surface in a tree, for rays: what lies inside, and how far it is through.
+// The triangles of a surface in a tree. Rays tell which points are inside, and how thick the surface is there.
 class SkinShape {
  public:
   SkinShape(const Mesh& mesh, Memory& memory);

@@ -7,9 +7,9 @@
 
 namespace hf_inner {
 
-// Returns the distance of corner C from a source that has distance a from corner A and b from corner B. ab, ac and bc
-// are the edge lengths of the triangle. The path is a straight line if that crosses the edge AB, else it follows an
-// edge.
+// Returns the distance of corner C from a source that has distance a from corner A and b from corner B. The numbers ab,
+// ac and bc are the edge lengths of the triangle. The path is a straight line if that crosses the edge AB, else it
+// follows an edge.
 inline double distance_across(double a, double b, double ab, double ac, double bc) noexcept {
   const double along_edges = std::min(a + ac, b + bc);
   if (!(ab > 0)) return along_edges;

@@ -14,7 +14,7 @@ constexpr std::size_t near_vertices = 4096;
 // meshes as they are.
 constexpr std::size_t fewest_to_order = 3 * near_vertices;
 // The order is good if this share of the triangles has its corners in one piece. Scans and meshes by quick programs
-// have 0.13 to 0.6, grids of up to 1,000 columns and the others 0.76 and more; the curve gives 0.92.
+// have 0.13 to 0.6, grids of up to 1,000 columns and the others 0.76 and more. The curve gives 0.92.
 constexpr double local_share = 0.7;
 // Bits of a coordinate along the curve. Vertices of one cell, 2.4e-4 of the box wide, keep their order: more bits take
 // longer, less leave more of the old order.

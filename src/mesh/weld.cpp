@@ -24,8 +24,8 @@ Vec3 position(const MeshInput& input, std::size_t v) noexcept {
   return {input.positions.get(v, 0) + 0.0, input.positions.get(v, 1) + 0.0, input.positions.get(v, 2) + 0.0};
 }
 
-// Mixes the bits of a position. The multipliers are those of SplitMix64 (Steele, Lea and Flood 2014), the last two
-// found by Stafford: each bit of the input changes each bit of the hash with probability near one half.
+// Mixes the bits of a position. The multipliers come from SplitMix64 (Steele, Lea and Flood 2014); Stafford found the
+// last two. Each bit of the input changes each bit of the hash with probability near one half.
 std::uint64_t mixed(Vec3 p) noexcept {
   const auto bits = [](double x) {
     std::uint64_t b;

@@ -1,4 +1,4 @@
-// Checks what the baselines take.
+// Checks the arguments of the baselines.
 #pragma once
 #include "engine/core.h"
 

@@ -138,8 +138,8 @@ void RefactorSolver::factorise(State& state) const {
   state.path = path;
 }
 
-// u <- A^-1 right with the points bordered, both in factor order. points: what the points miss, by point, overwritten
-// with their lambda. constant: by component. total: by component, the sum of the forces; null: 0.
+// u <- A^-1 right with the points bordered, both in factor order. points: the residual of each point, overwritten with
+// its lambda. constant: by component. total: by component, the sum of the forces; null: 0.
 void RefactorSolver::solve_system(const Vector<double>& right, Index channels, double* u, Vector<double>& points,
                                   Vector<double>& constant, const Vector<double>* total) const {
   const std::size_t n = at(core_->size()), m = at(channels);
@@ -190,7 +190,7 @@ double RefactorSolver::softness(const Site& site) const noexcept {
   return site.compliance / core_->mean_diagonal[at(site.component)];
 }
 
-// lambda of the vertex sites that balances K u - right, less what the points push there.
+// lambda of the vertex sites that balances K u - right, less the force of the points there.
 void RefactorSolver::write_vertex_flux(const double* u, Index channels, const double* right, const double* missed,
                                        double* flux) const {
   const std::size_t m = at(channels);
@@ -200,7 +200,8 @@ void RefactorSolver::write_vertex_flux(const double* u, Index channels, const do
     if (site.component < 0 || !site.is_vertex()) continue;
     const std::size_t v = at(site.vertex[0]);
     const double soft = softness(site);
-    // K u loses the lambda of a site that is softer than the mesh around it, so that comes from what the site misses
+    // K u loses the lambda of a site that is softer than the mesh around it, so that comes from the residual of the
+    // site
     const bool is_softer = soft * k.value[k.diagonal(site.vertex[0])] > 1;
     for (std::size_t c = 0; c < m; ++c) {
       if (is_softer) {
@@ -322,7 +323,7 @@ void RefactorSolver::solve(const double* values, Index channels, double* field, 
   } while (corrections.go_on(largest));
 }
 
-// right = W lambda - K u, and what the sites miss: K du - W dlambda = right, w'du + D dlambda = missed.
+// right = W lambda - K u, and the residual of the sites: K du - W dlambda = right, w'du + D dlambda = missed.
 bool RefactorSolver::correct(const double* values, Index channels, const double* field, const double* flux,
                              double* change, double* flux_change) const {
   Memory& memory = *core_->memory;

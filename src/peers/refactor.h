@@ -51,10 +51,10 @@ class RefactorSolver final : public SiteSolver {
           dense(other.dense, &memory),
           factor(other.factor),
           path(other.path) {}
-    Vector<Site> sites;                               // by number (slot); component -1: not in use
+    Vector<Site> sites;                               // by slot; component -1: not in use
     Vector<std::int32_t> count;                       // sites by component
     Vector<std::uint8_t> floating;                    // by component: 1 if it has no vertex site
-    Vector<std::int32_t> points;                      // numbers (slots) of the point sites
+    Vector<std::int32_t> points;                      // slots of the point sites
     Vector<std::shared_ptr<const DenseBlock>> dense;  // by component, of its point sites
     std::shared_ptr<const Factor> factor;
     std::shared_ptr<const Vector<double>> path;  // the columns A^-1 w of the point sites' weights w
@@ -65,7 +65,7 @@ class RefactorSolver final : public SiteSolver {
                     Vector<double>& constant, const Vector<double>* total) const;
   void write_vertex_flux(const double* u, std::int32_t channels, const double* right, const double* missed,
                          double* flux) const;
-  bool loses_digits() const noexcept;  // then a field takes corrections
+  bool loses_digits() const noexcept;  // then a field needs corrections
   double softness(const Site& site) const noexcept;
 
   std::shared_ptr<const Core> core_;

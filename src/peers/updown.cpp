@@ -336,7 +336,7 @@ class UpdownSolver final : public SiteSolver {
 
   std::shared_ptr<const Core> core_;
   double penalty_;
-  Vector<Site> sites_;  // by number (slot); component -1: not in use
+  Vector<Site> sites_;  // by slot; component -1: not in use
   Vector<Index> count_;
   Vector<Index> position_{core_->memory.get()};
   mutable std::mutex mutex_;

@@ -1,5 +1,5 @@
 // The engine updown: the method of Xu, Zhang, Cohen-Or and Xiong 2009, Section 3, without changes. The factor updates
-// are those of Davis and Hager 2005.
+// follow Davis and Hager 2005.
 //
 //     (K + R R') u = R R' s,   R = [sqrt(alpha_i) w_i]
 //

@@ -1,8 +1,8 @@
 // Components of a surface, moved apart while its quads are made.
 //
-// Quads are fitted where they are too far from the surface. Where two components lie beside each other, the quads of
-// one hide what the quads of the other miss: a thin limb inside a sleeve could lose its half. So the components stand
-// in a row along x meanwhile, each farther from all others than it is long.
+// Quads are fitted where they are too far from the surface. If two components lie beside each other, the quads of one
+// hide places that the quads of the other miss. A thin limb inside a sleeve could lose its half. So the components
+// stand in a row along x meanwhile, each farther from all others than it is long.
 #pragma once
 #include "remesh/quad_mesh.h"
 

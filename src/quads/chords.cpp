@@ -10,16 +10,17 @@ namespace hf_inner {
 namespace {
 
 // A chord waits for the next round if its mean edge has become longer than this many times the one it was sorted by.
-// Smaller spreads the removed chords more evenly, larger takes fewer rounds. Below 1 no chord would go. With 1.0, 16 of
-// 21 runs stay the same, with 2.4 14 do; some of the others get better and some worse.
+// Smaller spreads the removed chords more evenly, larger takes fewer rounds. Below 1 no chord would go. With 1.0 and
+// 2.4, 14 or more of 21 runs stay the same. Some of the others get better and some worse.
 constexpr double later = 1.2;
 // Two feature edges at a vertex that turn by more than 60 degrees make a corner, which stays: the cosine between them.
-// With 30 degrees, 41 % fewer chords can go: a sheet with holes that should have 100 quads has 425 instead of 341. With
-// 90 degrees 13 of 20 runs stay the same, and mean distances fall by 3 to 10 %.
+// With 30 degrees, 41 % fewer chords can go. A sheet with holes that should have 100 quads then has 425 instead of 341.
+// With 90 degrees 13 of 20 runs stay the same. Mean distances of the others fall by 3 to 10 %.
 constexpr double most_bend = -0.5;
 
 // A closed row of quads keeps at least so many: around a rod, or along it over both its ends. With 2 a box of six quads
-// can become two flat ones. In 33 runs of models with parts 4 and 2 differ in one: 4.1 and 6.9 % as largest distance.
+// can become two flat ones. In 33 runs of models with parts, 4 and 2 differ in one. Its largest distance is 4.1 % with
+// 4 and 6.9 % with 2.
 constexpr std::int32_t least_ring = 4;
 
 class Collapser {
@@ -297,7 +298,7 @@ class Collapser {
     for (const std::int32_t h : halves_) left -= q_.tail[h] == hub || q_.head(h) == hub;
     return left >= 3;
   }
-  // Checks what is around v, which joins the hub of class c, and notes its half-edges in moved_.
+  // Checks the faces around v, which joins the hub of class c, and notes its half-edges in moved_.
   bool check_around(std::int32_t v, std::int32_t c) {
     const std::int32_t first = first_of_fan(start_[v]);
     for (std::int32_t h = first; h != none;) {
@@ -453,7 +454,7 @@ class Collapser {
       quads_at_[v] = 0;
       at_border_[to] |= at_border_[v];
     }
-    // Half-edges around the classes are those of the joins' fans.
+    // Half-edges around the classes belong to the joins' fans.
     for (const Join& j : joins_) {
       for (const std::int32_t g : {j.a, j.b}) {
         if (g == none) continue;
@@ -463,7 +464,7 @@ class Collapser {
     }
     for (const std::int32_t v : classes_) place_[v] = none;
   }
-  // A hub keeps its number and takes what the best vertex of its class has. The half-edges of the others get its
+  // A hub keeps its number and gets the data of the best vertex of its class. The half-edges of the others get its
   // number.
   void keep_hubs(Table<std::int32_t>& best) {
     QuadMesh& all = q_.vertices;
@@ -508,7 +509,7 @@ class Collapser {
   Memory& memory_;
   Table<std::uint8_t> dead_, crossed_;  // by quad; crossed_: one bit for every side that the chord crosses
   Table<std::uint8_t> in_fan_;          // by half-edge
-  // By vertex. Of the classes of vertices that become one.
+  // By vertex. Numbers of the classes of vertices that become one.
   Table<std::int32_t> leader_, start_, place_;
   Table<std::int32_t> hub_, gaps_;  // by leader: the hub of the class; the gaps that the border makes in its fan
   Table<std::int32_t> quads_at_;

@@ -8,10 +8,11 @@
 
 namespace hf_inner {
 
-// A vertex of more quads than this is a hub. A chord whose edges end at a hub is checked from their other ends, so it
-// costs what is around those and not what is around the hub. Two hubs never become one. Less keeps more vertices apart,
-// more walks longer around each. The largest vertex of 41 shared meshes has 44, so this changes none of them. A disc of
-// 45,000 corners and no vertex inside has one of 25,000 quads: it takes 0.3 s, and did not end in 143 s without hubs.
+// A vertex of more quads than this is a hub. A chord whose edges end at a hub is checked from their other ends, so its
+// cost depends on the faces there and not on the faces around the hub. Two hubs never become one. Less keeps more
+// vertices apart, more walks longer around each. The largest vertex of 41 shared meshes has 44, so this changes none of
+// them. A disc of 45,000 corners and no vertex inside has one of 25,000 quads: it takes 0.3 s, and did not end in 143 s
+// without hubs.
 constexpr std::int32_t hub_quads = 256;
 
 // Removes chords until the mesh has at most `wanted` quads, or none can go. A chord that would leave less than `least`

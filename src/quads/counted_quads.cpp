@@ -17,18 +17,18 @@ constexpr double shorter = 0.7;
 // with holes gets 119 times as many as wanted. With 8 five runs that need a try stay the same.
 constexpr std::int32_t most_tries = 4;
 // The same where lines of creases or borders were left out. Shorter edges do not bring them back. A comb of 64,000
-// corners fails four times and takes 1.4 s; with one try it takes 1.3 s. Of the shared meshes, with creases of 20 and
-// 30 degrees, none that leaves lines out needs a try.
+// corners fails four times and takes 1.4 s; with one try it takes 1.3 s. No shared mesh that leaves lines out needs a
+// try, with creases of 20 and 30 degrees.
 constexpr std::int32_t tries_without_lines = 1;
 // A number of faces this near to the wanted one is good. The result is 1.4 % off on average. At 0.01 it is 1.0 %, with
-// a tenth more tries. At 0.04 it is 2.2 %, and 2 of 15 runs take 2.4 times as long: fitting aims twice (fitted_error).
+// a tenth more tries. At 0.04 it is 2.2 %. Then 2 of 15 runs take 2.4 times as long: fitting aims twice (fitted_error).
 constexpr double faces_error = 0.02;
 // At most this many tries to come so near. With 2 the result is 1.9 % off on average, with 8 it is 1.3 %.
 constexpr std::int32_t count_tries = 4;
-// A component smaller than so many quads that loses its shape gets the fewest quads there can be, six or one. Of 16
-// runs of models with parts, 12 changes two: irregular vertices by 6 % at most, one largest distance from 1.6 to 2.0 %
-// of the box. 48 changes four: a spider at 800 quads has 18 instead of 52 % irregular vertices, but the rods of a model
-// of 21 parts at 3,000 are 3.0 instead of 1.1 % off.
+// A component smaller than so many quads that loses its shape gets the fewest quads there can be, six or one. A value
+// of 12 changes two of 16 runs of models with parts: irregular vertices by 6 % at most. A value of 48 changes four. A
+// spider at 800 quads then has 18 instead of 52 % irregular vertices, but the rods of a model of 21 parts are 3.0
+// instead of 1.1 % off.
 constexpr double few_quads = 24;
 
 double area_of(const FluxSurface& surface, std::int32_t t) {
@@ -37,7 +37,7 @@ double area_of(const FluxSurface& surface, std::int32_t t) {
          norm(cross(surface.position[surface.tail[3 * t + 1]] - a, surface.position[surface.tail[3 * t + 2]] - a));
 }
 
-// The quads of `a` in the components with first[component], and those of `b` in the others.
+// The quads of `a` in the components with first[component], and the quads of `b` in the others.
 QuadComplex joined(const QuadComplex& a, const Table<std::int32_t>& component_a, const Table<std::uint8_t>& first,
                    const QuadComplex& b, const Table<std::int32_t>& component_b, Memory& memory) {
   QuadComplex all(memory);

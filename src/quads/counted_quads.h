@@ -10,7 +10,7 @@ double area_of(const FluxSurface& surface);
 // How far a number of quads is from the wanted one: half as many are as bad as twice as many.
 double miss_of(double ratio) noexcept;
 
-// Makes quads of a map at any edge length. Components whose quads have another Euler characteristic there get those of
+// Makes quads of a map at any edge length. Components whose quads have another Euler characteristic there get quads of
 // shorter edges, and at last quads of their triangles.
 class QuadSource {
  public:

@@ -2,11 +2,11 @@
 //
 //     (K + t M) z = t M w          (Knoeppel, Crane, Pinkall and Schroeder 2013, Section 5)
 //
-// K is the operator of direction fields (field/direction_system.h), M the vertex areas, w the wished crosses as complex
-// numbers of the fourth degree with |w| <= 1. 1 / sqrt(t) is the radius over which crosses are evened out. The first
-// solve takes w from the curvature alone. Each later round fills the rest of w with the crosses of the round before,
-// at length 1: w = q + (1 - |q|) z / |z|. This is diffusion with normalisation (Viertel and Osting 2019). All rounds
-// have the same matrix, so one factor serves them all. Hard crosses are sites on that factor.
+// K is the operator of direction fields (field/direction_system.h), and M holds the vertex areas. The wished crosses w
+// are complex numbers of the fourth degree with |w| <= 1. The number 1 / sqrt(t) is the radius over which crosses are
+// evened out. The first solve takes w from the curvature alone. Each later round fills the rest of w with the crosses
+// of the round before, at length 1: w = q + (1 - |q|) z / |z|. This is diffusion with normalisation (Viertel and Osting
+// 2019). All rounds have the same matrix, so one factor serves them all. Hard crosses are sites on that factor.
 #pragma once
 #include <complex>
 

@@ -9,18 +9,17 @@ namespace hf_inner {
 namespace {
 
 // A surface is cut if at least this share of its area lies in triangles with an edge of more than so many edges of
-// quads. Cutting others changes more than it mends. At 3,000 quads, every second one of 36 character models: 18 models,
-// by a twentieth or more, better and worse (before most_facet): with 0.5 and 4 irregular vertices 6 and 2, angles 7 and
-// 1, distances 4 and
-// 2. With 0.1 and 4: 7 and 5, 9 and 5, 8 and 2. With 0.5 and 2: 7 and 6, 9 and 5, 8 and 2.
+// quads. Cutting others changes more than it mends. Chosen on 18 character models at 3,000 quads, by counts of models
+// that are a twentieth better or worse (before most_facet). With 0.5 and 4, irregular vertices are better on 6 models
+// and worse on 2, angles on 7 and 1. With 0.1, or with 2, more models are worse: 5 or 6.
 constexpr double coarse_share = 0.5, coarse_length = 4;
 // Then it is cut until no edge is longer than so many edges of quads. Chosen on mpi_triang, eight, double-torus and
 // oblong at 5,000 quads, before most_facet: 2 and 3 lose a limb of oblong; with 1 all four are as good, in more time.
 constexpr double cut_length = 1.5;
-// Crosses even out over four times the facets of the surface, which count up to so many edges of quads: less follows
-// the facets of a scan, more forgets the shape of few long triangles. Irregular vertices over those without cutting, as
-// geometric means: six scans at 50,000 quads 1.33 with 1 and 0.79 with 4, 18 characters at 3,000 quads 0.91 and 0.92.
-// With 4 for the curvature too, 0.95 and 0.98.
+// Crosses even out over four times the facets of the surface. A facet counts up to so many edges of quads. Less follows
+// the facets of a scan, more forgets the shape of few long triangles. On six scans at 50,000 quads, cutting multiplies
+// the irregular vertices by 1.33 with 1 and by 0.79 with 4. On 18 characters both values multiply them by 0.9. With 4
+// for the curvature too, 0.95 and 0.98.
 constexpr double most_facet = 4;
 // Cutting ends where there would be so many more triangles for each quad: needles have many pieces. Half and double
 // change none of mpi_triang, eight, double-torus and oblong at 5,000 quads.
@@ -89,7 +88,7 @@ CutMesh CutMesh::make(const Core& core, double longest, Index most) {
   out.corner.assign(core.mesh.corners.begin(), core.mesh.corners.end());
   for (Index t = 0; t < core.mesh.triangle_count(); ++t) out.parent.push_back(t);
   out.weight.assign(out.parent.size(), Weights{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
-  // The longest edges are halved first, so that what is left where it ends are the shortest ones.
+  // The longest edges are halved first, so the shortest edges remain where it ends.
   double now = longest_edge(core);
   while (now > longest && out.cut(std::max(longest, now / 2), most, memory)) {
     now = 0;
@@ -192,7 +191,7 @@ bool CutMesh::cut(double longest, Index most, Memory& memory) {
 namespace {
 
 CutMesh cut_checked(const Core& whole, double length, double quads) {
-  // Refuses what is no surface. A cut one has more edges, so its faults are a smaller share.
+  // Refuses a mesh that is no surface. A cut one has more edges, so its faults are a smaller share.
   FluxSurface::make(whole.mesh, whole.topology(), *whole.memory);
   return CutMesh::make(whole, cut_length * length, most_triangles(whole, quads));
 }

@@ -12,7 +12,7 @@ namespace hf_inner {
 
 // Returns the share of a surface that lies in triangles longer than several quads. length: of their edges.
 double coarse_part(const Core& core, double length) noexcept;
-// Whether much of a surface lies in such triangles.
+// Whether such triangles make up much of a surface.
 bool is_coarse(double coarse_part) noexcept;
 
 struct CutMesh {
@@ -38,7 +38,7 @@ struct CutMesh {
   };
   Vector<Vec3> position;   // by vertex, inner units of the core, whose vertices come first
   Vector<Index> corner;    // three vertices for each triangle
-  Vector<Index> parent;    // by triangle, that of the core
+  Vector<Index> parent;    // by triangle, its triangle of the core
   Vector<Weights> weight;  // by triangle
   Vector<Middle> middle;   // of every edge that was cut, ascending
 
@@ -47,11 +47,11 @@ struct CutMesh {
   Index middle_of(Index a, Index b) const noexcept;
 };
 
-// What quads of one surface share where it is cut for one edge length.
+// The data that quads of one surface share where it is cut for one edge length.
 struct CutBase {
   // quads: how many are wanted; it bounds the triangles.
   CutBase(const Core& whole, double length, double quads);
-  // The point of `whole` that a point of `core` is. Weights are those of the corners of their meshes.
+  // The point of `whole` that a point of `core` is. Weights belong to the corners of their meshes.
   SurfacePoint in_whole(const SurfacePoint& point) const noexcept;
 
   double length, quads;

@@ -71,7 +71,7 @@ void DefiniteSystem::fix(Span<const Index> unknowns, Span<const double> values) 
   values_.insert(values_.end(), values.begin(), values.end());
 }
 
-// Returns what the solution without sites misses at each of them.
+// Returns the residual of the solution without sites at each site.
 Vector<double> DefiniteSystem::missing() const {
   Vector<double> out(values_.size(), &memory_);
   for (std::size_t s = 0; s < out.size(); ++s) out[s] = values_[s] - scale_ * plain_[at(fixed_[s])];

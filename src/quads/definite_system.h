@@ -1,8 +1,9 @@
 // Solves K x = b, where single unknowns of x get given values one after the other. K is positive definite.
 //
 // K is factorised once. Given values are sites of the constraint system: they add rows to a small dense matrix and do
-// not touch the factor. Unknowns that come last in the order of the factor have short elimination paths, so those that
-// get values come last. inverse_at() gives the part of the inverse that rounding many unknowns needs (grid_map.h).
+// not touch the factor. Unknowns that come last in the order of the factor have short elimination paths, so the
+// unknowns that get values come last. The function inverse_at() gives the part of the inverse that rounding many
+// unknowns needs (grid_map.h).
 #pragma once
 #include <optional>
 

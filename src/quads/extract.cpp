@@ -143,8 +143,8 @@ class Extractor {
     feature_.assign(piece_parent_.size(), 0);
   }
 
-  // Walks along half-edge h of its triangle and calls work(i, j, line, step) at every line: it leaves cell (i, j) and
-  // changes i (line 0) or j (line 1) by `step`. Then calls end(i, j).
+  // Walks along half-edge h of its triangle and calls work(i, j, line, step) at every line. There the walk leaves cell
+  // (i, j), and i (line 0) or j (line 1) changes by `step`. Then calls end(i, j).
   template <class Work, class End>
   void walk(std::int32_t h, Work&& work, End&& end) const {
     const std::int32_t g = FluxSurface::next(h);
@@ -350,8 +350,8 @@ class Extractor {
     return out;
   }
 
-  // Finds the lines that cross others. A line without a crossing makes no quad, so it parts nothing: what lies on its
-  // two sides is one region.
+  // Finds the lines that cross others. A line without a crossing makes no quad, so it separates nothing: its two sides
+  // are one region.
   void find_regions() {
     crossing_.assign(piece_parent_.size(), 0);
     for (const std::int32_t p : sides_) crossing_[root(piece_parent_, p)] = 1;
@@ -374,8 +374,8 @@ class Extractor {
   }
 
   // Where a wall between two borders is narrower than the lines are apart, one region reaches both borders and has
-  // quads at its two ends only. Two quads join them, (a, i, o, b) and (a, b, i', o'). a and b are the vertices of the
-  // region at the ends, i and o the vertices before and after them on the borders.
+  // quads at its two ends only. Two quads join them, (a, i, o, b) and (a, b, i', o'). The vertices a and b of the
+  // region are at the ends. The vertices i and o are before and after them on the borders.
   bool bridge_walls(QuadComplex& out) {
     Table<std::int32_t> of(memory_);  // regions
     Table<std::int32_t> first(parent_.size(), none, memory_), second(first), count(parent_.size(), 0, memory_);

@@ -8,18 +8,18 @@
 // the dual of the lines (Campen, Bommes and Kobbelt 2012 design meshes by such loops; exact coordinates follow the
 // truncation of Ebke, Bommes, Campen and Kobbelt 2013).
 //
-// No vertex of the surface lies on a line (grid_map.h), so a line enters a triangle through one edge and leaves it
-// through another. The order of the lines along an edge is computed once, in whole numbers, for both triangles. All
-// else follows from these orders, so no rounding can make a wrong mesh.
+// A line has no vertex of the surface (grid_map.h), so a line enters a triangle through one edge and leaves it through
+// another. The order of the lines along an edge is computed once, in whole numbers, for both triangles. All else
+// follows from these orders, so no rounding can make a wrong mesh.
 #pragma once
 #include "quads/grid_map.h"
 #include "quads/quad_complex.h"
 
 namespace hf_inner {
 
-// Makes the quads. A vertex lies where the map has its whole numbers. Vertices on feature edges are pinned. features:
-// by half-edge. backward: the number of crossings where the map is turned over. Where a piece between the lines is no
-// disc, the Euler characteristic is not that of the surface.
+// Makes the quads. A vertex is at the place where the map has its whole numbers. Vertices on feature edges are pinned.
+// features: by half-edge. backward: the number of crossings where the map is turned over. If a piece between the lines
+// is no disc, the Euler characteristic differs from the surface's.
 QuadComplex extract_quads(const FluxSurface& surface, const GridMap& map, const Table<std::uint8_t>& features,
                           std::int32_t& backward, Memory& memory);
 

@@ -24,7 +24,7 @@ struct FaceCross {
   explicit FaceCross(Memory& memory)
       : edge(memory), direction(memory), importance(memory), turn(memory), index(memory) {}
   // crosses: by inner vertex of the mesh, to the fourth degree, in the frames of the connection. Triangles with creases
-  // take the direction of these; at borders the crosses of the vertices count, which are evened out.
+  // take the direction of these; at borders the crosses of the vertices count, which are evened out. Parameter
   // of_corner: of SideCrosses; its crosses count instead of the crosses of vertices. It may be empty.
   static FaceCross make(const FluxSurface& surface, const Connection& connection,
                         Span<const std::complex<double>> crosses, const Table<std::uint8_t>& features,

@@ -6,9 +6,9 @@ namespace hf_inner {
 namespace {
 
 // In a pass that evens out the crosses of a border, each of the two neighbours counts this times the cross itself, and
-// the sum is scaled back. Less keeps ragged borders, more rounds corners. At 5 % edges half changes a sheet with holes
-// from 4.2 % of the box to 5.9 % and a blob of three pieces from 2.7 to 2.5 %; double to 7.2 and 2.4 %. An elephant
-// with holes stays the same.
+// the sum is scaled back. Less keeps ragged borders, more rounds corners. At edges of 5 % of the box, a sheet with
+// holes is 4.2 % of the box off, with half 5.9 % and with double 7.2 %. A blob of three pieces gets better by up to 0.3
+// %. An elephant with holes stays the same.
 constexpr double border_neighbour = 0.5, border_scale = 1 / (1 + 2 * border_neighbour);
 
 }  // namespace

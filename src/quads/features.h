@@ -28,7 +28,7 @@ class FeatureLines {
   // Adds the equation of half-edge h of a real triangle. edge: its vector in the triangle's frame.
   void add(std::int32_t h, std::complex<double> edge);
 
-  // Coordinate `part` of vertex v as sign times a line plus a sum of parameters.
+  // Coordinate `part` of vertex v: a line with a sign, plus a sum of parameters.
   struct Place {
     explicit Place(Memory& memory) : sum(&memory) {}
     std::int32_t line = -1;  // -1: the sum alone

@@ -21,13 +21,13 @@
 namespace hf_inner {
 namespace {
 
-// The lines of this room say what other values did in 15 to 26 runs on 11 to 17 small and medium meshes, with and
+// The lines of this room report other values in 15 to 26 runs. The runs use 11 to 17 small and medium meshes, with and
 // without creases, mostly at 1,500 faces. A change of 0.3 % in smooth_radius or half_trust moves single figures by up
 // to 13 % and their means by 3 %, as rounding decides whole lines. Distances are Hausdorff distances.
 
-// Spacing of sample points for distances, in edge lengths: trades exactness for time. On quads more irregular than
-// those of this room, half the value makes distances smaller on some meshes and larger on others. Twice the value
-// raises the mean distance by up to 6 %.
+// Spacing of sample points for distances, in edge lengths: trades exactness for time. On quads that are more irregular
+// than the quads of this room, half the value makes distances smaller on some meshes and larger on others. Twice the
+// value raises the mean distance by up to 6 %.
 constexpr double sample_spacing = 0.33;
 // A place farther than this from the surface is fitted; in edge lengths. On the same quads, at edges of 2.2 % of the
 // box, it gives distances of 0.86 % of the box. Half the value: up to 18 % more faces. Twice: distances up to 2.9 %.
@@ -35,8 +35,8 @@ constexpr double fit_tolerance = 0.39;
 // A guide whose part along the surface is shorter than this share of it has no direction; it refuses mistakes.
 constexpr double least_tangent = 1e-9;
 // How many times more a triangle counts in the map where guides hold it. A disc held at 29 degrees to all around is 14
-// degrees off with 0, 6 with 3, 2.5 with 10 and 1 with 30. One stroke over spot is 6 degrees off with 0, 8 with 10 and
-// 30, 9 with 100, and 34 without guides.
+// degrees off with 0, and 1 degree with 30. One stroke over spot is 6 to 9 degrees off with 0 to 100, and 34 without
+// guides.
 constexpr double guide_importance = 10;
 // Reported progress: the ends of the parts of the whole, then of each turn. Only the order is right; the shares are not
 // measured.
@@ -52,21 +52,20 @@ constexpr double most_unasked = 1e6;
 // the value 3 of 15 runs take twice as long, for 1.3 % off on average instead of 1.4. Double changes none of them.
 constexpr double fitted_error = 0.045;
 // At most this many numbers are aimed at; each takes as long as the first. 2 and 6 change none of 15 runs. Five coarse
-// ones are 9 % off with 1, 3.9 % with 3 and 2.6 % with 6.
+// ones are 9 % off with 1, and 2.6 % with 6.
 constexpr std::int32_t fit_turns_of_count = 3;
 
 // A mesh of more than this many times the wanted quads is not fitted: it would take longer than was asked for. Less
 // leaves more of them as they are, more fits them for as many times as long. A disc of 45,000 corners and no vertex
-// inside has 69 times as many. Of 42 meshes at 500 quads, an elephant with holes has 8 times and b9 has 10 times as
-// many. Without fitting they take 0.8 instead of 2.8 s and 1.6 instead of 5.3 s, with a tenth fewer corners turned
-// over. The elephant stays 3.0 % of the box away, b9 is 7.6 instead of 6.2 % away.
+// inside has 69 times as many. The extremes of 42 meshes at 500 quads are an elephant with holes, with 8 times as many,
+// and b9, with 10 times. Without fitting they take 0.8 instead of 2.8 s and 1.6 instead of 5.3 s, with a tenth fewer
+// corners turned over. The elephant stays 3.0 % of the box away, b9 is 7.6 instead of 6.2 % away.
 constexpr double fitted_share = 4;
 
 // A mesh farther than this from the surface, in wanted edge lengths, has lost a limb: too few lines run around it. Then
-// finer quads are made, and as many chords removed as it takes. The nearest mesh stays. On 18 meshes at 500 quads that
-// are 1.5 % of the box away or more, distances are 3.9 % on average without this and 3.1 % with it, in 1.8 times the
-// time. Half as many edge lengths give 2.8 % in 2.6 times the time, twice as many 3.5 %. Meshes that are not fitted, as
-// during drags, are not measured.
+// finer quads are made, and as many chords removed as it takes. The nearest mesh stays. On 18 coarse meshes that are
+// 1.5 % of the box away or more, distances fall from 3.9 % to 3.1 %, in 1.8 times the time. Half as many edge lengths
+// give 2.8 % in 2.6 times the time, twice as many 3.5 %. Meshes that are not fitted, as during drags, are not measured.
 constexpr double lost_limb = 1.0;
 // The edges of each finer mesh are this share of those before. At 0.72 these distances are 3.6 %.
 constexpr double finer_share = 0.85;
@@ -75,31 +74,30 @@ constexpr double finer_share = 0.85;
 // the distances are 3.2 %; six change nothing.
 constexpr std::int32_t finer_tries = 3;
 constexpr double nearer_share = 0.99;
-// A finer mesh may have so many times the irregular vertices of the first, but no more times than the square of how
-// many times nearer it is; one of a nearer number may have so many times those of the last. One where a component fails
-// has five to eight times as many: seen on five of 36 models. One that brings limbs back has up to 3.2 times: with 3, a
-// horse of 590 quads stays 1.14 edges away instead of 0.29. Without the square, a boot of 5,000 quads gets 22.8 instead
-// of 9.1 % to be a tenth nearer.
+// A finer mesh may have this many times the irregular vertices of the first mesh, but at most the square of how many
+// times nearer it is. A mesh of a nearer number may have this many times the irregular vertices of the last mesh. One
+// where a component fails has five to eight times as many: seen on five of 36 models. A mesh that brings limbs back has
+// up to 3.2 times. With 3, a horse stays 1.14 edges away instead of 0.29. Without the square, a boot of 5,000 quads
+// gets 22.8 instead of 9.1 % to be a tenth nearer.
 constexpr std::int32_t most_irregular = 4;
 
-// Its edges may be stretched so many times as much. Chords that are removed around a leg leave long quads: without a
-// limit a man of 5,000 quads has ratios of 6.3 instead of 1.8 (95 %), and is 0.5 instead of 1.3 % of the box away.
-// With 1.3 another man has 1.8 instead of 2.5, and is 1.1 instead of 0.8 % away. With 1.7 a triceratops has 2.8 instead
-// of 1.7, and its distance falls by a quarter.
+// Its edges may be stretched by this many times as much. Chords that are removed around a leg leave long quads: without
+// a limit a man of 5,000 quads has ratios of 6.3 instead of 1.8. He is then nearer to the surface, 0.5 instead of 1.3 %
+// of the box. With 1.3 another man has 1.8 instead of 2.5, and is 1.1 % away instead of 0.8. With 1.7 a triceratops has
+// 2.8 instead of 1.7, and its distance falls by a quarter.
 constexpr double most_stretched = 1.5;
 
-// A component that keeps less of its area when it is evened out stays as it was. Without it, coins
-// at the ears and elbows of a robot of 66 pieces shrink to points: at 3,000 quads it is 1.89 % of the box away, with
-// 0.3, 0.6 and 0.9 it is 1.67, 1.60 and 1.37. More keeps more bodies uneven.
+// A component that keeps less of its area when it is evened out stays as it was. Without it, coins at the ears and
+// elbows of a robot of 66 pieces shrink to points. At 3,000 quads it is then 1.89 % of the box away. With 0.9 it is
+// 1.37 %. More keeps more bodies uneven.
 constexpr double least_evened = 0.6;
 
 // Maps for at least so many quads are untangled (untangle.h). Below, lines that run to and fro in a fold are often the
-// only ones around a limb. By a twentieth or more, of 40 meshes: at 5,000 quads irregular vertices are fewer on 12 and
-// more on 5, distances smaller on 11 and larger on 7; at 50,000 9 and 7, 5 and 9, and one more mesh is valid; at 1,500
-// quads 13 and 4, 11 and 7; at 500 quads 11 and 12, 5 and 17.
+// only ones around a limb. At 5,000 quads irregular vertices are a twentieth fewer on 12 of 40 meshes and more on 5.
+// Distances are smaller on 11 and larger on 7. At 500 quads distances are smaller on 5 and larger on 17.
 constexpr double untangled_from = 1000;
 
-// What the guides say by vertex: the mean of their crosses, to the fourth degree, and the largest weight.
+// The guides by vertex: the mean of their crosses, to the fourth degree, and the largest weight.
 struct Guided {
   explicit Guided(Memory& memory) : cross(&memory), weight(&memory) {}
   Vector<Complex> cross;
@@ -119,7 +117,7 @@ Guided read_guides(Span<const QuadGuide> guides, const Connection& connection, I
     if (!(length_of(z) > least_tangent) && guide.given == QuadGuide::of_pole) continue;
     if (!(length_of(z) > least_tangent))
       fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(guide.given),
-           "guide_vectors[%d] stands on the surface; give a direction along it", guide.given);
+           "guide_vectors[%d] is normal to the surface; give a direction along it", guide.given);
     z /= length_of(z);
     z *= z;
     z *= z;
@@ -316,7 +314,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
   std::int32_t chosen_irregular = 0, finer_left = finer_tries;
   float from = field_progress.mapped;
   for (std::int32_t turn = 0; turn < fit_turns_of_count; ++turn) {
-    // One turn is mostly enough, so each gets half of what is left.
+    // One turn is mostly enough, so each gets half of the rest.
     const float to = options.faces == 0 ? 1.0f : (from + 1) / 2;
     const ProgressRange turn_range(from, to);
     from = to;
@@ -347,7 +345,7 @@ QuadResult make_quads_here(const FieldQuadOptions& options, FieldQuadReport* out
         if (turn == 0 && i == 0) throw;
         break;
       }
-      // Where every component has a substitute, its quads are those of the try before.
+      // If every component has a substitute, its quads come from the try before.
       if (i > 0 && tried.substitutes == surface.component_count && now.substitutes == surface.component_count) break;
       if (i == 0) fewest = found.face_count() > (1 + fitted_error) * aim;
       check_quads(found, surface.euler_characteristic, memory);
@@ -422,7 +420,7 @@ QuadResult make_cut_quads(const FieldQuadOptions& options, double area, double l
     if (kept) kept->cut = base;
   }
   OtherOptions own(options, base->core, length);
-  // Those of poles get triangles that are small enough for them.
+  // Crosses of poles get triangles that are small enough for them.
   for (const QuadGuide& guide : options.guides) {
     if (guide.given != QuadGuide::of_pole) own.add_guide(guide, guide.vertex);
   }

@@ -1,8 +1,8 @@
 // Quad meshes from smooth crosses: crosses along the curvature, a seamless map to the grid, its quads, evened out and
 // fitted to the surface.
 //
-// The crosses decide where irregular vertices lie: one at each singularity. Everything but the rounding of the map is
-// independent of the edge length, so several edge lengths cost little more than one.
+// The crosses decide the places of irregular vertices: one at each singularity. Everything but the rounding of the map
+// is independent of the edge length, so several edge lengths cost little more than one.
 #pragma once
 #include <optional>
 
@@ -18,11 +18,11 @@ namespace hf_inner {
 
 // Wanted edge length of quads, as a share of the box: trades detail for faces. At half the value: four times the faces.
 constexpr double default_edge_length = 0.022;
-// Rounds that even out a quad mesh. On quads more irregular than those of this room 30 rounds gave a figure of eight
-// aspects of 2.6 instead of 2.5, and 120 the same as 60.
+// Rounds that even out a quad mesh. On more irregular quads 30 rounds gave a figure of eight aspects of 2.6 instead of
+// 2.5. There 120 rounds gave the same as 60.
 constexpr std::int32_t default_relax_rounds = 60;
 
-// A direction that edges of quads follow. weight: 1 holds it; less mixes it with that of the curvature.
+// A direction that edges of quads follow. weight: 1 holds it; less mixes it with the direction of the curvature.
 struct QuadGuide {
   static constexpr Index of_pole = -1;
   Index vertex = -1;
@@ -60,7 +60,7 @@ struct FieldQuadReport {
   std::int32_t removed = 0;      // quads of folds
   std::int32_t added = 0;        // quads around thin parts
   std::int32_t chords = 0;       // that were removed
-  std::int32_t substitutes = 0;  // components with other quads than those of the map
+  std::int32_t substitutes = 0;  // components whose quads are not from the map
   std::int32_t split = 0;        // components with quads of their triangles
   std::int32_t tries = 0;
   double edge_length = 0;
@@ -73,8 +73,8 @@ struct QuadResult {
   std::int32_t euler_characteristic = 0;
 };
 
-// What quads of one surface share, whatever their creases and guides. What belongs to an edge length is made again when
-// another one is wanted. An exception leaves parts unmade, which the next call makes.
+// The data that quads of one surface share, whatever their creases and guides. Data of an edge length is made again for
+// another edge length. An exception leaves parts unmade, which the next call makes.
 struct QuadBase {
   explicit QuadBase(std::shared_ptr<const Core> core);
   QuadBase(const QuadBase&) = delete;
@@ -100,7 +100,7 @@ struct QuadBase {
 struct HalfBase;  // the same for symmetric quads (symmetric.h)
 struct CutBase;   // and where long triangles are cut (cut_mesh.h)
 
-// What updates of quads keep.
+// The data that updates of quads keep.
 struct QuadKeeper {
   std::shared_ptr<QuadBase> whole;
   std::shared_ptr<HalfBase> half;

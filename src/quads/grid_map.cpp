@@ -14,28 +14,28 @@
 namespace hf_inner {
 namespace {
 
-// Coordinates stay below 2^29 units, so that orientations of triangles are exact in 64 bits. 28 and 30 change no map of
-// up to 2^8 edges, as most_fraction bounds its bits.
+// Coordinates stay below 2^29 units, so that orientations of triangles are exact in 64 bits. Half and double change no
+// map of up to 2^8 edges, as most_fraction bounds its bits.
 constexpr int most_bits = 29;
 // At least this many bits behind the point: 1 / 256 of an edge. With fewer, small triangles would lose their area. It
-// refuses maps of more than 2^21 edges across, with 16 those of more than 2^13; no run came near either.
+// refuses maps of more than 2^21 edges across; no run came near. With 16 it would refuse more than 2^13.
 constexpr int least_fraction = 8;
-// At most this many bits behind the point. More would only lengthen the numbers. With 10, 8 of 15 runs change, and with
-// 26 4 of them, by 1 % on average: places are rounded elsewhere.
+// At most this many bits behind the point. More would only lengthen the numbers. With 10 and 26, up to 8 of 15 runs
+// change, by 1 % on average: places are rounded elsewhere.
 constexpr int most_fraction = 20;
-// Triangles with larger cotangents are widened first, else the matrix can lose its definiteness: with 1e8 it does on a
-// box that is pressed to a millionth (reliability_shapes), with 1e7 and less it does not. Half and double mend it too.
+// Triangles with larger cotangents are widened first, else the matrix can lose its definiteness. It does so with 1e8 on
+// a box that is pressed to a millionth (reliability_shapes), and not with 1e7. Half and double mend it too.
 constexpr double most_cotangent = 1e6;
-// A value this near to a whole number is one, but for rounding errors of a sum of whole numbers. With 1e-9 and 1e-3
-// none of 15 runs changes or is refused.
+// A value this near to a whole number is a sum of whole numbers with rounding errors. With 1e-9 and 1e-3 none of 15
+// runs changes or is refused.
 constexpr double whole_error = 1e-6;
 // The inverse at the open unknowns is updated for so many steps of rounding at once. More go through memory less often,
 // but each step goes through the columns of those before. With 16 and 64 a mesh with 3,180 unknowns takes as long.
 constexpr std::size_t at_once = 32;
 
 // At most this many lines of features are whole numbers. If there are more, quads follow the shortest only where the
-// crosses lead. All whole numbers are rounded in one dense block. A comb of 65,000 corners has 12,195 lines, and took
-// 24 s and 1.9 GB for 800 quads. It takes 2.6 s with 2,048 and 1.9 s with 1,024, beside other work. With creases of 20
+// crosses lead. All whole numbers are rounded in one dense block. A comb of 65,000 corners has 12,195 lines. It took 24
+// s and 1.9 GB for 800 quads. It takes 2.6 s with 2,048 and 1.9 s with 1,024, beside other work. With creases of 20
 // degrees, five of 42 meshes have more, at most 4,565, mostly of one edge.
 constexpr std::int32_t most_lines = 1024;
 
@@ -137,7 +137,7 @@ class EntryColumns {
   }
   void put(std::int32_t row, std::int32_t column, Value value) { entries_[at(cursor_[column]++)] = {row, value}; }
 
-  // Sums what is put, to one entry a place. Rows have no order.
+  // Sums the entries that are put at one place. Rows have no order.
   void sum() {
     Poller poller;
     std::int32_t out = 0;
@@ -195,7 +195,7 @@ GridMapper::GridMapper(const FluxSurface& surface, const FaceCross& crosses, con
   system_->set_right(right_);
 }
 
-// Replaces the numbers of parameters by those of unknowns.
+// Replaces the numbers of parameters by the numbers of unknowns.
 RealSum GridMapper::in_unknowns(RealSum sum) const {
   for (RealTerm& term : sum) term.number = of_parameter_[term.number];
   return sum;

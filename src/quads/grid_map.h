@@ -9,7 +9,7 @@
 // the end. Nothing is factorised again.
 //
 // The result is exact: coordinates are whole multiples of 1 / unit, and both sides of a seam fit to the bit. Vertices
-// without a singularity get odd multiples, so that no vertex lies on a line of halves.
+// without a singularity get odd multiples, so that no vertex is on a line of halves.
 #pragma once
 #include "quads/definite_system.h"
 #include "quads/features.h"
@@ -35,7 +35,7 @@ class GridMapper {
   // Throws HF_ERROR_UNSUPPORTED if a singularity cannot lie on the grid or the map is too large.
   // untangled: turns triangles back that are turned over (untangle.h).
   GridMap make(double edge_length, bool untangled = true);
-  // Frees the factor and what it was made of, most of the memory. make, round and system may not be called after it.
+  // Frees the factor and its matrix, most of the memory. Do not call make, round and system after it.
   void release() noexcept;
 
   // The map before its vertices are rounded to multiples of 1 / unit: the unknowns of the factor.

@@ -12,7 +12,7 @@ namespace {
 // 0.02, and drew the hand back into it. 0.1 to 0.3 change two of six coarse models of many parts, by 4 % at most.
 constexpr double least_share = 0.4;
 
-// Of vertices that are equally far up to rounding the first one counts, so that a moved ball keeps its box.
+// If vertices are equally far up to rounding, the first one counts. So a moved ball keeps its box.
 constexpr double same_length = 1 + 1e-9;
 
 // A corner whose sine is at most this is no corner: the outline is a triangle. Less leaves quads that are triangles,
@@ -33,8 +33,8 @@ class Maker {
  public:
   Maker(const FluxSurface& surface, QuadComplex& out, Memory& memory) : s_(surface), out_(out), memory_(memory) {}
 
-  // A box whose corners lie on the surface: along the direction to the farthest vertex, along that of the vertex
-  // farthest from this line, and across both.
+  // A box whose corners lie on the surface: along the direction to the farthest vertex, along the direction to the
+  // vertex farthest from this line, and across both.
   void box(const Part& part) {
     Vec3 centre{};
     for (const std::int32_t v : part.vertices) centre = centre + 1.0 / part.vertices.size() * s_.position[v];

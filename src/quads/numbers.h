@@ -1,4 +1,4 @@
-// What the files of this room share: complex numbers, and the constants that more than one file uses.
+// Shared by the files of this room: complex numbers, and the constants that more than one file uses.
 #pragma once
 #include <complex>
 #include <cstdint>

@@ -2,7 +2,7 @@
 //
 // Where the curvature changes within a few edges of quads, crosses that follow it have two singularities of opposite
 // index beside each other. Without a wish around them they often cancel. So the wish is left out around each such pair,
-// and stays out where the crosses then have fewer singularities. Cost: twice that of smoothing.
+// and stays out where the crosses then have fewer singularities. Cost: twice the cost of smoothing.
 #pragma once
 #include "quads/cross_field.h"
 #include "quads/face_cross.h"

@@ -13,8 +13,8 @@ namespace {
 
 // A direction whose part along the surface is a smaller share of it says little: the noise of the normal decides.
 constexpr double least_along = 0.1;
-// Cosine of the largest turn from the normal of the irregular vertex to that of a vertex of the ring; a turn by 180
-// degrees has no axis.
+// Cosine of the largest turn from the normal of the irregular vertex to the normal of a vertex of the ring; a turn by
+// 180 degrees has no axis.
 constexpr double largest_turn = -0.9;
 
 // The figures are of the 36 poles of poles_test on a torus and a sphere, without relaxation. The aspect is the mean of
@@ -26,8 +26,8 @@ constexpr double pole_reach = 1;
 // Walks to the place of an irregular vertex. With one, a vertex ends up to 0.005 edges away; with two, three and six,
 // all are less than 0.00005 away.
 constexpr int pole_walks = 2;
-// Quads around an irregular vertex that move along, and in how many rounds. More are slower. The aspect is 1.38; with 2
-// and 6 rings it is 1.39 and 1.38, with 2 and 10 rounds 1.38 and 1.43.
+// Quads around an irregular vertex that move along, and in how many rounds. More are slower. The aspect is 1.38. With 2
+// and 6 rings and with 2 rounds it is at most 1.39, with 10 rounds 1.43.
 constexpr std::int32_t pole_rings = 3, pole_rounds = 5;
 
 Index nearest_vertex(const Mesh& mesh, Vec3 place) noexcept {
@@ -99,7 +99,7 @@ struct PoleRing {
   Vector<Index> inside, around;
 };
 
-// The part of a direction across `up`, of length 1; without one, that of an axis of space.
+// The part of a direction across `up`, of length 1; without one, the part of an axis of space.
 Vec3 in_plane(Vec3 up, Vec3 direction) noexcept {
   const Vec3 part = direction - dot(direction, up) * up;
   if (norm(part) > least_along * norm(direction)) return unit_vector(part);

@@ -9,25 +9,25 @@
 namespace hf_inner {
 namespace {
 
-// field_quads.cpp says what the other values below were tried on.
+// field_quads.cpp names the runs of the other values below.
 
 // For at least so many quads, pairs of opposite singularities are left out (opposite_pairs.h). Below, limbs and thin
-// parts hang on them: at 500 quads aspects are a twentieth worse on 8 of 18 meshes and better on 2, and a bunny of
-// 1,800 quads is 1.21 instead of 1.04 % of the box away. At 5,000 quads the crosses have at most 1.2 times the
-// singularities of Instant Meshes on 37 instead of 30 of 40 meshes. Numbers between were not tried.
+// parts depend on them. At 500 quads aspects are a twentieth worse on 8 of 18 meshes and better on 2. A bunny of 1,800
+// quads is 1.21 instead of 1.04 % of the box away. The crosses have at most 1.2 times the singularities of Instant
+// Meshes on 37 instead of 30 of 40 meshes. Numbers between were not tried.
 constexpr double paired_below = 3000;
 // Radius over which crosses are evened out, in edge lengths of the quads, or of the surface where those are longer. The
 // second number is for quads that leave pairs out. Less follows the principal directions, more has fewer singularities.
 // First number: half changes means by at most 4 %; at twice the value aspects and angles fall by 5 %, and distances
-// grow by 15 %. Second number: with 2.8, 3, 3.4 and 4 the crosses have at most 1.2 times the singularities of Instant
-// Meshes on 36, 37, 37 and 36 of 40 meshes at 5,000 quads, and are at most 11 degrees off on 31, 31, 31 and 28 of 41.
+// grow by 15 %. Second number: from 2.8 to 4 the crosses have at most 1.2 times the singularities of Instant Meshes on
+// 36 or 37 of 40 meshes. They are at most 11 degrees off on 31 of 41 meshes, with 4 on 28.
 constexpr double smooth_radius = 4, smooth_radius_fine = 3.4;
 // Radius in edge lengths over which the curvature is evened out: trades details for calm crosses. Half changes 5 of 15
 // runs; distances grow by 4 %. At twice the value irregular vertices fall by 4 % and aspects by 5 %.
 constexpr double curvature_radius = 1;
 // The limits of its rounds; one evens out over one edge of the surface. With at least 1 there are 7 % more
-// singularities; with at least 4, distances grow by 8 %. On six meshes of 200 or 300 quads, at most 10 gives 8 % more
-// irregular vertices, and at most 40 gives 12 % fewer. Neither changes any of the 15 runs.
+// singularities; with at least 4, distances grow by 8 %. On six coarse meshes, at most 10 gives 8 % more irregular
+// vertices, and at most 40 gives 12 % fewer. Neither changes any of the 15 runs.
 constexpr std::int32_t least_passes = 2, most_passes = 20;
 
 }  // namespace

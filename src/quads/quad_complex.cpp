@@ -12,8 +12,8 @@ namespace hf_inner {
 namespace {
 
 // Quads of a component with less than this share of its area have lost most of it: a rod that is thinner than the lines
-// are apart becomes two quads. A model of 21 parts at 3,000 quads has 1.07 % of the box as its largest distance; 2.2 %
-// without this, 1.0 to 1.1 % with 0.4 to 0.7. With 0.8 it takes twice as long.
+// are apart becomes two quads. A model of 21 parts at 3,000 quads has 1.07 % of the box as its largest distance.
+// Without this it is 2.2 %, with 0.4 to 0.7 at most 1.1 %. With 0.8 it takes twice as long.
 constexpr double least_area = 0.6;
 
 }  // namespace
@@ -127,7 +127,8 @@ Vector<QuadEdge> edges_of(const QuadComplex& quads, Memory& memory) {
 
 Table<std::uint8_t> find_sound(const FluxSurface& surface, const QuadComplex& quads,
                                const Table<std::int32_t>& component, const Table<double>& areas, Memory& memory) {
-  // By component: the Euler characteristic of the surface less that of the quads, and the pieces of the quads.
+  // By component: the Euler characteristic of the surface less the characteristic of the quads, and the pieces of the
+  // quads.
   Table<std::int32_t> euler(surface.component_count, 0, memory), pieces(surface.component_count, 0, memory);
   for (std::int32_t v = 0; v < surface.first_apex; ++v) ++euler[surface.component[v]];
   for (std::int32_t h = 0; h < 3 * surface.real_triangles; ++h) {

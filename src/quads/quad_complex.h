@@ -6,8 +6,8 @@
 // that crosses itself.
 //
 // A valid mesh has no two edges between the same vertices and no quad with a repeated corner. Two edges that bound a
-// few quads of a fold become one, and the quads go. Two edges around a thin part stay apart: the two quads of one of
-// them get a ring of quads around them (a pillow: Mitchell and Tautges 1995), so the edge gets ends of its own. Every
+// few quads of a fold become one, and the quads go. Two edges around a thin part stay separate. The two quads of one of
+// them get a ring of quads around them (a pillow: Mitchell and Tautges 1995). So the edge gets ends of its own. Every
 // repair keeps the Euler characteristic.
 #pragma once
 #include "remesh/quad_mesh.h"
@@ -81,7 +81,7 @@ struct RepairReport {
   std::int32_t added = 0;    // quads around thin parts
 };
 
-// Makes the mesh valid, but for two edges between the same vertices that both lie on a border.
+// Makes the mesh valid. Only two edges between the same vertices that are both on a border may remain.
 void repair_quads(const FluxSurface& surface, QuadComplex& quads, RepairReport& report, Memory& memory);
 
 // Removes inner vertices of one or two quads. Returns how many quads are gone.

@@ -10,11 +10,11 @@ namespace {
 
 // Two edges between the same vertices that bound at most this many quads are a fold, and the quads go. A larger number
 // cuts off thin limbs, a smaller one keeps folds and puts rings around them. With 0 there are 20 % more irregular
-// vertices in four coarse runs. 4 changes none of 16 runs; 16 and 60 remove 8 quads more in one, and all figures stay
-// the same.
+// vertices in four coarse runs. A value of 4 changes none of 16 runs. Larger values remove 8 quads more in one, and all
+// figures stay the same.
 constexpr std::int32_t most_fold_quads = 8;
-// Rounds of repairs: quads that one round adds are looked at by the next. It bounds the time. 6 and 24 change none of
-// 16 runs. With 2, one of four coarse runs gets quads of shorter edges in their place.
+// Rounds of repairs: each round checks the quads that the round before added. It bounds the time. 6 and 24 change none
+// of 16 runs. With 2, one of four coarse runs gets quads of shorter edges in their place.
 constexpr std::int32_t repair_rounds = 12;
 // The corners of new quads lie this share of the way from the corners of the old ones to their middle. Relaxing moves
 // them anyway. 0.175 and 0.7 change 2 of 16 runs. Distances fall by 4 % in four coarse ones, and with 0.7 fewer corners
@@ -159,7 +159,7 @@ class Repairer {
   }
   bool widen(std::int32_t h) { return quads_.twin[h] == none ? split_border(h) : pillow(h); }
   // A hole of one edge or two gets two edges more. Its quad (v, w, a, b), with the border side from v to w, becomes
-  // (v, p, q, c), (q, w, a, c) and (a, b, v, c). p and q lie on the border, c inside.
+  // (v, p, q, c), (q, w, a, c) and (a, b, v, c). The vertices p and q are on the border, c is inside.
   bool split_border(std::int32_t h) {
     const auto next = QuadComplex::next;
     const std::int32_t f = h / 4, sides[3] = {next(h), next(next(h)), next(next(next(h)))};

@@ -2,18 +2,18 @@
 //
 // The crosses of all triangles are turned by quarters so that they agree across every edge of a spanning tree of the
 // dual graph (combing). The other edges are the cut. Its dead ends at vertices without a singularity are taken back.
-// What is left are seams: paths of cut edges between nodes. A node is a singularity, a border vertex, or a vertex where
-// three or more seams meet. Let Z be a map of the triangles to complex numbers that is seamless: across a seam with
-// half-edge h, the map on the left is that on the right turned by quarters and moved:
+// The remaining cuts are seams: paths of cut edges between nodes. A node is a singularity, a border vertex, or a vertex
+// where three or more seams meet. Let Z be a seamless map of the triangles to complex numbers. Across a seam with
+// half-edge h, the map on the left is the map on the right, turned by quarters and moved:
 //
 //     Z_left = i^transition Z_right + t.
 //
 // All edges of a seam have one t. The t of the seams are not free: a turn around a node leads back. So (1 - i^k) z = T
 // at a node, where i^k is the product of the turns, T a sum of the t, and z the map at the node. These equations are
-// solved here, from the leaves of a spanning tree of the seams to its root. What stays free are the parameters: the map
-// at the singularities, and one t per seam that is not in the tree (two per handle). The equation of the root gives the
-// map at the root. The map at one vertex is held at 0, because maps can be moved. If all parameters are whole numbers,
-// all t are whole numbers too.
+// solved here, from the leaves of a spanning tree of the seams to its root. The free unknowns are the parameters: the
+// map at the singularities, and one t per seam that is not in the tree (two per handle). The equation of the root gives
+// the map at the root. The map at one vertex is held at 0, because maps can be moved. If all parameters are whole
+// numbers, all t are whole numbers too.
 #pragma once
 #include "quads/face_cross.h"
 

@@ -4,7 +4,7 @@
 // corner. The corner would then have no quad, and both edges would lie on one line of the grid. The tips of a saw are
 // like this. So the crosses in such a corner stand as if it were a right angle: turned away from both edges. They stay
 // turned along the edges up to the next corners, such as the valleys of the saw. There the angle counts without the
-// turns, so that the sum of all corners stays that of the shape.
+// turns, so that the sum of all corners stays equal to the shape's.
 //
 // Two creases from a sharp corner are a tooth if both are at least two edges of quads long. On a tooth, crosses stay
 // turned only where two quads have no room between the creases. Beyond, crosses follow the creases again, and a vertex

@@ -12,8 +12,8 @@ namespace {
 
 // A vertex nearer to the plane than this share of its shortest edge is moved onto it. More moves more of the surface,
 // less leaves thinner triangles at the cut.
-// 0.02 leaves spot and a human as they are; 0.1 takes the human's largest distance from 1.1 to 1.0 % of the box. Koala
-// has 0.6 instead of 1.1 % with either, as rounding decides whole lines.
+// The value 0.02 does not change spot and a human. 0.1 changes the human's largest distance from 1.1 to 1.0 % of the
+// box. Koala has 0.6 instead of 1.1 % with either, as rounding decides whole lines.
 constexpr double snapped_share = 0.05;
 // A surface whose mirror image is farther away than this share of the box is not symmetric: the plane is a mistake. A
 // pose that is a little off, as of a scan, gets the shape of one side. Spot is 0.016 off.
@@ -21,9 +21,9 @@ constexpr double most_off = 0.05;
 // A vertex of the quads at a border, no farther from the plane than this, lies on it. Borders keep their places to
 // rounding.
 constexpr double plane_tolerance = 1e-9;
-// The new vertices of a row along the plane lie this share of the way to the middle of their quad, and as far along the
-// normal as that quad is large, before they are put on the surface. They need only be off the plane and apart.
-// Boxes of three thicknesses with 20 to 1,000 quads are valid with it; no other value was tried.
+// A new vertex of a row along the plane starts at this share of the way to the middle of its quad, and as far along the
+// normal as the quad is large. It is then put on the surface. They need only be off the plane and apart. Boxes of three
+// thicknesses with 20 to 1,000 quads are valid with it; no other value was tried.
 constexpr double row_share = 0.35;
 // A piece of less than so many quads is not trimmed: little would be left of it. A tongue of a larger piece goes, as a
 // row along its whole cut would make narrow quads there.
@@ -149,7 +149,7 @@ HalfSurface HalfSurface::make(const Core& core, const MirrorPlane& plane) {
         corner[count++] = half;
       }
     }
-    // Of the two diagonals of four corners the shorter one cuts.
+    // The shorter of the two diagonals cuts four corners.
     const auto between = [&](std::size_t i, std::size_t j) {
       return norm(out.position[at(corner[j])] - out.position[at(corner[i])]);
     };
@@ -330,7 +330,7 @@ QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport
   }
   std::int32_t sides = 0;
   prepare_at_plane(result.mesh, on_plane, plane, PlaceOnSurface{whole, nearest}, sides, memory);
-  // What lies on the plane counts once. Preparing keeps the Euler characteristic of the half.
+  // Vertices on the plane count once. Preparing keeps the Euler characteristic of the half.
   Table<std::uint8_t> shared(on_plane.size(), 0, memory);
   std::int32_t corners = 0;
   for (const Index v : result.mesh.corner) {

@@ -18,7 +18,7 @@ struct HalfSurface {
   Vector<Index> of_edge;    // by edge of the whole, the vertex where the plane cuts it, or none
 };
 
-// What symmetric quads of one surface and plane share.
+// The data that symmetric quads of one surface and plane share.
 struct HalfBase {
   // Throws as make_symmetric_quads for the surface.
   HalfBase(const Core& whole, const MirrorPlane& plane);
@@ -30,13 +30,13 @@ struct HalfBase {
 };
 
 // options.plane is set. Throws what make_field_quads throws. Throws HF_ERROR_UNSUPPORTED too: the surface is no mirror
-// image of itself (index = vertex as given), or nothing lies on the side of the normal.
+// image of itself (index = vertex of the caller), or nothing is on the side of the normal.
 QuadResult make_symmetric_quads(const FieldQuadOptions& options, FieldQuadReport* report, QuadKeeper* kept = nullptr);
 
 // Makes the half of a mesh such that its image can be joined to it. An edge off the border with both ends on the plane
 // would be its own image. Quads with three sides on the plane have one, and go. Where small pieces have one, or one is
-// left, a piece gets a row of quads along the plane. place: finds a point of the surface near another point.
-// sides_on_plane: receives how many sides of quads lie on the plane.
+// left, a piece gets a row of quads along the plane. The function place finds a point of the surface near another
+// point. sides_on_plane: receives how many sides of quads lie on the plane.
 struct PlaceOnSurface {
   const Core& core;
   const NearestTriangle& nearest;

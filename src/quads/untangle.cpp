@@ -11,9 +11,9 @@ namespace hf_inner {
 namespace {
 
 // The figures are sums over 14 meshes at 5,000 quads: triangles that are turned over and have no two corners at one
-// place. There are 675 before and 228 after, of which a mesh of 47 components and 76 borders has 165.
+// place. There are 675 before and 228 after. A mesh of 47 components has 165 of these.
 
-// Rounds; each takes a new e and the vertices near what is still turned over. Half leaves 245, double 223.
+// Rounds; each uses a new e and the vertices near triangles that are still turned over. Half leaves 245, double 223.
 constexpr std::int32_t untangle_rounds = 4;
 // Newton steps of a vertex in a round. Half leaves 241, double 230.
 constexpr std::int32_t untangle_sweeps = 10;
@@ -31,7 +31,8 @@ constexpr std::int32_t untangle_halvings = 12;
 // The least curvature of the energy, as a share of the largest. It keeps steps finite; no map came near it.
 constexpr double least_curvature = 1e-9;
 
-// The energy of a triangle of area 1, by S = |a|^2 + |b|^2 and D = |a|^2 - |b|^2, where the map is a x + b conj(x).
+// The energy of a triangle of area 1, where the map is a x + b conj(x). It uses S = |a|^2 + |b|^2 and D = |a|^2 -
+// |b|^2.
 struct Bend {
   Bend(double s, double d, double e) noexcept : top(s + 1 + d * d), root(std::sqrt(e * e + d * d)) {
     chi = d > 0 ? 0.5 * (d + root) : 0.5 * e * e / (root - d);

@@ -2,9 +2,9 @@
 //
 // The lines say what happened with half or twice the value, or with other values. They were tried at edges of 3 to 4 %
 // of the box on a cow, a figure of eight, an elephant, a triceratops, and a blob of three pieces with borders. Their
-// quads were more irregular before evening out than those of the room `quads`. "Box" means the diagonal of the bounding
-// box. Distances are Hausdorff distances in % of the box, unless they are called mean. Aspects and angles are 95 %
-// quantiles. "Irregular" is the share of irregular vertices. Where some results got better and others worse, the
+// quads were more irregular before evening out than the quads of the room `quads`. "Box" means the diagonal of the
+// bounding box. Distances are Hausdorff distances in % of the box, unless they are called mean. Aspects and angles are
+// 95 % quantiles. "Irregular" is the share of irregular vertices. Where some results got better and others worse, the
 // distance changed by at most 0.3. These numbers decide about whole faces, so rounding alone can change the number of
 // faces by 1.4 %.
 #pragma once
@@ -39,10 +39,10 @@ constexpr int most_crossings = 200;
 
 // --- unfold.cpp ---
 //
-// Chosen on triceratops, mpi_triang, man, anchor, skull and boot at 5,000 quads, which have 8, 32, 12, 1, 2 and 72
-// turned corners before.
+// Chosen on triceratops, mpi_triang, man, anchor, skull and boot at 5,000 quads. They have 1 to 72 turned corners
+// before.
 
-// Of all six, 2 corners stay turned over, and 102 quads run through others.
+// On all six together, 2 corners stay turned over, and 102 quads run through others.
 
 // Corners count as unfolded from this sine on. Larger moves more vertices. With half and double the turned corners are
 // the same, and 106 and 101 quads run through others.
@@ -50,7 +50,7 @@ constexpr double unfold_margin = 0.1;
 // It bounds the time. Half and double give the same figures.
 constexpr std::int32_t unfold_rounds = 20;
 // A vertex tries places this far away, in edge lengths, then half as far, down to the least. Longer steps unfold more
-// and make more quads run through others: half 2 and 99, double 1 and 109, four times 2 and 150.
+// and make more quads run through others: 99 with half, 109 with double, 150 with four times.
 constexpr double unfold_reach = 0.2;
 // Half gives 2 and 101, double the same.
 constexpr double unfold_least = 0.02;
@@ -61,7 +61,7 @@ constexpr std::int32_t unfold_returns = 4;
 constexpr double on_border = 1e-9;
 // Vertices on borders slide along them as far as the cosine of the border's turn stays above this: 18 degrees. More
 // rounds the border off, less keeps vertices where they are. On b9, blobby, the elephant and the plane with holes 18
-// corners stay turned over at 5,000 quads; with 26 degrees 18, with 13 19.
+// corners stay turned over at 5,000 quads. With 13 degrees it is 19, with 26 it is 18.
 constexpr double straight_border = 0.95;
 // They keep at least this share of an edge, or of the old distance, from the other corners of their quads: else edges
 // would vanish. With half 18 corners stay turned over there, with double 19.
@@ -70,8 +70,7 @@ constexpr double unfold_apart = 0.25;
 // --- quad_distance.cpp ---
 
 // From this many vertices on, only every second is sampled, from twice as many every third; this saves time. Half,
-// which samples every second vertex of an armadillo of 50,000, gives 261 faces instead of 308, and 2.63 % of the box
-// instead of 2.62.
+// which samples every second vertex of an armadillo of 50,000, gives 261 faces instead of 308, at the same distance.
 constexpr std::int32_t most_samples = 60000;
 // Up to this many triangles, points inside them are sampled too. Finer surfaces have enough vertices. Half leaves them
 // out on a cow of 23,062 triangles, double takes them in on a man of 34,986: both get the same mesh.
@@ -87,11 +86,11 @@ constexpr std::int32_t quad_steps = 2;
 // spacings: 0.14 of a spacing. With 0 the mean distance changes by 3 %, with 0.08 it grows by up to 6 %.
 constexpr double flat_diagonal = 0.02;
 // Places on a quad's diagonal that are measured. The middle comes first, so that a bad diagonal is rejected early. More
-// places find more bad diagonals and take longer. With the middle alone, and with outer places half and 1.6 times as
-// far from it, two test meshes have at most 3 % fewer and 1 % more faces; their mean distances change by at most 3 %.
+// places find more bad diagonals and take longer. Tried: the middle alone, and outer places half and 1.6 times as far
+// from it. The faces and mean distances of two test meshes change by at most 3 %.
 constexpr double diagonal_shares[] = {0.5, 0.25, 0.75};
-// Samples and faces in one thread's job: smaller jobs cost more to hand out, larger ones leave threads idle. Quads of
-// an armadillo of 15,000 vertices take as long with half and double of both, within 1 %.
+// Samples and faces in one thread's job: smaller jobs cost more to hand out, larger ones leave threads idle. Half and
+// double of both change the time for quads of an armadillo of 15,000 by at most 1 %.
 constexpr std::int32_t samples_a_piece = 4096;
 constexpr std::int32_t faces_a_piece = 512;
 // The value with which the hash starts: 2^64 over the golden ratio, as in splitmix64.
@@ -143,7 +142,7 @@ constexpr std::int32_t collapse_relax_rounds = 12;
 // Quads up to this many rows from a collapse are relaxed. 1 and 4 improve some meshes and worsen others.
 constexpr std::int32_t collapse_rings = 2;
 // At most this many faces at two vertices that a collapse merges; two of them vanish. With 7: up to 7 % more faces, and
-// 32 % irregular vertices instead of 39. With 10 the meshes are those of 8.
+// 32 % irregular vertices instead of 39. 10 gives the same meshes as 8.
 constexpr std::int32_t collapse_most_faces = 8;
 // To reach a number of quads, at most one in this many collapses in a round: fewer rounds against evenness. Half
 // changes none of 21 runs. Double changes 7: some get better and some worse, in about the same time.

@@ -115,7 +115,7 @@ class Fitter {
     }
   }
 
-  // Tells whether a vertex of the surface lies on a border.
+  // Tells whether a vertex of the surface is on a border.
   bool on_border(std::int32_t v) const {
     std::int32_t h = surface_.out[v];
     do {
@@ -129,8 +129,8 @@ class Fitter {
     return surface_.component[surface_.tail[3 * point.triangle]];
   }
 
-  // Returns the vertex that a fitting step (release, snap, ...) would change: the corner of the quad at a missed place
-  // that is nearest to the place and may take the step.
+  // Returns the vertex that a fitting step (release, snap, ...) would change. It is a corner of the quad at a missed
+  // place: the nearest one for which the step is allowed.
   std::int32_t vertex_for(std::int32_t step, const QuadMiss& miss, const VertexFans& fans) const {
     const std::int32_t f = miss.face, *c = mesh_.quad(f);
     if (step == collapse) return can_collapse(mesh_, fans, f, 0) || can_collapse(mesh_, fans, f, 1) ? c[0] : none;
@@ -151,8 +151,8 @@ class Fitter {
     return best;
   }
 
-  // Chooses the fitting step (release, snap, ...) of this round, the earliest one that any place too far
-  // from the surface still has to try. `chosen` gets the places with this step, no two of them near each other.
+  // Chooses the fitting step (release, snap, ...) of this round: the earliest one that any place too far from the
+  // surface still has to try. The list `chosen` gets the places with this step. No two of them are near each other.
   std::int32_t choose(Vector<Place>& chosen) {
     Vector<Place> places(&memory_);
     std::int32_t step = given_up;

@@ -23,8 +23,8 @@ struct FluxSurface {
         position(memory),
         mesh_vertex(memory),
         component(memory) {}
-  // Throws HF_ERROR_UNSUPPORTED (index: a vertex as given) where more than 5 % of the edges between triangles join
-  // three or more, or would have to be parted so that all triangles can agree.
+  // Throws HF_ERROR_UNSUPPORTED (index: a vertex of the caller) in two cases, each for more than 5 % of the edges
+  // between triangles. The edges join three or more triangles, or they must be cut so that all triangles can agree.
   static FluxSurface make(const Mesh& mesh, const Topology& topology, Memory& memory);
 
   std::int32_t vertex_count() const noexcept { return out.size(); }

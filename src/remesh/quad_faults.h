@@ -1,9 +1,9 @@
 // Faults of quads near a place: corners that face away from the normal of their quad, and quads that run through
 // others.
 //
-// A corner is turned over if it faces away from the sum of the cross products of the quad's corners. Two quads cross
-// if an edge of a triangle of one passes through a triangle of the other; a quad is the two triangles on both sides of
-// its first diagonal. Quads that share a vertex do not count. Cost: O(faces), and O(k^2) for the k quads near the
+// A corner is turned over if it faces away from the sum of the cross products of the quad's corners. A quad is the two
+// triangles on both sides of its first diagonal. Two quads cross if an edge of a triangle of one passes through a
+// triangle of the other. Quads that share a vertex do not count. Cost: O(faces), and O(k^2) for the k quads near the
 // place.
 #pragma once
 #include "remesh/quad_mesh.h"

@@ -54,7 +54,7 @@ Vec3 position_of(const FluxSurface& surface, const SurfacePoint& point) noexcept
 // Changes the weights of all places to the order of the Mesh's corners: FluxSurface may have turned triangles.
 void locate_in_mesh(const FluxSurface& surface, const Mesh& mesh, QuadMesh& quads);
 
-// Throws HF_ERROR_INTERNAL with a message that says what is wrong.
+// Throws HF_ERROR_INTERNAL with a message that names the fault.
 void check_quads(const QuadMesh& mesh, std::int32_t euler_characteristic, Memory& memory);
 
 }  // namespace hf_inner

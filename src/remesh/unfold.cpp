@@ -42,7 +42,7 @@ class Unfolder {
     return moved;
   }
 
-  // Takes back what lies farther from the surface than before.
+  // Takes back the moves of vertices that are farther from the surface than before.
   double hold(const QuadDistance& distance, double away) {
     Vector<QuadMiss> misses(&memory_);
     for (std::int32_t round = 0; round < unfold_returns; ++round) {

@@ -17,7 +17,7 @@ namespace hf_inner {
 void unfold_corners(const FluxSurface& surface, double edge_length, QuadMesh& mesh, Memory& memory);
 
 // Unfolds, and where the mesh then lies farther from the surface than before, the moved vertices go back.
-// away: the distance between the mesh and the surface. Returns that of the new mesh; it is at most `away`.
+// away: the distance between the mesh and the surface. Returns the distance of the new mesh; it is at most `away`.
 double unfold_quads(const FluxSurface& surface, const QuadDistance& distance, double edge_length, double away,
                     QuadMesh& mesh, Memory& memory);
 

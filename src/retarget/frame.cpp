@@ -85,7 +85,7 @@ void Retargeter::find_root() {
   for (Index j = target.parents[at(target.mover)]; j >= 0; j = target.parents[at(j)]) root = j;
   if (root < 0 && options.root_motion == RootMotion::to_root)
     fail(HF_ERROR_INVALID_ARGUMENT, static_cast<std::uint32_t>(target.mover),
-         "joint %d of the target has no parent that could carry the travel; keep it or leave it out", target.mover);
+         "joint %d of the target has no parent to move by the travel; keep the travel or leave it out", target.mover);
   for (const Index j : target.order) {
     const Index p = target.parents[at(j)];
     if (p < 0 || (j != target.mover && !target.linked[at(j)] && j != root)) continue;

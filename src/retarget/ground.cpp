@@ -8,7 +8,7 @@
 namespace hf_inner {
 namespace {
 
-// How deep a part lies below where it may be.
+// How deep a part is below its lowest allowed height.
 double depth_of(const Retargeter& r, const GroundPart& part, Vec3* deepest) noexcept {
   double own = 1e300, by = 0;
   for (const SkinPoint& p : part.target) {

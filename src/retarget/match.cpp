@@ -103,7 +103,7 @@ bool follows_line(const ChainPair& pair) {
 
 void Matcher::add_pair(ChainPair pair, Aligning how, Turn before) {
   align_chain(r, pair, how, before);
-  // The turns of a joint hold those of the joints above it in its chain.
+  // The turns of a joint contain the turns of the joints above it in its chain.
   for (const Index joint : pair.source.joints) used[at(joint)] = 1;
   if (pair.source.count() == pair.target.count()) {
     for (std::size_t k = 0; k < pair.target.count(); ++k) follow_pieces(*this, pair, k);
@@ -219,7 +219,7 @@ void Matcher::add_limbs() {
 }
 
 // Some rigs have two rows of bones along the trunk: one carries the skin, the other arms or head. A bone of the other
-// row turns as the nearest bone of the trunk. What leads to legs goes with the hips.
+// row turns as the nearest bone of the trunk. Joints that lead to legs move with the hips.
 void Matcher::add_second_trunk() {
   Vector<Index> trunk(r.target.trunk, &memory);
   trunk.insert(trunk.begin(), r.target.mover);

@@ -7,9 +7,9 @@
 // A joint of the target turns as its partner of the source has turned since rest, seen from the body. Limbs whose
 // rests differ are aligned about shoulder and hip first, so T, A and crouch meet. Chains of unequal length share their
 // turns by arc length. The hips travel by the ratio of leg lengths. On top, feet go where the feet of the source are
-// over the ground; soles, tails, necks and the trunk stay above it. What the source puts deep into the ground goes as
-// deep. Lengths of bones never change. A joint without a partner keeps its rest under its parent. Two equal skeletons
-// are noticed: their keys are copied.
+// over the ground; soles, tails, necks and the trunk stay above it. A part that the source puts deep into the ground
+// goes as deep. Lengths of bones never change. A joint without a partner keeps its rest under its parent. Two equal
+// skeletons are noticed: their keys are copied.
 //
 // A frame depends on its source pose and on the state of the feet. The state says whether a foot is planted, and how
 // far the foot is moved to keep its place. It comes from the frames since the last reset and fades within a step. With
@@ -34,9 +34,9 @@ struct RetargetOptions {
   bool align_rests = true;
   bool goals = true;      // feet reach their places, nothing sinks into the ground
   bool lock_feet = true;  // planted feet slide no more than the feet of the source
-  // Feet of people go where the feet of the source are from its hips, scaled, as those of animals do, and legs follow.
-  // Otherwise legs point as those of the source. It brings feet to the ground that hover because the source folds its
-  // legs and stands on large feet.
+  // Feet of people go where the feet of the source are from its hips, scaled, as the feet of animals do, and legs
+  // follow. Otherwise legs point as the legs of the source. It brings feet to the ground that hover because the source
+  // folds its legs and stands on large feet.
   bool foot_path = false;
   bool copy_same = true;  // keys are copied between equal skeletons
   double scale = 0;       // times the travel of the source; 0: the ratio of leg lengths
@@ -82,8 +82,8 @@ struct RetargetReport {
   // spot needs the least correction of the feet if the body moves at scale x stride times the speed of the clip.
   double stride = 1;
   double deepest_drop = 0;  // how far the hips sank so that feet reach, in units of the target
-  // How high the lowest sole is above the lowest sole of the source while that stands: the mean over these frames, in
-  // legs of the target. Without goals it is 0.
+  // The height of the lowest sole above the lowest sole of the source while the source stands. It is the mean over
+  // these frames, in legs of the target. Without goals it is 0.
   double hover = 0;
 };
 
@@ -104,8 +104,8 @@ class Retarget {
   Retarget& operator=(Retarget&&) noexcept;
 
   // source: the pose to follow, 10 numbers per joint of the source. target: receives 10 numbers per joint of the
-  // target. seconds: the time since the last frame; 0 for the first frame and for a frame that is shown again. Throws
-  // Error for a number that is not finite and for a rotation of length 0 (index = joint). The object is then as before.
+  // target. seconds: the time since the last frame; 0 for the first frame and for a repeated frame. Throws Error for a
+  // number that is not finite and for a rotation of length 0 (index = joint). The object is then as before.
   void frame(const double* source, double seconds, double* target);
   // Forgets the offsets of the feet and the figures of the report. Call it where the clip jumps.
   void reset() noexcept;

@@ -25,7 +25,7 @@ Vec3 SkinPoint::at(const Stance& stance) const noexcept {
 
 namespace {
 
-// Reads the transform of one joint and refuses what is none.
+// Reads the transform of one joint and refuses a matrix that is no transform.
 void read_joint(const double* m, std::size_t joint, const char* name, Vec3& translation, Turn& rotation, Vec3& scale) {
   for (std::size_t k = 0; k < 10; ++k) {
     if (!std::isfinite(m[k]))
@@ -120,8 +120,8 @@ void stand(const Rig& rig, Stance& stance) {
   }
 }
 
-// Which way local rotations are read where a rest transform mirrors. With F = diag(1, 1, -1) for a joint that mirrors,
-// and T the turn that belongs to it, the rotation is T F; so the local one is (Fp Tp^-1 T Fp) (Fp F sign(scale)).
+// Which way local rotations are read where a rest transform mirrors. Let F = diag(1, 1, -1) for a joint that mirrors,
+// and T its turn. The rotation is then T F, and the local rotation is (Fp Tp^-1 T Fp) (Fp F sign(scale)).
 void find_flips(Rig& rig, const Stance& stance) {
   for (std::size_t j = 0; j < at(rig.count); ++j) rig.flipped[j] = determinant(stance.linear[j]) < 0;
   for (std::size_t j = 0; j < at(rig.count); ++j) {

@@ -17,7 +17,7 @@ struct Stance {
   Vector<Turn> turn;  // the rotation of linear
 };
 
-// A point that joints carry.
+// A point that joints move.
 struct SkinPoint {
   static constexpr std::size_t most = 4;
   Index joints[most] = {-1, -1, -1, -1};
@@ -26,7 +26,7 @@ struct SkinPoint {
   Vec3 at(const Stance& stance) const noexcept;
 };
 
-// The end of the last bone of a chain: a place that a joint carries. -1: not known.
+// The end of the last bone of a chain: a place that a joint moves. -1: not known.
 struct Tip {
   Index joint = -1;
   Vec3 offset;  // at rest, in the space of the model

@@ -44,7 +44,7 @@ void fasten(SkinPoint& p, Vec3 place, const Stance& rest) noexcept {
   for (std::size_t k = 0; k < SkinPoint::most && p.joints[k] >= 0; ++k) {
     const Linear& m = rest.linear[at(p.joints[k])];
     const double size = norm(m.x) * norm(m.y) * norm(m.z);
-    if (!(std::fabs(determinant(m)) > 1e-9 * size)) p.weights[k] = 0;  // a flat joint carries nothing
+    if (!(std::fabs(determinant(m)) > 1e-9 * size)) p.weights[k] = 0;  // a flat joint moves no vertex
     if (p.weights[k] > 0) p.local[k] = solve(m, place - rest.place[at(p.joints[k])]);
     sum += p.weights[k];
   }
@@ -85,7 +85,7 @@ Vector<SkinPoint> outermost(const CharacterInput& in, const Stance& rest, std::s
   return out;
 }
 
-// Without a skin a foot stands on the ground below its joints.
+// Without a skin a foot touches the ground below its joints.
 void add_bare_sole(const Rig& rig, const Stance& rest, RigLeg& leg) {
   for (const Index j : {leg.foot, leg.toe}) {
     if (j < 0) continue;
@@ -100,8 +100,8 @@ void add_bare_sole(const Rig& rig, const Stance& rest, RigLeg& leg) {
 
 }  // namespace
 
-// Finds the lowest vertices that the foot owns, and that the shin owns below the ankle. A shin without a foot stands on
-// its lower half.
+// Finds the lowest vertices that the foot owns, and that the shin owns below the ankle. A shin without a foot touches
+// the ground with its lower half.
 void find_soles(Rig& rig, const RetargetSide& side, Memory& memory) {
   const Stance& file_rest = rig.file_rest;
   for (RigLeg& leg : rig.legs) {
@@ -154,8 +154,8 @@ void find_ends(Rig& rig, const RetargetSide& side, Memory& memory) {
   for (std::size_t j = 0; j < at(rig.count); ++j) {
     if (counts[j] > 0) rig.ends[j] = (2 / counts[j]) * rig.ends[j];
   }
-  // A body stands over its ankles, but the middle of a boot lies toward the toes. A leg without a foot ends at the
-  // place of its sole that is nearest to the point under the hip.
+  // The middle of a body is over its ankles, but the middle of a boot lies toward the toes. A leg without a foot ends
+  // at the place of its sole that is nearest to the point under the hip.
   const Vector<double> heels = find_heels(rig, side.input, memory);
   for (const Chain& chain : side.character.chains) {
     if (chain.role != Role::leg) continue;

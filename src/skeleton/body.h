@@ -60,7 +60,7 @@ struct Body {
   Vec3 centre;
   double scale = 1;  // units of the model for the diagonal 1
 
-  // The joints as given.
+  // The joints of the caller.
   Vector<Vec3> pivots;
   Vector<RestFrame> frames;
   Vector<std::uint8_t> flipped;  // its rest transform mirrors

@@ -18,7 +18,7 @@ namespace {
 
 Index chain_of(const Character& out, Index joint) { return joint < 0 ? -1 : out.joint_chains[at(joint)]; }
 
-// A joint goes on with its carrier's chain if it has the same role and side, and is the longest such child.
+// A joint continues its carrier's chain if it has the same role and side, and is the longest such child.
 bool goes_on(const Body& body, Index joint) {
   const Index p = body.carriers[at(joint)];
   if (p < 0) return false;
@@ -81,8 +81,8 @@ void number_chains(const Body& body, Character& out) {
         counts[static_cast<std::size_t>(out.chains[c].role)][static_cast<std::size_t>(out.chains[c].side)]++;
 }
 
-// Returns the place where a leg without a foot ends: the point of its sole nearest to the point under the hip. A body
-// stands over its ankles; the middle of a boot lies toward the toes.
+// Returns the place where a leg without a foot ends: the point of its sole nearest to the point under the hip. The
+// middle of a body is over its ankles; the middle of a boot lies toward the toes.
 Vec3 ankle_of_sole(const Body& body, Index joint, Vec3 hip) {
   const double low = body.lowest_below(joint, body.up);
   double back = 1e300, front = -1e300, left = -1e300, right = 1e300;
@@ -99,7 +99,7 @@ Vec3 ankle_of_sole(const Body& body, Index joint, Vec3 hip) {
   return low * body.up + ahead * body.forward + 0.5 * (left + right) * cross(body.up, body.forward);
 }
 
-// Along the joints, and on to the chain that goes on from the tip.
+// Along the joints, then along the chain that continues from the tip.
 void measure_chains(const Body& body, Character& out) {
   for (std::size_t c = 0; c < out.chains.size(); ++c) {
     Chain& chain = out.chains[c];

@@ -1,9 +1,9 @@
 // Knows a character: where its up, forward and left are, and which joints are its spine, head, arms, legs, tail.
 //
-// know_character reads joints, vertices and what a file declares, as plain arrays. It trusts, in this order: what is
-// declared; the sides and words of names; the tree of the joints with its mirror and the vertices that joints own; the
-// shape of the surface. Where two disagree it takes the better founded one, lowers the confidence and says so in a
-// sentence.
+// know_character reads joints, vertices and what a file declares, as plain arrays. It uses these sources, the most
+// trusted first. They are declarations, the sides and words of names, the tree of the joints with its mirror and the
+// vertices that joints own, and the shape of the surface. Where two disagree it takes the better founded one, lowers
+// the confidence and says so in a sentence.
 //
 // Steps: input (intake.cpp), owners and helpers (owners.cpp), names (names.cpp), plane of symmetry and pairs
 // (mirror.cpp), one tree of loose pieces (pieces.cpp), limbs (limbs.cpp), up (up.cpp), forward (forward.cpp), roles
@@ -123,7 +123,7 @@ struct Character {
   Vector<std::uint32_t> chain_joints;
   // One entry for each joint.
   Vector<JointKind> kinds;
-  Vector<Role> roles;  // of a twist joint, that of the bone it lies along
+  Vector<Role> roles;  // of a twist joint, the part of the bone that it lies along
   Vector<Side> sides;
   Vector<std::int32_t> joint_chains;  // -1: none
   Vector<std::int32_t> carriers;      // the joint of the body that carries it: across helpers and between loose pieces
@@ -131,7 +131,8 @@ struct Character {
   Vector<RestFrame> frames;
 
   // Lengths in units of the model; 0: there is none. Lengths of legs are measured on the hindmost pair that stands.
-  double height = 0, ground = 0;  // along up; ground is under the feet: the lowest vertex but for what is worn or held
+  double height = 0, ground = 0;  // along up; ground is under the feet: the lowest vertex of the body, without worn or
+                                  // held parts
   double leg_length = 0;          // hip, knee, foot, and the height of the foot
   double hip_height = 0;          // of the thigh's joint over the ground
   double arm_length = 0;          // upper arm to hand

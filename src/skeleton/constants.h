@@ -34,9 +34,9 @@ constexpr double travelled = 0.2;
 // If no up is declared, +y and +z get this much more than other axes: half as much as known legs give.
 constexpr double customary_up = 0.5;
 
-// Bounds on work, which no character of ours comes near. Samples of the skin that are reflected, vertices among which
-// they are sought, joints that vote for a plane where there are four times as many, joints that are tested for lying
-// inside.
+// Bounds on work, which no character of ours comes near. Four counts. Samples of the skin that are reflected. Vertices
+// among which they are sought. Joints that vote for a plane where there are four times as many. Joints that are tested
+// for being inside.
 constexpr std::size_t skin_samples = 1000, skin_targets = 30000, plane_voters = 60, inside_tests = 64;
 constexpr std::uint32_t most_joints = 1u << 16;
 

@@ -178,7 +178,7 @@ void judge_named(Body& body, const Facts& facts) {
   if (facts.all_against()) {
     turn_round(body);
     body.forward_confidence = 0.5;
-    body.say("Every fact of the shape is against the sides of the names: they are those of the viewer.");
+    body.say("Every fact of the shape is against the sides of the names: the names use the sides of the viewer.");
     return;
   }
   body.forward_confidence = facts.sum() > -unsure ? 0.95 : 0.7;
@@ -188,7 +188,7 @@ void judge_named(Body& body, const Facts& facts) {
 void judge_shape(Body& body, const Facts& facts) {
   if (body.sides_doubtful && std::fabs(facts.sum()) < unsure) {
     body.forward_confidence = 0.4;
-    body.say("The rest transforms mirror the body and its shape says nothing: sides are those of the names.");
+    body.say("The rest transforms mirror the body and its shape says nothing: the sides of the names count.");
     return;
   }
   if (facts.sum() < 0) turn_round(body);
@@ -206,13 +206,13 @@ void take_declared_forward(Body& body) {
   const double along = dot(given, body.forward);
   if (std::fabs(along) < 0.5) {
     body.forward_confidence = std::min(body.forward_confidence, 0.5);
-    body.say("Forward as declared does not lie in the plane of symmetry: it is not taken.");
+    body.say("Forward as declared does not lie in the plane of symmetry: it is not used.");
   } else if (along > 0) {
     body.forward_confidence = std::max(body.forward_confidence, 0.95);
   } else {
     turn_round(body);
     body.forward_confidence = 0.6;
-    body.say("Names or shape say the opposite of the declared forward, which is taken.");
+    body.say("Names or shape say the opposite of the declared forward, which is used.");
   }
 }
 

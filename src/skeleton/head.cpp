@@ -108,7 +108,7 @@ void find_head(Body& body) {
   body.head = named_head(body);
   if (body.head >= 0) return;
   const Vec3 base = base_of(body);
-  // What carries arms is the chest. What carries legs is the hips, or else the head of a spider.
+  // The joint that carries arms is the chest. The joint that carries legs is the hips, or else the head of a spider.
   for (const bool with_legs : {false, true}) {
     double best = -1e300;
     for (const Index j : body.tree) {

@@ -251,7 +251,7 @@ void normalise(Body& body) {
   body.centre = box.middle();
   body.scale = norm(box.high - box.low);
   if (!(body.scale > 0) || !std::isfinite(body.scale)) {
-    body.say("All of it lies in one place: nothing can be known.");
+    body.say("All points are at one place: nothing can be known.");
     body.scale = 1;
   }
   const auto moved = [&](Vec3 p) { return (1 / body.scale) * (p - body.centre); };
@@ -271,7 +271,8 @@ void read_joints(Body& body) {
   if (in.travel_count > 0) check_travels(in);
   const std::size_t n = in.joint_count;
   if (in.bound && std::find(in.bound, in.bound + n, 1) == in.bound + n)
-    fail(HF_ERROR_EMPTY, HF_NO_INDEX, "bound is 0 for every joint; set it to 1 for those of the skin, or give NULL");
+    fail(HF_ERROR_EMPTY, HF_NO_INDEX,
+         "bound is 0 for every joint; set it to 1 for the joints of the skin, or give NULL");
   body.count = static_cast<Index>(n);
   body.parents.assign(in.parents, in.parents + n);
   for (std::size_t j = 0; j < n; ++j) {

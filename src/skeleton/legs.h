@@ -8,8 +8,8 @@ namespace hf_inner {
 Vector<const Limb*> standing_limbs(const Body& body);
 // Whether a limb begins with a bone from the middle of the body: such bones of both sides start in one place.
 bool leads_out(const Body& body, const Limb& limb);
-// Returns the place of the ankle in the path of a leg: the last joint below half the hip that is clear of the ground,
-// else the first one; 0: none. thigh: the place of the thigh.
+// Returns the place of the ankle in the path of a leg; 0: none. The ankle is the last joint below half the hip that is
+// clear of the ground, else the first joint there. thigh: the place of the thigh.
 std::size_t ankle_of(const Body& body, const Vector<Index>& path, std::size_t thigh);
 
 }  // namespace hf_inner

@@ -128,8 +128,8 @@ class Tokens {
     return static_cast<double>(numbered) > common_word * static_cast<double>(all) &&
            std::adjacent_find(plain.begin(), plain.end()) == plain.end();
   }
-  // A word ends at what is no letter, before a capital and between letters and digits; FBXASC046 stands for a
-  // character.
+  // A word ends at a character that is no letter, before a capital, and between letters and digits; FBXASC046 stands
+  // for a character.
   void add(Text name, bool numbered) {
     if (numbered) name = unnumbered(name);
     for (std::size_t i = 0; i < name.size;) {

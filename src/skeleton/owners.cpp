@@ -128,7 +128,7 @@ void name_kinds(Body& body, const Vector<std::uint8_t>& below) {
       kind = JointKind::end;
     helpers += kind == JointKind::helper && is_bound(body, j);
   }
-  if (helpers > 0) body.say("%u joints carry nothing: controls, targets or roots.", helpers);
+  if (helpers > 0) body.say("%u joints move no vertex: controls, targets or roots.", helpers);
 }
 
 }  // namespace

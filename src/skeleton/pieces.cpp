@@ -218,7 +218,7 @@ double distance_to_line(Vec3 p, Vec3 a, Vec3 b, double& along) noexcept {
   return norm(p - a - along * d);
 }
 
-// A leaf on the line to a brother that goes on is a twist joint: it follows that bone. So does one in the place of a
+// A leaf on the line to a sibling with children is a twist joint: it follows that bone. So does one in the place of a
 // parent that owns nothing.
 bool is_twist(const Body& body, Index joint, Index parent) {
   constexpr double on_line = 0.1;  // of the bone's length

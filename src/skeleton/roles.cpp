@@ -146,7 +146,7 @@ void assign_limb_roles(Body& body) {
 
 void set(Body& body, Index joint, Role role) { body.roles[at(joint)] = role; }
 
-// The hips' side: sides by place, since names may be those of the viewer.
+// The hips' side: sides by place, since names may use the sides of the viewer.
 void assign_sides(Body& body) {
   for (const Limb& limb : body.limbs) {
     for (int side = 0; side < 2; ++side) {
@@ -155,7 +155,7 @@ void assign_sides(Body& body) {
   }
 }
 
-// Returns the place in the path to the head at which a limb begins: that of a central joint. Where arms hang on a
+// Returns the place in the path to the head at which a limb begins: the place of a central joint. Where arms hang on a
 // second row of bones, such as the controls of a Rigify rig, it is the nearest one. A pair on something at one side,
 // such as a pack, does not begin there: 0.
 std::size_t nearest_below_head(const Body& body, const Vector<Index>& path, Index carrier) {
@@ -202,8 +202,8 @@ bool leads_behind(const Body& body, Index joint, double hind_place) {
          std::fabs(body.lateral(body.pivots[at(tip)])) < 2 * central;
 }
 
-// A tail has the name of the spine where an animal was made of the bones of a person: it leads behind the hind legs,
-// and no limb hangs on it. What lies behind an upright body is on its back.
+// A tail has the name of the spine where an animal was made of the bones of a person. Such a tail leads behind the hind
+// legs, and no limb hangs on it. A part behind an upright body is on its back.
 bool is_tail(const Body& body, Index joint, double hind_place) {
   const Index p = body.carriers[at(joint)];
   if (p >= 0 && body.roles[at(p)] == Role::tail) return true;
@@ -259,7 +259,7 @@ void assign_rest(Body& body, Vector<std::uint8_t>& given) {
   }
 }
 
-// Declared roles win; joints along a bone take its role. The sides of a pair follow from its places, because a
+// Declared roles win; joints along a bone get its role. The sides of a pair follow from its places, because a
 // declaration may be older than a mirroring of the body.
 void take_declared_roles(Body& body) {
   for (Index j = 0; j < body.count; ++j) {
@@ -276,7 +276,7 @@ void take_declared_roles(Body& body) {
   }
 }
 
-// A body stands on its feet. What it wears or holds, such as a pickaxe that hangs lower, does not carry it.
+// The feet of a body are at the ground. Worn and held parts do not carry it, such as a pickaxe that hangs lower.
 void find_ground(Body& body) {
   double feet = 1e300, trunk = 1e300;
   for (std::size_t v = 0; v < body.points.size(); ++v) {

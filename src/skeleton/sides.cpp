@@ -26,7 +26,7 @@ bool is_straight(Vec3 v) noexcept {
                      [&](Vec3 axis) { return std::fabs(dot(v, axis)) == 1; });
 }
 
-// Joints with one name but for the side, one on each side.
+// Two joints, one on each side, whose names differ only in the side.
 void pair_names(Body& body) {
   Vector<std::pair<std::uint64_t, Index>> keys(&body.memory);
   for (Index j = 0; j < body.count; ++j) {
@@ -286,8 +286,8 @@ void find_plane(Body& body, MirrorSearch& search) {
     const Vec3 across = level ? across_travels(body) : Vec3{};
     const bool led = norm(across) > 0;
     choice.left = led ? snap(across) : narrowest(body, candidates, level);
-    body.say(led ? "No joints mirror each other: the side is across the way that clips lead."
-                 : "No joints mirror each other: the side is where the joints spread least.");
+    body.say(led ? "No joints mirror each other: the side axis is at a right angle to the travel of clips."
+                 : "No joints mirror each other: the side axis is where the joints spread least.");
   }
   body.left = choice.left;
   body.mirror_score = choice.score;

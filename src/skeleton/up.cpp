@@ -1,4 +1,4 @@
-// Finds up: what is declared, legs and head by their names, and which way the body stands.
+// Finds the up axis. It uses declarations, legs and head by their names, and the axis along which the body is upright.
 #include <algorithm>
 #include <cmath>
 
@@ -32,8 +32,8 @@ Extent extent(const Body& body, Vec3 axis) {
   return out;
 }
 
-// How well the body stands with this up: the share of paired joints at the ground, how wide they stand, and whether the
-// middle of the body is over them.
+// The score of an up axis: the share of paired joints at the ground, their distance, and whether the middle of the body
+// is over them.
 double support(const Body& body, Vec3 up) {
   const Vec3 along = cross(body.left, up);
   const Extent height = extent(body, up), width = extent(body, body.left), length = extent(body, along);
@@ -125,7 +125,7 @@ Vec3 best_axis(const Body& body, const Evidence& evidence, double& margin) {
 }
 
 // A declared up holds unless named legs and a named head both point along another axis: a body that rests lying. Four
-// legs that point along one axis say it alone, since their body carries its head in front.
+// legs that point along one axis decide alone, since the head is in front of such a body.
 void take_declared_up(Body& body, const Evidence& evidence, Vec3 found) {
   const auto is_leg = [](const Limb& limb) { return limb.named == NameClass::leg; };
   const bool four = std::count_if(body.limbs.begin(), body.limbs.end(), is_leg) > 1;
@@ -135,7 +135,7 @@ void take_declared_up(Body& body, const Evidence& evidence, Vec3 found) {
     body.up = found;
     body.up_confidence = 0.6;
     body.say(lies ? "Legs and head say the body lies at rest: up is its own."
-                  : "Up as declared lies across the plane of symmetry: it is not taken.");
+                  : "Up as declared lies across the plane of symmetry: it is not used.");
     return;
   }
   const bool legs_known = norm(evidence.legs) > 0;
@@ -155,8 +155,8 @@ void find_up(Body& body) {
   } else {
     body.up = found;
     body.up_confidence = std::min(0.95, 0.5 + margin);
-    body.say("Up is found by how the body stands%s: ahead of the next axis by %.2f.",
-             norm(evidence.legs) > 0 ? " and by its legs" : "", margin);
+    body.say("Up comes from the balance of the body%s: ahead of the next axis by %.2f.",
+             norm(evidence.legs) > 0 ? " and from its legs" : "", margin);
   }
   if (-dot(evidence.legs, body.up) > 0.5) add_reason(body.up_why, "legs down");
   if (dot(evidence.head, body.up) > 0.5) add_reason(body.up_why, "head up");

@@ -39,8 +39,8 @@ double ground_height(const RestSide& side) noexcept;
 // belong to feet. If a leg has no vertex in any window, it returns 0.
 double leg_length(const RestSide& side, Span<const std::int32_t> foot_columns) noexcept;
 
-// Finds the rest direction of the limb at the region of field `column`; its length is that of the outer part of the
-// limb. Returns false when no vertex has a field value in the window.
+// Finds the rest direction of the limb at the region of field `column`; its length is the length of the outer part of
+// the limb. Returns false when no vertex has a field value in the window.
 bool limb_direction(const RestSide& side, std::int32_t column, Vec3 region_centroid, Vec3& direction,
                     FieldWindow window = limb_window) noexcept;
 

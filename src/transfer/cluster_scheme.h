@@ -1,6 +1,6 @@
 // The interface to make clusters otherwise than around centres (clusters.h). A transfer with a scheme has clusters
 // alone: no rest alignment, no levers, no slack, no turns towards neighbours and no ground. Transfers of hosts have no
-// scheme. The room peers has that of the paper.
+// scheme. The room peers has the scheme of the paper.
 #pragma once
 #include <cstdint>
 

@@ -68,7 +68,7 @@ Clusters make_clusters(const ClusterOptions& options, std::int32_t field_count, 
                        Span<const double> source_area, const Core& source_core, Span<const double> target_field,
                        Span<const double> target_area, const Mesh& target_mesh, Memory& memory, JobRunner& jobs);
 
-// The weights of the source's vertices in the same clusters, as those of the target.
+// The weights of the source's vertices in the same clusters, computed as on the target.
 struct SourceWeights {
   explicit SourceWeights(Memory& memory) : joint(&memory), weight(&memory) {}
   Vector<std::int32_t> joint;  // blend_count per source vertex, by falling weight

@@ -7,10 +7,11 @@
 // percentile over all edges; it is 0.32 on a wolf and 0.35 on a deer.
 //
 // "The sample" is hf_transfer_table --half choosing --sample 4, 377 runs. Most lines were measured with a kernel width
-// of 0.04 and without levers. There 8 frames spike, and 89.4 % of the runs accelerate at most 1.1 times as much as
-// their source. 41 runs step more than 1.5 times as far, and 28 open by more than 0.5 % of the box. The deepest sinks
-// 0.0042 boxes. 22 of 33 clips on their own model are within 0.010 and 0.025. The lines of levers.cpp and of the kernel
-// width were measured with both, where the first five figures are 1, 95.0 %, 11, 25 and 0.0044.
+// of 0.04 and without levers. There 8 frames spike. 89.4 % of the runs are calm: they accelerate at most 1.1 times as
+// much as their source. The steps of 41 runs are more than 1.5 times as long. The gaps of 28 runs are more than 0.5 %
+// of the box. The deepest sinks 0.0042 boxes. On their own model 22 of 33 clips are right: within 0.010 boxes in the
+// mean and 0.025 at worst. The lines of levers.cpp and of the kernel width were measured with both. There 1 frame
+// spikes and 95.0 % of the runs are calm.
 //
 // "Five runs" are first clips: horse on wolf, wolf on deer, horse on fox, tyrannosaur on velociraptor, cow on fox. The
 // third has the dials stride 1.2, neck_follow 1 and tail_follow -0.5. "Falls" are six runs of the same models that
@@ -27,8 +28,8 @@ constexpr double no_height = 1e300;
 
 // --- options ---
 
-// Clusters (groups of vertices with a common motion) of a transfer: trades detail for time. At half the value the
-// sample has 32 open runs and the same spikes. At twice the value it is 26 open runs and 10 spikes.
+// Clusters of a transfer: trades detail for time. At half the value the sample has 32 open runs and the same spikes. At
+// twice the value it is 26 open runs and 10 spikes.
 constexpr std::int32_t default_cluster_count = 80;
 // Clusters for each pair, if that is more than the default. With 60 pairs, 80 clusters leave most pairs without a
 // cluster near them: the space of the fields has a dimension for each pair. Ten pairs of a horse on a wolf have 80
@@ -36,13 +37,13 @@ constexpr std::int32_t default_cluster_count = 80;
 // by 4.3 instead of 4.9 %.
 constexpr std::int32_t clusters_per_pair = 5;
 // Width of a cluster of vertices, as a distance of field values: trades local detail for smoothness. At twice the value
-// 63 frames of the sample spike, instead of 1. At 0.04 the choosing half has 86 instead of 97 clips right on their own
-// model, at 0.02 it has 99. Less changes nothing from eight pairs on (width_per_pair).
+// 63 frames of the sample spike, instead of 1. On their own model 97 clips of the choosing half are right. At 0.04 it
+// is 86, at 0.02 it is 99. Less changes nothing from eight pairs on (width_per_pair).
 constexpr double default_kernel_width = 0.03;
 // That width for each pair, if it is more than the default, and at most: fields of many regions change faster along the
-// surface. Four transfers to another body, with 20 and 60 true pairs, have a mean error of 0.0040 and 0.0040 boxes
-// (0.0045 with eight pairs). Without it 0.0046 and 0.0053, with half 0.0046 and 0.0040, with double 0.0041 and 0.0040.
-// With half the upper bound it is 0.0042 and 0.0048.
+// surface. Four transfers to another body, with 20 and 60 true pairs, have a mean error of 0.0040 boxes. Without it the
+// error is 0.0046 and 0.0053. Double changes the error by 0.0001 at most. With half the upper bound it is 0.0042 and
+// 0.0048.
 constexpr double width_per_pair = 0.004, widest_default_kernel = 0.12;
 // A limb turns to the source's rest direction by a share that grows with the angle between the two directions. It is
 // half at this angle: less takes the target's own stance away, more leaves limbs that point elsewhere. On five runs
@@ -54,21 +55,21 @@ constexpr double default_alignment_angle = 40 * degree;
 // foot error of a wolf from 4e-5 to 1e-3; 1.2 moves vertices by up to 3e-4 boxes. With 1.05 as the second they move by
 // 5e-4, with 2.1 by 0.013.
 constexpr double align_from = 0.6, align_to = 1.4;
-// At most this many clusters (groups of vertices with a common motion): bounds a dense matrix. For 512 clusters it
-// takes 2 MB, and 22 million multiply-adds to factor.
+// At most this many clusters: bounds a dense matrix. For 512 clusters it takes 2 MB, and 22 million multiply-adds to
+// factor.
 constexpr std::uint32_t cluster_limit = 512;
 // Refuses cluster widths that are a mistake. The fields of two vertices differ by at most 1.41. Below the lower bound,
 // nearest_count alone decides the width.
 constexpr double least_kernel_width = 0.005, most_kernel_width = 0.5;
 // Refuses scales that are a mistake; no result depends on these bounds.
 constexpr double least_scale = 1e-6, most_scale = 1e6;
-// Trades exact edge lengths for exact paths of feet. At half the value the sample has 26 open runs, 89.9 % of calm ones
-// and 23 clips right, and edges of a wolf stretch by 0.34 (0.32 now). At twice the value feet end 1.3 times as far from
-// their paths, and 75 instead of 74 runs slide.
+// Trades exact edge lengths for exact paths of feet. At half the value the sample has 26 open runs, and edges of a wolf
+// stretch by 0.34 (0.32 now). At twice the value feet end 1.3 times as far from their paths, and 75 instead of 74 runs
+// slide.
 constexpr double default_spread_share = 0.5;
-// Trades shape for exact paths of regions that follow their source (anchors). At half the value: feet end 1.8 times as
-// far from their paths. At twice the value they end 0.6 times as far, and edges stretch the same. Both have 9 spikes in
-// the sample.
+// Trades shape for exact paths of anchors, the regions that follow their source. At half the value: feet end 1.8 times
+// as far from their paths. At twice the value they end 0.6 times as far, and edges stretch the same. Both have 9 spikes
+// in the sample.
 constexpr double default_anchor_pull = 1;
 // When no region follows its source's path, the body's centroid alone fixes its place. This is the weight of the
 // centroid's goal. Halving or doubling it changes errors and edge stretches by at most 3 % and moves vertices by up to
@@ -92,11 +93,11 @@ constexpr double axes_tolerance = 1e-3;
 struct FieldWindow {
   double low, high;
 };
-// A leg is measured where the foot's field lies between these values. If no vertex lies in one window, the next is
-// used. With half the first window, feet end 1.2 times as far from their paths. With twice the first window, errors and
-// edge stretches of a wolf change by at most 3 %.
+// A leg is measured where the foot's field is between these values. If one window has no vertex, the next is used. With
+// half the first window, feet end 1.2 times as far from their paths. With twice the first window, errors and edge
+// stretches of a wolf change by at most 3 %.
 constexpr FieldWindow leg_windows[] = {{0.4, 0.6}, {0.3, 0.7}, {0.2, 0.8}};
-// A limb begins where its field lies between these values; its direction starts there. Halving both changes errors and
+// A limb begins where its field is between these values; its direction starts there. Halving both changes errors and
 // edge stretches by at most 3 %. At twice the values, limbs of the test models wolf and fox no longer turn to the
 // source's rest direction.
 constexpr FieldWindow limb_window = {0.4, 0.65};
@@ -114,8 +115,8 @@ constexpr double steep_share = 0.5;
 constexpr std::int32_t blend_count = 4;
 // A kernel (Gaussian weight around a cluster's centre) becomes wide enough to have this many source vertices within one
 // width. At half the value the sample has 9 spikes and steps of up to 3.8 times the source's (3.0 now). At twice the
-// value it has 7, 90.7 % of calm runs and 33 long steps, but 30 open runs, and largest means on themselves of 0.031
-// boxes (0.024 now).
+// value it has 7, and 90.7 % of calm runs. But 30 runs open, and the largest mean on the own model is 0.031 boxes
+// (0.024 now).
 constexpr std::int32_t nearest_count = 6;
 // A kernel (Gaussian weight around a cluster's centre) ends at this many widths from the centre. At half the value: the
 // edge stretch of a wolf is 0.35 (0.32 now). Doubling it changes errors and edge stretches by at most 3 %.
@@ -142,8 +143,8 @@ constexpr double least_area_share = 1e-6;
 
 // The numbers of this group and the next hold for HF_TRANSFER_STRETCH alone. They were chosen on one pair of generated
 // heads (tests/unit/transfer/stretch_test.cpp, 9,900 and 11,918 vertices). Other values were measured on five
-// pairs of such heads, 52 shapes each, and on a horse's walk on a bull. The error is that of all shapes, as a share of
-// their motion: 0.18 to 0.22 now. Closed lids are 0.5 to 15 % of their opening apart.
+// pairs of such heads, 52 shapes each, and on a horse's walk on a bull. The error is the error over all shapes, as a
+// share of their motion: 0.18 to 0.22 now. Closed lids are 0.5 to 15 % of their opening apart.
 
 // Weight of the fields of the pairs beside places in boxes, where points of two surfaces are matched: trades parts told
 // apart for smooth matches. At half the value errors are 5 to 12 % smaller, at twice the value 11 to 23 % larger. With
@@ -155,13 +156,12 @@ constexpr double flat_triangle = 1e-12;
 // How far a warp may miss its points, and the size of its affine part, in boxes: without the second a warp of less than
 // four points has no solution. Half and double change errors by at most 0.6 % for the first, 0.01 % for the second.
 constexpr double warp_ridge = 1e-3, affine_ridge = 1e-4;
-// Samples of the target, and of its border, that a warp takes to the source: trades close matches for the time of
-// preparing, which grows with the cube of the samples. With 100 of the target, errors are 1 to 3 % smaller, and edges
-// of the bull stretch 2 % more. With 400 they are 1 to 2 % larger, and preparing takes 1.5 to 1.7 times as long. Half
-// of the border's leaves closed lids up to 9 % farther apart; double changes errors by at most 0.3 %.
+// Samples of the target, and of its border, that a warp takes to the source. More samples match closer. The time of
+// preparing grows with their cube. With 100 of the target, errors are 1 to 3 % smaller, and edges of the bull stretch 2
+// % more. With 400 they are at most 2 % larger, and preparing takes at least 1.5 times as long. Half of the border's
+// leaves closed lids up to 9 % farther apart; double changes errors by at most 0.3 %.
 constexpr std::size_t warp_samples = 200, warp_border_samples = 100;
-// Rounds of matching them. With 1 errors are 3 to 9 % smaller, with 2 they are 2 to 5 % smaller, and with 8 they are
-// 3 to 8 % larger.
+// Rounds of matching them. With 1 and 2 errors are up to 9 % smaller. With 8 they are up to 8 % larger.
 constexpr std::int32_t warp_rounds = 4;
 // A sample whose match lies farther away (in boxes) or faces another way is left out. Halving or doubling them changes
 // no head. Edges of the bull stretch 1 % more with half the first, and 3 % more with twice the second.
@@ -170,8 +170,8 @@ constexpr double warp_reach = 0.1, warp_cosine = 0.3;
 // boxes) than the nearest point of the source. Else the source has no such border. Half, double and ten times the value
 // change no vertex. At 0.01 errors change by at most 1 %.
 constexpr double border_reach = 0.1;
-// A gradient in a direction in which a vertex has no edge is that of the whole body, with this weight. At 1e-9 a source
-// of twice the size is off by 1e-9. With a tenth and ten times the value, errors have the same five digits.
+// In a direction without an edge of the vertex, the gradient of the whole body counts, with this weight. At 1e-9 a
+// source of twice the size is off by 1e-9. With a tenth and ten times the value, errors have the same five digits.
 constexpr double least_edge_moment = 1e-12;
 // An edge that is longer than its match by more than this, beyond the scale, does not take the match's own change. At
 // half the value one pair's lids close 11 % better. Half and double change errors by at most 0.2 %.
@@ -182,17 +182,17 @@ constexpr std::int32_t rows_in_leaf = 8;
 // --- openings.cpp, gradient_openings.cpp ---
 
 // Cosine of the largest angle between an outward direction and the place that faces it: 60 degrees. At 0.25 one pair's
-// error is 0.39 instead of 0.20. At 0.8 most lids end 2 to 7 times as far apart, and one pair's error is 69; at 0.6 it
-// is 36. With 0.4 that pair's lids are 9 % apart instead of 15, and the others stay the same.
+// error is 0.39 instead of 0.20. At 0.8 most lids end 2 to 7 times as far apart. One pair's error is 69 at 0.8, and 36
+// at 0.6. With 0.4 that pair's lids are 9 % apart instead of 15, and the others stay the same.
 constexpr double facing_cosine = 0.5;
 // An opening (in boxes) that is wider at rest is not held: lids and lips are narrower, sleeves and necks wider. At half
 // the value four of five pairs have lids 2 to 30 times as far apart. At twice the value one pair's error is 0.52, and
 // another's is 373. With 0.045 no vertex moves; with 0.08 one pair's error is 0.53.
 constexpr double widest_opening = 0.06;
 // How far the constraint of an opening gives way, as a share of its own compliance: trades closed lids for a smooth
-// skin where constraints contradict each other. Before gaps across a border were carried by themselves, closed lids
-// were 1.4 % of the opening apart at 1e-5, 1.7 % at 1e-3 and 2.0 % at 1e-2; on coarse lids 36, 22 and 16 %. Now half
-// and double change errors by at most 2 %, and coarse lids are 17 and 12 % apart instead of 15.
+// skin where constraints contradict each other. Without gaps across a border, closed lids are 1.4 % of the opening
+// apart at 1e-5 and 2.0 % at 1e-2. Coarse lids are 36 % and 16 % apart. Now half and double change errors by at most 2
+// %, and coarse lids are 17 and 12 % apart instead of 15.
 constexpr double opening_give = 1e-3;
 // At most this many constraints of openings; bounds the dense matrix. The five pairs have less: with 48 and 768 no
 // vertex moves.
@@ -215,7 +215,7 @@ constexpr double still_enough = 1e-7;
 // value: they change by 0.009. At twice the value: by 0.045, in a quarter of the time on the model of a woman.
 constexpr double rigid_island = 0.03;
 // In a piece without a region, one vertex in three keeps the field values of the surface beside it. If all do, values
-// jump twice as far across an edge. If one in six does, values end 1.2 times as far from those of the surface.
+// jump twice as far across an edge. If one in six does, values end 1.2 times as far from the values of the surface.
 constexpr std::size_t held_divisor = 3;
 // At least this many vertices of a piece without a region keep the field values of the surface beside it: three points
 // fix a piece in space. With one, field values change by 0.03. With six, by 0.16 on pieces of some ten vertices.
@@ -235,21 +235,20 @@ constexpr double least_weight_share = 1e-3;
 // --- levers.cpp ---
 
 // A cluster of the source counts as at least this wide (in boxes): coarse meshes have clusters of one vertex. With
-// half, 98.7 instead of 98.4 % of the sample's runs accelerate at most 1.3 times as much as their source. With
-// double, 94.4 instead of 95.0 % do so at most 1.1 times, and 3 runs instead of 1 move beside a still source.
+// half, 98.7 instead of 98.4 % of the sample's runs accelerate at most 1.3 times as much as their source. With double,
+// 94.4 instead of 95.0 % are calm. Then 3 runs instead of 1 move beside a still source.
 constexpr double least_reach = 0.01;
 // The length from a cluster of the source to the end of its limb counts as at least this (in boxes): it is nearly none
 // at the end. At 0.1 tails of cows move more than twice as far as a deer's that stands still (10 instead of 3 runs of
 // the choosing half).
 constexpr double shortest_reach = 0.03;
-// A limb's end counts as farther away on the target between these ratios, and a cluster at a limb's root as wider: less
-// takes clusters of bodies that are alike, which lie a little elsewhere, for longer parts. Of the choosing half 95.1 %
-// are calm, and on generated bodies 8, 20 and 60 true pairs have mean errors of 0.0047, 0.0046 and 0.0044 boxes. With
-// 1.3 and 1.8 for both (and 0 below) it is 95.0 %, 0.0047, 0.0047 and 0.0045; with 1.15 and 1.5 for both 95.2 %,
-// 0.0047, 0.0049 and 0.0049.
+// A limb's end counts as farther away on the target between these ratios, and a cluster at a limb's root as wider. If
+// they are less, clusters of similar bodies count as longer parts, because their places differ a little. In the
+// choosing half 95.1 % are calm. On generated bodies 8 to 60 true pairs have mean errors of 0.0044 to 0.0047 boxes.
+// With 1.3 and 1.8 for both (and 0 below) this hardly changes. With 1.15 and 1.5 for both, the errors rise to 0.0049.
 constexpr double ends_from = 1.15, ends_to = 1.5, wider_from = 1.3, wider_to = 1.8;
-// Clusters of wider kernels are less certain of where they are: by this share of their spread for each width of the
-// default kernel beyond it, a limb's end counts as nearer. At 0, 20 and 60 true pairs are worse (above). With 0.3 of
+// The place of a cluster of a wider kernel is less certain. For each width of the default kernel beyond it, a limb's
+// end counts as nearer by this share of the cluster's spread. At 0, 20 and 60 true pairs are worse (above). With 0.3 of
 // the spread whatever the kernel, and ends between 1.2 and 1.6, 94.9 % are calm.
 constexpr double ends_unsure = 0.5;
 // A cluster hangs on one that overlaps it by this share of the smaller of the two: less finds ways over vertices that
@@ -274,8 +273,9 @@ constexpr double least_overlap_extent = 1e-12;
 
 // --- slack.cpp ---
 
-// The figures count clips of the choosing half of tests/bench/transfer_table.cpp on their own model that are within
-// 0.010 boxes in the mean and 0.025 at worst: all 116 now, 36 without slides. The largest mean is 0.0096.
+// The figures count clips of the choosing half of tests/bench/transfer_table.cpp that are right on their own model. A
+// clip is right within 0.010 boxes in the mean and 0.025 at worst. Now all 116 are right, without slides 36. The
+// largest mean is 0.0096.
 
 // Added to the diagonal of the fit, as a share of it and of the mean: bounds translations of clusters that differ in
 // few vertices. Ten times leaves 116 and 0.0094.
@@ -284,7 +284,7 @@ constexpr double fit_ridge = 1e-3;
 // one: guards a division. At 1e-7 and 1e-3 the figures are the same.
 constexpr double least_common = 1e-6;
 // The edges of E_spread between two clusters have positive and negative weights. If their sum is a smaller share of the
-// sum of their sizes, the slide is that of the overlap, or none. Half and double give the same figures.
+// sum of their sizes, the slide of the overlap counts, or none. Half and double give the same figures.
 constexpr double certain_tie = 0.1;
 // How far from the middle of their overlap two clusters may turn, in distances of the clusters: trades exact joints for
 // calm where parts do not correspond. Half gives 110 and 0.0135, double 116 and 0.0088. Double had two more spikes in
@@ -321,8 +321,8 @@ constexpr std::size_t most_sampled = 4096;
 // A surface is thin if it is less than this through, in boxes: more takes necks, less leaves antlers out. Half and
 // double change no spike, depth or gap of 377 runs of tests/bench/transfer_table.cpp.
 constexpr double thin_width = 0.04;
-// Fields stand still where none changes by more than this over a box: more takes parts of thighs and muzzles, less only
-// the tips of antlers. At 0.5, 544 instead of 328 of the 1,560 vertices of a cow's head may sink. Half and double
+// Fields are constant where none changes by more than this over a box: more takes parts of thighs and muzzles, less
+// only the tips of antlers. At 0.5, 544 instead of 328 of the 1,560 vertices of a cow's head may sink. Half and double
 // change no spike, depth or gap of these runs.
 constexpr double idle_slope = 0.2;
 
@@ -350,8 +350,8 @@ constexpr double region_cluster_share = 0.05;
 // A vertex that sinks below the ground is raised with a region if its weight in the region's clusters is larger. At
 // half the value: vertices move by up to 0.008 boxes. If no vertex does, a deer sinks 0.004 boxes into the ground.
 constexpr double region_vertex_share = 0.75;
-// Vertices of one thread's job. Half and double of all such sizes of this file give 2,093 and 1,992 frames a second
-// instead of 2,063 (10,000 vertices, two threads), and crowds of eight 4 % fewer at most.
+// Vertices of one thread's job. Half and double of all such sizes of this file change the frames per second by at most
+// 4 % (10,000 vertices, two threads).
 constexpr std::size_t owner_block = 256;
 
 // --- transfer_dials.cpp ---
@@ -375,31 +375,31 @@ constexpr FieldWindow root_window = {0.08, 0.2};
 // Distance from rigid motion (in boxes) at which a frame counts as half rigid. Trades exact copies of noisy rigid
 // motion for a calm ground: an idle body breathes by 1e-4 to 1e-3, and a share that changes with its breath makes it
 // flicker. In 52 idle clips of and on a dinosaur, acceleration is up to 1.6 times the source's. It is 10.9 times at
-// 1e-4 and 5.1 times at 1e-3, and then 7 and 12 clips sink by more than 0.01 boxes (4 now).
+// 1e-4 and 5.1 times at 1e-3. Then 7 and 12 clips sink by more than 0.01 boxes (4 now).
 constexpr double rigid_residual = 1e-5;
 // Between these angles a body counts as fallen over by a share from 0 to 1. A narrow range moves the feet of a body
 // that falls fast. The 130 falls of the choosing half of tests/bench/transfer_table.cpp have 7 spikes and accelerate at
-// most 1.29 times as much as their source. With 50 as the second it is 20 and 1.93, with 80 9 and 1.66, with 140 6
-// and 1.24, with 0 and 80 7 and 1.63, with 10 and 100 8 and 1.43 (a body that turned had the same range then).
+// most 1.29 times as much as their source. With 50 as the second it is 20 and 1.93. With 140 it is 6 and 1.24. A body
+// that turned had the same range then.
 constexpr double fall_low = 20 * degree, fall_high = 110 * degree;
-// Up to this angle of the body a foot falls as far as it tips itself, so that a body may lean over feet that stand;
-// from fall_high on it falls with the body. In the judging half of tests/bench/transfer_table.cpp no planted foot
-// slides, 9 runs are restless and 44 frames spike. With 40 degrees it is 19, 8 and 45, without the rule 0, 26 and 58.
+// Up to this angle of the body a foot falls as far as it tips itself. So a body may lean over planted feet. From
+// fall_high on, a foot falls with the body. In the judging half of tests/bench/transfer_table.cpp no planted foot
+// slides, 9 runs are restless and 44 frames spike. With 40 degrees it is 19, 8 and 45. Without the rule it is 0, 26 and
+// 58.
 constexpr double lean_high = 60 * degree;
-// Between these angles a body, or a foot, counts as turned about the vertical by a share from 0 to 1: a narrow range
-// makes what turns fast swing out, a wide one leaves bodies that turned around half behind. Of the 1,508 runs of the
-// choosing half of tests/bench/transfer_table.cpp 23 frames spike and 270 feet slide. With 50 as the second it is 36
-// and 277, with 0 and 180 22 and 276; then a body turned by 90 degrees stands 0.03 to 0.05 boxes beside its feet.
+// Between these angles a body, or a foot, counts as turned about the vertical by a share from 0 to 1. With a narrow
+// range, bodies that turn fast swing out. With a wide range, bodies that turned around stay half behind. In the runs of
+// the choosing half of tests/bench/transfer_table.cpp 23 frames spike and 270 feet slide. With 50 as the second it is
+// 36 and 277. With 0 and 180, a body turned by 90 degrees is 0.03 to 0.05 boxes beside its feet.
 constexpr double turn_low = 20 * degree, turn_high = 90 * degree;
-// The part of a foot's turn about the vertical counts by a share from 0 to 1 between these squared lengths of its
-// quaternion: a foot that is turned over has no such part. A narrow range would make it jump when it turns over. Half
-// and double of both move no vertex of five runs and six falls.
+// The turn of a foot about the vertical counts by a share from 0 to 1. The share rises between these squared lengths of
+// the quaternion of that turn. A foot that is turned over has no such turn. A narrow range would make it jump when it
+// turns over. Half and double of both move no vertex of five runs and six falls.
 constexpr double twist_low = 0.05, twist_high = 0.3;
 // A foot higher than this (in boxes) does not turn its own offset; between `stands` and this height it does by a share.
-// A foot that kicks or is drawn up points anywhere, and the offset is long if one body is. Of the 1,508 runs of the
-// choosing half of tests/bench/transfer_table.cpp, without the slides of slack.cpp, 51 frames spike, and 57 without
-// this rule. With half, 14 instead of 13 frames of 377 runs
-// spike; with double, 13.
+// A foot that kicks or is drawn up points anywhere, and the offset is long if one body is. In the runs of the choosing
+// half of tests/bench/transfer_table.cpp, without the slides of slack.cpp, 51 frames spike, and 57 without this rule.
+// With half, 14 instead of 13 frames of 377 runs spike; with double, 13.
 constexpr double turns_freely = 0.2;
 // Rounds that turn clusters towards their neighbours; each places all clusters once. Half and double leave the counts
 // of the sample as they are, and its largest gap changes by 1e-4 boxes.
@@ -411,17 +411,17 @@ constexpr std::size_t vertex_block = 2048;
 
 // Heights of a foot (in boxes) below which it stands, and above which it is free. Halving or doubling the first changes
 // errors and edge stretches by at most 3 %. With half the second, feet end 1.2 times as far from their paths. With
-// twice the second, surfaces sink 0.002 boxes deeper into the ground.
+// twice the second, vertices are 0.002 boxes deeper under the ground.
 constexpr double stands = 0.01, flies = 0.05;
 // A region flagged as a contact touches the ground below the first share of its rest height, and is free above the
-// second. Of 377 runs of tests/bench/transfer_table.cpp, 12 frames of 8 runs spike. With 0.45 as the second share it is
-// 14 of 10, with 0.05 and 0.7 it is 12 of 8.
+// second. In 377 runs of tests/bench/transfer_table.cpp, 12 frames of 8 runs spike. With 0.45 as the second share it is
+// 14 frames of 10 runs. With 0.05 and 0.7 it is the same.
 constexpr double touches = 0.1, leaves = 0.9;
-// Shares of the surface that touch the ground when a body begins to lie, and when it lies fully. Of 35 falls, 86 %
-// accelerate at most 1.1 times as much as the source, with half of both shares 74 % (at a rigid_residual of 1e-3).
+// Shares of the surface that touch the ground when a body begins to lie, and when it lies fully. On 35 falls, 86 % are
+// calm; with half of both shares 74 % (at a rigid_residual of 1e-3).
 constexpr double lies_low = 0.02, lies_high = 0.5;
-// Depth (in boxes) that a surface may sink into the ground. Surfaces sink exactly that deep. At half the value they
-// sink by 5e-5, at twice the value by 2e-4.
+// Depth (in boxes) that a surface may sink into the ground. Vertices are exactly that deep. At half the value they sink
+// by 5e-5, at twice the value by 2e-4.
 constexpr double least_depth = 1e-4;
 // A constraint of a frame (hold) that is met to a smaller share is left out; guards a division by the share. Halving or
 // doubling it changes no frame.
@@ -435,10 +435,10 @@ constexpr std::int32_t rise_sweeps = 8;
 // The weights of a vertex are floats that sum to 1. No sum is larger than this, whatever was rounded: it only saves the
 // look at blocks that cannot sink. Double moves no vertex of five runs and six falls.
 constexpr double weight_sum_limit = 1.001;
-// Vertices that are looked at together for one that must rise; the figures of owner_block hold.
+// Vertices that are tested together for one that must rise; the figures of owner_block hold.
 constexpr std::size_t rise_block = 64;
-// How far a held region gives way when the surface around it must rise, as a share of what it would without a hold. Ten
-// times the value changes no figure of these runs.
+// How far a held region moves when the surface around it must rise, as a share of its move without a hold. Ten times
+// the value changes no figure of these runs.
 constexpr double held_give = 0.1;
 
 // --- translations.cpp ---

@@ -129,7 +129,8 @@ void Gradients::factorise_openings(const Core& factor, Memory& memory) {
   opening_factor_.factorise(std::move(matrix), static_cast<std::int32_t>(count), memory);
 }
 
-// The gap that an opening should have. own, still: what the gradients alone make of the target's gap and the source's.
+// The gap that an opening should have. own, still: the target's gap and the source's as the gradients alone change
+// them.
 Vec3 Gradients::opening_goal(Vec3 own, Vec3 still, Vec3 now, double scale, Vec3 axis) const noexcept {
   const double length = norm(own), from = norm(still), to = norm(now);
   if (!(from > least_gap && length > least_gap)) return own + scale * (now - still);
@@ -140,7 +141,7 @@ Vec3 Gradients::opening_goal(Vec3 own, Vec3 still, Vec3 now, double scale, Vec3 
 
 // How far an opening's gap must change. `along` is the direction of the target's border at the far end. The gap across
 // it is carried by itself, so that lids that touch on the source touch on the target wherever they touch. Sets
-// open_share: how wide the gap across is, as a share of what the gradients alone would give.
+// open_share: the width of the gap across, as a share of the width that the gradients alone would give.
 Vec3 Gradients::opening_miss(const Opening& opening, const Frame& frame, const Mat3& axes, Vec3 gap, Vec3 along,
                              double& open_share) const noexcept {
   const auto across = [](Vec3 v, Vec3 direction) { return v - dot(v, direction) * direction; };

@@ -64,7 +64,7 @@ void Gradients::prepare(const MatchSide& source, const MatchSide& target, const 
     if (size > 0) inverse_[v] = moment.inverse();
   }
 
-  // The operator's entries, with the length of each target edge over that of the matched points.
+  // The operator's entries, with the length of each target edge over the distance of the matched points.
   const SymmetricMatrix& k = target_factor.matrix();
   matched_.assign(count, Vec3());
   blended_.assign(count, Mat3::Identity());

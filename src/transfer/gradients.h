@@ -6,9 +6,10 @@
 // with rest places p, posed places q, and normals n, n' as long as the root of their area. The target minimises
 //     sum_edges w_ij |(x'_i - x'_j) - y_ij|^2,     y_ij = A ((F_i + F_j)/2 A' (x_i - x_j) + k_ij r_ij),
 //     r_ij = (q_i - q_j) - (F_i + F_j)/2 (p_i - p_j),     k_ij = |x_i - x_j| / |p_i - p_j|,
-// a Poisson equation with the factor that the surface has. A takes the source's axes to the target's. r is what one
-// gradient at each end leaves of the source's own edge; with it a surface on itself gets its own pose, up to rounding.
-// The equation fixes each component but for a shift: its mean follows the scaled path of the matched points.
+// a Poisson equation with the factor that the surface has. A takes the source's axes to the target's. The vector r is
+// the residual of the source's own edge under one gradient at each end. With it a surface on itself gets its own pose,
+// up to rounding. The equation leaves a shift of each component free. The mean of the component follows the scaled path
+// of the matched points.
 //
 // Borders match borders (openings.h). Where two places i, j of the target's border face each other across a narrow
 // opening, a soft constraint x'_i - x'_j = y_ij carries the width of the source's opening there. With the gap x of the

@@ -1,4 +1,4 @@
-// Gives coordinates to components without a region: they take those of the surface beside them (see pair_fields.h).
+// Gives coordinates to components without a region: the coordinates of the surface beside them (see pair_fields.h).
 //
 // A uniform grid with about two vertices per cell finds the nearest vertex of a component that has a region. The other
 // vertices relax by Gauss-Seidel steps on the clamped Laplacian of their component, in vertex order. The result

@@ -65,7 +65,7 @@ void Levers::prepare(const Overlaps& from, const Overlaps& to, Span<const double
       }
     }
   }
-  // What stands or carries keeps its rotation, whatever lies before it.
+  // A cluster that belongs to no limb keeps its rotation, whatever clusters are before it.
   for (std::size_t c = 0; c < count; ++c)
     if (!(limb[c] > 0)) before_[c] = -1;
 }

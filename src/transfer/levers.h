@@ -2,12 +2,12 @@
 //
 // Rotations go over, so a part that is k times as long moves k times as far. A robot holds a sword of half a body's
 // length; its hand follows a hoof that flips by 90 degrees in two frames. A cow's tail follows a deer's short one. So a
-// cluster follows a k-th part of the turn. k is how many times as wide its vertices spread as those of its source's
-// cluster, or how many times as far it is to the end of its limb, whichever is more and above 1:
+// cluster follows a k-th part of the turn. The factor k is a ratio above 1, target over source. It is the spread of the
+// cluster's vertices, or the way to the end of its limb, whichever is more:
 //     R'_c = R'_b f(R_b^-1 R_c).
-// R are the rotations of the source's clusters, R' those that the target takes. b is the cluster before c on the
-// shortest way from the middle of the target; the way goes over clusters that overlap. So an ear keeps to its head. f
-// keeps the axis of a turn and changes its angle a. With w = 1/k:
+// R are the rotations of the source's clusters, R' the rotations of the target's clusters. The cluster b is the cluster
+// before c on the shortest way from the middle of the target; the way goes over clusters that overlap. So an ear keeps
+// to its head. f keeps the axis of a turn and changes its angle a. With w = 1/k:
 //     w >= 1/2: a - (1 - w) sin a,     w < 1/2: w (4/3 sin a - 1/6 sin 2a).
 // Small angles become w a. Half a turn to the left is half a turn to the right, so pi becomes pi or 0: no turn makes a
 // part jump. Where k <= 1 rotations stay, to the last bit if they stay on the whole way; so on a body that plays its
@@ -34,7 +34,7 @@ class Levers {
 
   // from, to: of the clusters on the source and on the target. limb: by cluster, from 0 to 1, how far it belongs to a
   // limb that can turn less, at least `outer`. Its own width counts as far as `outer` says; beyond that only where it
-  // clearly differs. scale: lengths of the target over those of the source. centre: of the target. Without this call
+  // clearly differs. scale: lengths of the target over lengths of the source. centre: of the target. Without this call
   // nothing turns. ends: by cluster, the length from its centroid to the end of its limb on the target, over that on
   // the source.
   void prepare(const Overlaps& from, const Overlaps& to, Span<const double> limb, Span<const double> outer,

@@ -1,9 +1,10 @@
 // Finds the point of a source surface that corresponds to each vertex of a target (HF_TRANSFER_STRETCH).
 //
-// A warp of space (warp.h) takes the target to the form of the source: first the pairs alone, then, in some rounds,
-// samples of the target with their nearest points. A vertex matches the source point with the nearest coordinates: its
-// warped place, and the fields of all pairs with a small weight, which tell parts apart that lie close, such as lips.
-// Vertices of the target's border match the source's border, if it has one there. A surface matches itself exactly.
+// A warp of space (warp.h) takes the target to the form of the source. First it fits the pairs alone. Then, in some
+// rounds, it fits samples of the target to their nearest points. A vertex matches the source point with the nearest
+// coordinates. These are its warped place, and the fields of all pairs with a small weight. The fields tell close parts
+// apart, such as lips. Vertices of the target's border match the source's border, if it has one there. A surface
+// matches itself exactly.
 #pragma once
 #include "deform/rotation.h"
 #include "engine/core.h"
@@ -17,7 +18,7 @@ struct MatchSide {
   const double* field = nullptr;
   Span<const Vec3> means;
   Mat3 axes;        // rows right, up, forward
-  double unit = 1;  // lengths of the target over those of this surface
+  double unit = 1;  // lengths of the target over lengths of this surface
 };
 
 struct Matches {

@@ -1,10 +1,10 @@
 // Finds places of a surface's border that face each other across a narrow opening, such as the lids of an eye.
 //
 // A border edge has an outward direction: in the plane of its triangle, at right angles to the edge, away from the
-// surface. The place that faces p is the first that a growing ball meets that touches the border at p from outside: the
-// least |d|^2 / (d . o) over the places p + d of edges with an opposite outward direction, within an angle; o is the
-// outward direction at p. So both ends are the feet of one place of the medial axis of the opening. It counts if d lies
-// in the outward direction of both, within an angle.
+// surface. Let a ball grow that touches the border at p from outside. The place that faces p is the first that the ball
+// meets. It has the least |d|^2 / (d . o) over the places p + d of edges with an opposite outward direction, within an
+// angle; o is the outward direction at p. So both ends are the feet of one place of the medial axis of the opening. It
+// counts if d lies in the outward direction of both, within an angle.
 #pragma once
 #include <cstdint>
 

@@ -1,4 +1,5 @@
-// What the vertices of each cluster are, in sums: area, centroid and spread, and what two clusters have in common.
+// Sums over the vertices of each cluster: area, centroid and spread. The same sums over the vertices that two clusters
+// have in common.
 #pragma once
 #include <cstdint>
 

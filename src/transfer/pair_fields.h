@@ -34,8 +34,8 @@ class PairFields {
   // Removes the regions of these pairs. Every number must be in use.
   void remove(Span<const std::uint32_t> numbers);
 
-  // Fills field[v * H + i] with u of pair numbers[i] at vertex v, H the number of pairs. leaks[i] is the largest
-  // deviation before clipping: from 1 on region i, or from 0 on the others.
+  // Fills field[v * H + i] with u of pair numbers[i] at vertex v, H the number of pairs. The number leaks[i] is the
+  // largest deviation before clipping: from 1 on region i, or from 0 on the others.
   void solve(Span<const std::uint32_t> numbers, double* field, double* leaks) const;
 
   bool in_use(std::uint32_t number) const noexcept { return number < regions_.size() && regions_[number]; }

@@ -140,8 +140,8 @@ struct Transfer::Prepared {
   Vector<BlendColumns> columns;
   Vector<Vec3> blended;               // posed target, inner units.
   Vector<std::int32_t> source_owner;  // per source vertex: cluster whose centre is nearest.
-  // Four arrays with one entry per cluster (vertices with a common motion). rest_lows and source_lows: lowest scaled
-  // height of the cluster's source vertices over the ground, at rest and now. target_lows: lowest height of the
+  // Four arrays with one entry per cluster. The arrays rest_lows and source_lows hold the lowest scaled height of the
+  // cluster's source vertices over the ground, at rest and now. The array target_lows holds the lowest height of the
   // cluster's target vertices. touch: the cluster's area if the cluster touches the ground now but not at rest.
   Vector<double> rest_lows, source_lows, target_lows, touch;
   double source_low = 0;              // lowest height of all source vertices

@@ -42,8 +42,8 @@ class Refit {
   void take_pairs(Span<const Slack::Pair> pairs);
 
   // Runs one round of rotations. given: the rotations taken from the source. slides: one for each pair of take_pairs,
-  // or null if it was not called. rotations: the present rotations, which it
-  // replaces. matrices: the present rotations as matrices. shifts: the present translations.
+  // or null if it was not called. The array rotations: the present rotations, which it replaces. matrices: the present
+  // rotations as matrices. shifts: the present translations.
   void turn(const Quaternion* given, const Vec3* slides, const Vec3* shifts, Quaternion* rotations,
             const Mat3* matrices) const noexcept;
 

@@ -6,12 +6,11 @@
 // measured on the source in each frame:
 //     s_cd = (R_c p_cd + t_c) - (R_d p_cd + t_d).
 // R are the rotations of the source's clusters and p_cd is the centroid of the overlap on the source. The translations
-// t come as near to the posed source q as they can:
-//     min sum_v a_v |sum_c W_vc (R_c p_v + t_c) - q_v|^2.
-// a_v is the area of vertex v, W_vc its weight in cluster c: on the source, weights follow from the fields as they do
-// on the target. The target's energies then ask for the slide k_cd s_cd instead of none. E_spread ties the clusters at
-// another point than E_overlap, and gets the slide of that point. On a coarse mesh edges also tie clusters that have no
-// vertex in common. These slide too, as far as E_spread ties them alike on both bodies.
+// t come as near to the posed source q as they can. They minimise sum_v a_v |sum_c W_vc (R_c p_v + t_c) - q_v|^2. a_v
+// is the area of vertex v, W_vc its weight in cluster c. On the source, weights follow from the fields as on the
+// target. The target's energies then ask for the slide k_cd s_cd instead of none. E_spread ties the clusters at another
+// point than E_overlap, and gets the slide of that point. On a coarse mesh edges also tie clusters that have no vertex
+// in common. These slide too, as far as E_spread ties them alike on both bodies.
 //
 // The factor k_cd is the scale where both bodies are alike around the overlap, as on a body that plays its own motion.
 // It is smaller where the overlaps are not alike: by their share of the clusters, by the distance of the clusters, and
@@ -68,7 +67,7 @@ class Slack {
   using Side = WeightedSurface;
 
   // from, to: of the clusters on the source and on the target. axes: from the source's axes to the target's. scale:
-  // lengths of the target over those of the source.
+  // lengths of the target over lengths of the source.
   void prepare(const Side& source, const Overlaps& from, const Overlaps& to, const Translations& translations,
                const Mat3& axes, double scale, Memory& memory);
   // Without slides, all forces are zero.
@@ -80,7 +79,7 @@ class Slack {
   Span<const Pair> pairs() const noexcept { return {pairs_.data(), pairs_.size()}; }
   // One for each pair: how far the first cluster shall lie from the second one in their overlap, in the target's axes.
   const Vec3* slides() const noexcept { return slide_.data(); }
-  // One for each cluster: what the slides add to the right-hand side of the energies.
+  // One for each cluster: the term of the slides in the right-hand side of the energies.
   const Vec3* forces() const noexcept { return force_.data(); }
 
  private:

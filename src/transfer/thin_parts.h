@@ -2,8 +2,8 @@
 // (transfer_ground.cpp).
 //
 // A part is thin where a ray from the surface into the body leaves the body soon. Behind the last region of a branch
-// all fields stand still: the whole branch has the values of the place where it leaves the body. Its vertices move with
-// the clusters there, so raising the branch would raise the body.
+// all fields are constant: the whole branch has the values of the place where it leaves the body. Its vertices move
+// with the clusters there, so raising the branch would raise the body.
 #pragma once
 #include <cstdint>
 

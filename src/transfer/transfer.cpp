@@ -48,7 +48,7 @@ void check_options(const TransferOptions& options) {
     fail(HF_ERROR_NON_FINITE, HF_NO_INDEX, "alignment_angle is not a finite number");
 }
 
-// A core whose rest positions are others. Fields, and all that follows from edges, stay those of the surface as made.
+// A core whose rest positions are others. Fields, and all that follows from edges, still come from the surface as made.
 std::shared_ptr<const Core> with_rest(const std::shared_ptr<const Core>& core, Span<const Vec3> rest,
                                       const char* side) {
   if (rest.empty()) return core;
@@ -236,8 +236,7 @@ void Transfer::prepare_anchors(Prepared& p) const {
   }
   TranslationOptions options;
   if (options_.scheme) options.spread_share = 0;
-  // If only feet follow their source's paths (anchors), the trunk would float. So the body's centroid gets more weight
-  // then.
+  // If the feet were the only anchors, the trunk would float. So the body's centroid gets more weight then.
   options.root = p.anchors.empty() ? root_alone : holds_trunk ? root_with_trunk : root_without_trunk;
   p.translations.prepare(*target_core_, target_area_, p.clusters, {regions.data(), regions.size()},
                          {loose.data(), loose.size()}, options);
@@ -454,7 +453,7 @@ PairInfo Transfer::pair_info(std::uint32_t pair) {
   return info;
 }
 
-// Tells whether the regions of a pair lie on different sides: left on the source and right on the target, or the
+// Tells whether the two regions of a pair are on different sides: left on the source and right on the target, or the
 // reverse.
 bool Transfer::is_crossed(std::uint32_t number) const {
   const auto side = [](const Core& core, const Mat3& axes, Span<const std::int32_t> region,

@@ -3,19 +3,20 @@
 // Pairs of regions give both surfaces the same harmonic coordinates (pair_fields) and matching clusters (clusters). A
 // frame takes the rotations of the source's clusters (source_rotations) into the target's axes and rest directions
 // (alignment). Then it solves the translations of the target's clusters (translations), and turns the clusters to fit
-// each other (refit). Each vertex blends four clusters. The method is that of Xu, Zhang, Cohen-Or and Xiong 2009,
-// Section 6. Each file says what differs.
+// each other (refit). Each vertex blends four clusters. The method follows Xu, Zhang, Cohen-Or and Xiong 2009, Section
+// 6. Each file says what differs.
 //
 // The caller can add and remove pairs at any time; no factor changes. The next call recomputes the derived data.
 //
-// Anchors: the target's region moves as the source's region moved, y = c + s A (q - p). p and q are the source region's
-// rest and posed means, c is the target region's rest mean. s is the scale, and A takes the source's axes to the
-// target's. When the source turns or falls as a whole, the offsets between the two rest shapes turn with it. The offset
-// of a standing foot turns only as far as the foot itself.
+// Anchors: the target's region moves as the source's region moved, y = c + s A (q - p). The means p and q are the
+// source region's, at rest and posed. The mean c is the target region's at rest. s is the scale, and A takes the
+// source's axes to the target's. When the source turns or falls as a whole, the offsets between the two rest shapes
+// turn with it. The offset of a standing foot turns only as far as the foot itself.
 //
-// Ground (transfer_ground.cpp): a foot follows its path exactly while the source's foot stands. A contact comes as near
-// to the ground as its source. No part sinks deeper than the source. A lying body rests on the parts on which its
-// source rests. All these are holds: constraints that are solved beside the energies and change no factor.
+// Ground (transfer_ground.cpp): a foot follows its path exactly while the source's foot is planted. A contact comes as
+// near to the ground as its source. No part goes deeper under the ground than on the source. A lying body rests on the
+// parts on which its source rests. All these are holds: constraints that are solved beside the energies and change no
+// factor.
 //
 // A refused edit or frame changes nothing. apply() allocates nothing once prepared. Results do not depend on threads.
 #pragma once
@@ -48,7 +49,7 @@ struct TransferOptions {
   Span<const Vec3> source_rest, target_rest;  // read by the constructor only
 };
 
-// What an animator turns without a new preparation; these values change nothing (hf_transfer_dials).
+// The dials of an animator, which need no new preparation. These values change nothing (hf_transfer_dials).
 struct Dials {
   double stride = 1, hip_height_share = 0, neck_follow = 0, tail_follow = 0, arm_space = 0, long_follow = 0;
   bool moves_paths() const noexcept { return stride != 1 || hip_height_share != 0; }

@@ -1,15 +1,15 @@
 // The dials of a transfer: what an animator turns without a new preparation (hf_transfer_dials).
 //
 // Paths (stride, hip height): after each solve the body moves by d_0 and the row of each anchor by d_k. These are
-// constraints on the same factor (Translations::hold), so each row moves by d_k exactly and the energies rise least:
-//     d_k = (stride - 1) H travel_k + hip_k up,     H takes the part along the ground.
-// travel_k is the scaled path of the source's region without the part that the body's turn makes. It is constant while
-// a foot stands, so a planted foot does not slide. Rotations of clusters follow by the same rounds (refit.h).
+// constraints on the same factor (Translations::hold). So each row moves by d_k exactly and the energies rise least:
+// d_k = (stride - 1) H travel_k + hip_k up, H takes the part along the ground. The vector travel_k is the scaled path
+// of the source's region without the part that the body's turn makes. It is constant while a foot is planted, so the
+// foot does not slide. Rotations of clusters follow by the same rounds (refit.h).
 //
 // Limbs (neck, tail, arms): the field of a limb is the sum of the fields of its pairs. The share w of a cluster in it
-// rises from 0 at the root to 1. follow > 0 moves the cluster's rest turn towards D^w, where D takes the limb's rest
-// direction to the source's. follow < 0 moves the cluster's rotation towards that of the cluster at the root. Arms turn
-// by w times the angle about the forward axis, at rest.
+// rises from 0 at the root to 1. A positive value of `follow` moves the cluster's rest turn towards D^w, where D takes
+// the limb's rest direction to the source's. A negative value moves the cluster's rotation towards the rotation of the
+// cluster at the root. Arms turn by w times the angle about the forward axis, at rest.
 //
 // Long parts: long_follow goes to levers.h.
 #include <cmath>
@@ -120,7 +120,7 @@ void Transfer::prepare_dials(Prepared& p) const {
   p.stiff.assign(count, 0.0);
 }
 
-// Sets what follows from the dials alone.
+// Sets the numbers that follow from the dials alone.
 void Transfer::turn_dials(Prepared& p) const noexcept {
   for (std::size_t c = 0; c < p.dialled_turn.size(); ++c) {
     p.dialled_turn[c] = p.cluster_turn[c];
@@ -159,8 +159,8 @@ void Transfer::stiffen(Prepared& p) const noexcept {
   }
 }
 
-// Moves the rows of the anchors as the dials say. What the caller holds stays, and what touches the ground stays at its
-// height.
+// Moves the rows of the anchors as the dials say. Held vertices of the caller do not move, and vertices at the ground
+// keep their height.
 void Transfer::move_paths(Prepared& p) const {
   p.dial_holds.clear();
   bool has_trunk = false;

@@ -21,7 +21,7 @@ double turned_share(const Quaternion& turn) noexcept {
   return smooth_step(turn_low, turn_high, angle_between(turn, Quaternion()));
 }
 
-// The angle by which a turn tips what stands upright. Turns about the vertical do not count.
+// The angle by which a turn tips an upright direction. Turns about the vertical do not count.
 double tilt(const Quaternion& turn, Vec3 up) noexcept {
   return arc_cosine(std::clamp(dot(up, rotate(turn, up)), -1.0, 1.0));
 }
@@ -74,10 +74,10 @@ void blend_vertices(const BlendInput& in, std::size_t first, std::size_t last, V
 
 }  // namespace
 
-// Computes where the regions go that follow their source (anchors). turn: rotation of the whole source in the target's
-// frame. When the body turns, the offset between the two rest shapes turns with it. A standing foot stays in place
-// while the body turns over it. While the body is upright and the foot is low, the foot's offset therefore turns only
-// as far about the vertical as the foot itself. High in the air it turns with the body: a foot that kicks points
+// Computes the goals of the anchors, the regions that follow their source. turn: rotation of the whole source in the
+// target's frame. When the body turns, the offset between the two rest shapes turns with it. A standing foot stays in
+// place while the body turns over it. While the body is upright and the foot is low, the foot's offset therefore turns
+// only as far about the vertical as the foot itself. High in the air it turns with the body: a foot that kicks points
 // anywhere.
 void Transfer::place_anchors(Prepared& p, const WholeMotion& whole, const Quaternion& turn) const {
   const Vec3 source_up = up_of(source_axes_), up = up_of(target_axes_);

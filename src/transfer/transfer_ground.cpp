@@ -4,9 +4,9 @@
 // Regions that stand or touch are held while the translations are solved (hold_regions). Two rules move the rest:
 // - lie_down: a lying source touches the ground with clusters that are far above it at rest. The same clusters of the
 //   target should touch. So the goals of the anchored regions move along up, by the mean difference of the heights.
-// - raise_sunk: what sinks is raised to the ground with the least work against the energies. So a limb bends up, and
-//   no body is raised for its antlers.
-// Both come in continuously: no rule switches, and no vertex is chosen. A frame in which no part lies or sinks
+// - raise_sunk: vertices under the ground are raised to it with the least work against the energies. So a limb bends
+//   up, and no body is raised for its antlers.
+// Both come in continuously: no rule switches, and no vertex is chosen. A frame without a part at or under the ground
 // only costs one pass over the heights.
 #include <cmath>
 
@@ -78,8 +78,8 @@ double Transfer::lying_share(Prepared& p) const noexcept {
   return smooth_step(lies_low, lies_high, touching);
 }
 
-// Lowers or raises the goals of regions that follow their source (anchors). Then a cluster of the target's vertices
-// touches the ground if the same cluster of the source does.
+// Lowers or raises the goals of the anchors. Then a cluster of the target's vertices touches the ground if the same
+// cluster of the source does.
 void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double rigid, double share) const {
   const Vec3 up = up_of(target_axes_);
   blend(p);
@@ -105,7 +105,7 @@ void Transfer::lie_down(Prepared& p, Vec3 centroid, double lies, double rigid, d
 //     1/2 z' A z + sum_k (row_k z)^2 / 2 e_k     so that  W_v z >= needs_v  for every vertex v.
 // Rows are the regions that stand or touch: they rise too, but only if they must. The forces of the vertices are never
 // negative, and each sweep sets one force after the other to its best value (Hildreth's method). Every step is a
-// continuous function of the needs. Returns false if no part sinks.
+// continuous function of the needs. Returns false if nothing is under the ground.
 bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) const {
   const std::size_t count = p.rises.size();
   const double* compliance = p.translations.compliance();
@@ -175,10 +175,10 @@ bool Transfer::raise_sunk(Prepared& p, Vec3 up, double allowed, double share) co
   return true;
 }
 
-// Lifts all parts that would sink below the ground. turn, centroid: where the rest pose of the whole target goes.
-// rigid: the share of a rigid motion of the whole source, which is copied unchanged. What it moves is the target that
-// a source at rest gives; limbs that the rest alignment turns must not sink there. So that share has a ground that
-// moves with the body.
+// Lifts all parts that would sink below the ground. The arguments turn and centroid place the rest pose of the whole
+// target. rigid: the share of a rigid motion of the whole source, which is copied unchanged. It moves the target that a
+// source at rest gives; limbs that the rest alignment turns must not sink there. So that share has a ground that moves
+// with the body.
 void Transfer::keep_above_ground(Prepared& p, const Quaternion& turn, Vec3 centroid, double rigid) const {
   const Vec3 up = up_of(target_axes_), own_up = rotate(turn, up);
   const double allowed = p.target_ground + p.scale * std::min(0.0, p.source_low - p.source_ground),

@@ -290,7 +290,7 @@ void Translations::hold(Span<const Hold> holds, Vec3 up, const Mat3* rotations, 
   if (holds.empty()) return;
   const std::size_t count = at(count_);
   // The first pass moves across the up direction, with those constraints (holds) that are not vertical. The second
-  // moves along up, with all constraints. Neither pass changes what the other has placed.
+  // moves along up, with all constraints. Neither pass changes the entries of the other.
   for (const bool along : {false, true}) {
     for (std::size_t i = 0; i < holds.size(); ++i) {
       const Vec3 miss = holds[i].goal - place(holds[i].row, rotations, shifts);

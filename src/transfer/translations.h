@@ -37,7 +37,7 @@ struct TranslationOptions {
   double whole = default_whole_pull;  // e: weight of the motion of the whole body, of the same mean
 };
 
-// A constraint that moves the mean of a region to a goal, against the energies. share 1 meets the goal exactly, a
+// A constraint that moves the mean of a region to a goal, against the energies. A share of 1 meets the goal exactly, a
 // smaller share in part. vertical: it constrains only the up direction.
 struct Hold {
   std::size_t row = 0;
@@ -47,7 +47,7 @@ struct Hold {
 };
 
 // E_spread of one surface with weights W, scaled to trace 1: the matrix, its table of vectors g (three numbers each),
-// and the sum of the sizes of what was summed up in each entry. All are clusters x clusters.
+// and the sum of the sizes of the terms of each entry. All are clusters x clusters.
 struct SpreadTies {
   SpreadTies(std::size_t count, Memory& memory)
       : matrix(count * count, 0.0, &memory),
@@ -86,8 +86,8 @@ class Translations {
                Span<const Span<const std::int32_t>> regions, Span<const Span<const std::int32_t>> loose,
                const TranslationOptions& options);
 
-  // Computes the translation of every cluster. goals: one per region that follows its source (anchored). centroid: goal
-  // of the whole body. cluster_goals: one per cluster, its rest centroid under the motion of the whole body. Allocates
+  // Computes the translation of every cluster. The array goals: one per anchored region. centroid: goal of the whole
+  // body. The array cluster_goals: one per cluster, its rest centroid under the motion of the whole body. Allocates
   // nothing. Two threads must not call it at once.
   void solve(const Clusters& clusters, const Mat3* rotations, Span<const Vec3> goals, Vec3 centroid,
              const Vec3* cluster_goals, const Vec3* forces, Vec3* out) noexcept;

@@ -33,8 +33,9 @@ inline Vector<BoneName> split_names(Span<const char> text, Memory& memory) {
   return out;
 }
 
-// Calls word(begin, end) for the words of a name. A word ends at what is no letter and no digit, between letters and
-// digits, and before a capital: upperArm_L2 has upper, Arm, L and 2. In IKPole the words are IK and Pole.
+// Calls word(begin, end) for the words of a name. A word ends at a character that is no letter and no digit, between
+// letters and digits, and before a capital. The name upperArm_L2 has upper, Arm, L and 2. In IKPole the words are IK
+// and Pole.
 template <class Word>
 void for_words(const BoneName& name, Word&& word) {
   const auto kind = [&](std::size_t i) { return is_digit(name[i]) ? 1 : is_letter(name[i]) ? 2 : 0; };

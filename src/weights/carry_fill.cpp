@@ -21,9 +21,9 @@ Vector<std::uint8_t> known_pieces(const Mesh& mesh, const WeightRows& known, Mem
 
 namespace {
 
-// Shares of progress when the vertices are matched, when the operator has its factor, and when the sites are in it;
-// then that of the sweeps in the rest, before pruning. Chosen by time on a torus of which a third has no weights. Other
-// shares move the fraction at equal times, and no result.
+// Shares of progress when the vertices are matched, when the operator has its factor, and when the sites are in it. The
+// last is the share of the sweeps in the rest, before pruning. Chosen by time on a torus of which a third has no
+// weights. Other shares move the fraction at equal times, and no result.
 constexpr float fill_matched = 0.1f, fill_factorised = 0.25f, fill_edited = 0.8f, fill_swept = 0.6f;
 
 // The fields of all bones at the vertices to fill in.

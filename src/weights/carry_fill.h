@@ -14,7 +14,7 @@ struct FilledWeights {
   Vector<float> weights;
   Vector<Origin> origin;              // by inner vertex
   Vector<Index> nearest_of_isolated;  // by Mesh::isolated
-  std::uint32_t by_origin[8] = {};    // vertices as given, by Origin
+  std::uint32_t by_origin[8] = {};    // vertices of the caller, by Origin
   std::uint32_t pieces_guessed = 0;  // pieces without a vertex that has weights
 };
 

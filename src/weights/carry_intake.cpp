@@ -66,7 +66,7 @@ void read_partners(const hf_weights_mirror_desc& desc, MirrorBones& bones) {
       fail(HF_ERROR_INVALID_ARGUMENT, b, "the partner of joint %u is %u, but the partner of %u is %u", b, partner,
            partner, back);
   }
-  // What the caller says comes before names: bones that names pair with others lose those.
+  // Partners of the caller come before names: bones that names pair with others lose those partners.
   const auto set = [&](std::uint32_t b, std::uint32_t partner) {
     const Index old = bones.partner[b];
     if (old >= 0 && at(old) != partner && bones.partner[at(old)] == static_cast<Index>(b)) bones.partner[at(old)] = -1;

@@ -12,7 +12,7 @@ struct Match {
 };
 
 // A point with less than this share at corners with weights has none of its own. It is above the rounding of shares,
-// 1e-16 but for needles. More takes small shares for none.
+// which is 1e-16. Needles have more. More takes small shares for none.
 constexpr double least_known = 1e-9;
 
 class WeightedShape {
@@ -23,14 +23,14 @@ class WeightedShape {
   // The nearest point within a squared distance, whose normal has at least this cosine with `normal`. A cosine of -1
   // takes any normal. Triangle -1: there is none.
   Match find(const Vec3& p, const Vec3& normal, double within, double cosine) const noexcept;
-  // Passes the weights at a point to take(bone, share), with the sum 1: those of the corners that have some.
+  // Passes the weights at a point to take(bone, share), with the sum 1, from the corners that have weights.
   template <class Take>
   void add(const Match& match, Take&& take) const {
     const Index* v = mesh_.triangle(match.triangle);
     double corners = 0;
     for (int k = 0; k < 3; ++k) corners += rows_.has(v[k]);
     const double sum = known_share(match);
-    // A point at a corner without weights takes those of the other corners.
+    // A point at a corner without weights gets the weights of the other corners.
     for (int k = 0; k < 3; ++k) {
       const double part = sum > least_known ? match.weight[k] / sum : 1 / corners;
       for (const Share& share : rows_.of(v[k])) take(share.bone, part * share.weight);

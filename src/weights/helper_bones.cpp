@@ -8,8 +8,8 @@
 namespace hf_inner {
 namespace {
 
-// Chosen on 13 shared rigs, of 415 joints: with these points 31 of the 37 joints without weights are proposed, and 3 of
-// the others. A threshold of 3 proposes 32 and 17.
+// Chosen on 13 shared rigs of 415 joints. These points propose 31 of the 37 joints without weights, and 3 of the
+// others. A threshold of 3 proposes 32 and 17.
 constexpr HelperPoints helper_points[] = {{helper_name_root, 3},  {helper_name_control, 2}, {helper_name_end, 1},
                                           {helper_root, 1},       {helper_apart, 1},        {helper_no_length, 1},
                                           {helper_coincident, 1}, {helper_outside, 2},      {helper_informs_none, 2}};

@@ -126,8 +126,8 @@ Vector<std::uint8_t> find_fronts(const Mesh& mesh, const MakeSearch& make_search
   return out;
 }
 
-// Of pieces that see none of their bones, keeps those that ask for them unseen. Small ones do not: they take the
-// weights of others, if any others have some.
+// Among pieces with none of their bones in sight, keeps the pieces that use them unseen. Small pieces do not: they get
+// the weights of other pieces, if those have weights.
 void keep_askers(const Mesh& mesh, bool others_see, Vector<std::uint8_t>& blind, Memory& memory) {
   const Vector<ItemBox> boxes = piece_boxes(mesh, memory);
   Vector<std::uint8_t> large(blind.size(), 0, &memory);

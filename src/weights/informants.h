@@ -1,4 +1,4 @@
-// Which bones inform which vertices: the nearest bone of each vertex, if the vertex sees it.
+// Finds the bones that are the constraint of a vertex: its nearest bone, if the bone is in sight of the vertex.
 #pragma once
 #include "base/jobs.h"
 #include "weights/skeleton.h"
@@ -15,12 +15,12 @@ struct Informants {
   Vector<double> screening;         // H by vertex, 0 without a bone
   Vector<std::uint32_t> by_piece;  // vertices with information
   std::uint32_t informed = 0;       // of all
-  bool blind = false;               // some piece sees none of its bones and asks for them unseen
+  bool blind = false;               // some piece has none of its bones in sight and uses them unseen
 };
 
-// The nearest bone of all informs a vertex, and only if the vertex sees it. On a piece where no vertex sees its bone,
-// all nearest bones inform, unless the piece is small and takes the weights of others. A bone in front of a vertex
-// counts as far away, but for open pieces that face their bones.
+// A vertex has its nearest bone as its constraint, and only if the bone is in sight. If no vertex of a piece has its
+// bone in sight, every vertex gets its nearest bone unseen. A small piece does not: it gets the weights of other
+// pieces. A bone in front of a vertex counts as far away. Open pieces that face their bones are an exception.
 Informants find_informants(const Mesh& mesh, const SkinShape& skin, const Vector<BoneSegment>& segments, Memory& memory,
                            JobRunner& jobs);
 

@@ -1,4 +1,4 @@
-// Reads bones, pins and locks of the caller: checks them and turns them into what the room works on.
+// Reads bones, pins and locks of the caller: checks them and turns them into the data of this room.
 #pragma once
 #include "hf/weights.h"
 #include "weights/weights.h"
@@ -28,7 +28,7 @@ struct LockInput {
   Vector<Index> bones;
   Vector<float> values;
 };
-// joint_count: of the skeleton. values: [vertex as given][count], or null. Throws as hf_weights_set_locks says.
+// joint_count: of the skeleton. values: [vertex of the caller][count], or null. Throws as hf_weights_set_locks says.
 LockInput read_locks(const Mesh& mesh, std::uint32_t joint_count, std::uint32_t count, const std::uint32_t* bones,
                      const float* values, Memory& memory);
 

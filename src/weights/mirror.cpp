@@ -70,7 +70,7 @@ MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& g
   const auto gives = [&](Index v) { return role[at(v)] != Role::takes; };
   const WeightRows rows = read_rows(mesh, given, gives, memory);
   const WeightedShape shape(mesh, surface.skin, rows, memory);
-  if (shape.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no vertex of the side that gives has a weight above 0");
+  if (shape.empty()) fail(HF_ERROR_EMPTY, HF_NO_INDEX, "no vertex of the side to copy from has a weight above 0");
   const auto probe = [&](Index v, Probe& to) {
     if (role[at(v)] == Role::keeps) return false;
     to = {out.plane.reflect(mesh.positions[at(v)]), out.plane.turn(surface.skin.normals()[at(v)])};
@@ -113,7 +113,7 @@ MirroredWeights mirror_weights(const SkinSurface& surface, const GivenWeights& g
     fill.known.close();
   }
   const Vector<std::uint8_t> known = known_pieces(mesh, fill.known, memory);
-  // Pieces of the side that gives, without any weight, take those of the nearest points of that side.
+  // Pieces without any weight on the side to copy from get the weights of the nearest points of that side.
   const Vector<Match> beside = find_matches(shape, *core, options.carry, true, [&](Index v, Probe& to) {
     to.place = mesh.positions[at(v)];
     return role[at(v)] == Role::keeps && !known[at(mesh.component[at(v)])];

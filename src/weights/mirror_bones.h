@@ -1,4 +1,4 @@
-// Pairs the bones of the left side of a skeleton with those of the right side, by their names or their places.
+// Pairs the bones of the left side of a skeleton with the bones of the right side, by their names or their places.
 #pragma once
 #include "weights/mirror_plane.h"
 

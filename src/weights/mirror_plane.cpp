@@ -17,7 +17,7 @@ struct PointPair {
 
 Vec3 column_of(const Mat3& axes, int c) noexcept { return {axes(0, c), axes(1, c), axes(2, c)}; }
 
-// Makes the largest component of the normal positive. A normal that is an axis but for the rounding of an exporter
+// Makes the largest component of the normal positive. A normal that is an axis up to the rounding of an exporter
 // becomes that axis.
 void settle(MirrorPlane& plane) noexcept {
   double n[3] = {plane.normal.x, plane.normal.y, plane.normal.z};
@@ -31,8 +31,8 @@ void settle(MirrorPlane& plane) noexcept {
   plane.normal = {most == 0 ? 1.0 : 0.0, most == 1 ? 1.0 : 0.0, most == 2 ? 1.0 : 0.0};
 }
 
-// The plane with the least sum of squared distances between the reflected p and q: the normal is the eigenvector of the
-// least eigenvalue of the symmetric part of sum p q', both from the middle of all points.
+// The plane with the least sum of squared distances between the reflected p and q. Count p and q from the middle of all
+// points. The normal is the eigenvector of the least eigenvalue of the symmetric part of sum p q'.
 MirrorPlane fit_plane(const Vector<PointPair>& pairs) {
   Vec3 middle;
   const double share = 0.5 / static_cast<double>(pairs.size());

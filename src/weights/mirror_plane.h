@@ -5,7 +5,7 @@
 
 namespace hf_inner {
 
-// The plane that reflects heads on those of their partners: bones with another partner count. False, and nothing
+// The plane that reflects heads on the heads of their partners: bones with another partner count. False, and nothing
 // written: there are none, or no plane reflects them.
 bool plane_of_bones(const Vector<Vec3>& heads, const Vector<Index>& partner, MirrorPlane& plane, Memory& memory);
 // The plane that reflects the surface on itself best.

@@ -6,7 +6,7 @@
 
 namespace hf_inner {
 
-// What a piece has of a bone.
+// A bone of which a piece holds a part.
 struct HeldBone {
   Index bone;
   double share;   // of the bone, 0 to 1; of a joint with several segments the largest

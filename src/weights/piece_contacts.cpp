@@ -67,8 +67,8 @@ class Finder {
   BoxTree triangles_, pieces_;
 };
 
-// Every vertex of the marked pieces, or every second, third, ... of large ones by their distance from the middle: that
-// depends neither on the order of the vertices nor on the axes.
+// Every vertex of the marked pieces. On large pieces every second, third, ... vertex by its distance from the middle.
+// The choice depends neither on the order of the vertices nor on the axes.
 Vector<Index> sample(const Mesh& mesh, const Vector<std::uint8_t>& marked, Memory& memory) {
   struct Member {
     Index piece, vertex;

@@ -15,7 +15,7 @@ class Cloud {
   Cloud(const Mesh& mesh, Memory& memory, Takes&& takes)
       : mesh_(mesh), vertices_(&memory), tree_(collect(takes, memory), memory) {}
   bool empty() const noexcept { return vertices_.empty(); }
-  // The nearest vertex; of equal ones that of the lowest number.
+  // The nearest vertex; among equal ones the lowest number.
   Index nearest(const Vec3& p) const {
     double best = HUGE_VAL;
     Index found = -1;

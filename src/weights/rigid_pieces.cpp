@@ -11,7 +11,7 @@
 namespace hf_inner {
 namespace {
 
-// What is known of a piece before a bone is chosen.
+// The data of a piece before a bone is chosen.
 struct Shape {
   double area = 0;
   ItemBox box;
@@ -125,14 +125,14 @@ class RigidPieces {
   double size(std::size_t piece) const noexcept { return norm(shapes_[piece].box.high - shapes_[piece].box.low); }
   bool may_be_worn(std::size_t piece) const noexcept { return holds(piece) == 0 && size(piece) < small_piece; }
 
-  // Whether all pieces but one are small and hold no bone. That one then stays what it is alone: it bends.
+  // Whether all pieces but one are small and hold no bone. That piece then keeps its own result: it bends.
   bool has_one_body() const noexcept {
     std::size_t bodies = 0;
     for (std::size_t c = 0; c < shapes_.size(); ++c) bodies += !may_be_worn(c);
     return bodies == 1;
   }
 
-  // What the surface is made of: solid parts of which hardly any bends, or a body that bends and what it wears.
+  // The kind of the surface: solid parts that hardly bend, or a body that bends with worn parts.
   Kind kind_of_surface() const {
     double bends = 0, solid = 0, all = 0;
     for (std::size_t c = 0; c < shapes_.size(); ++c) {

@@ -1,10 +1,10 @@
 // Which pieces move with one bone, as the parts of a robot, eyes and buttons do.
 //
 // A piece that holds three bones bends, and one that holds all bones of a family that any piece holds. A robot is
-// made of solid pieces of which hardly any bends, and more than one is large or holds a bone. There every piece takes
-// one bone: the one that it holds, or the one whose joint is in its middle. On creatures only small pieces that hold
-// no bone do. A piece without a bone of its own takes one from the pieces that it touches and from its own smooth
-// weights; on creatures only where most of both agrees. Other surfaces, such as loose triangles, stay smooth.
+// made of solid pieces of which hardly any bends, and more than one is large or holds a bone. There every piece gets
+// one bone: the bone inside it, or the bone whose joint is in its middle. On creatures only small pieces that hold no
+// bone do. A piece without a bone of its own takes one from the pieces that it touches and from its own smooth weights;
+// on creatures only where most of both agrees. Other surfaces, such as loose triangles, stay smooth.
 #pragma once
 #include "weights/solution.h"
 

@@ -63,8 +63,8 @@ class Tails {
 
  private:
   static double cosine(const Vec3& way, const Vec3& axis) noexcept { return dot(way, axis) / norm(way); }
-  // Of a list of children the one at which a joint ends, or -1: the one that lies best along the axis. Without an axis,
-  // the only one.
+  // The child in a list at which a joint ends, or -1: the child that is best along the axis. Without an axis, the only
+  // one.
   Index end_among(Index first, Index j, const Vec3& axis) const {
     if (!(dot(axis, axis) > 0)) return first >= 0 && next_[at(first)] < 0 ? first : -1;
     double best = axis_cosine;

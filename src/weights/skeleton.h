@@ -12,7 +12,7 @@ struct BoneSegment {
   Index bone;
 };
 
-// The bones as given, in the caller's unit. All arrays have the same length.
+// The bones of the caller, in the caller's unit. All arrays have the same length.
 struct Bones {
   explicit Bones(Memory& memory) : head(&memory), tail(&memory), axis(&memory), parent(&memory), deforms(&memory) {}
   Bones(const Bones& other, Memory& memory)

@@ -17,7 +17,7 @@ struct Locks {
   Vector<float> units;  // [vertex][bones]
 };
 
-// What the caller gave. Immutable; undo keeps old ones.
+// The input of the caller. Immutable; undo keeps old ones.
 struct WeightInputs {
   explicit WeightInputs(Memory& memory) : bones(memory), pins(memory) {}
   WeightInputs(const WeightInputs& other, Memory& memory)
@@ -28,7 +28,7 @@ struct WeightInputs {
 };
 
 struct WeightCounts {
-  std::uint32_t by_origin[6] = {};  // vertices as given, by Origin
+  std::uint32_t by_origin[6] = {};  // vertices of the caller, by Origin
   std::uint32_t pieces_carried = 0, pieces_rigid = 0;
   std::uint32_t factorisations = 0, path_solves = 0;  // since the object was made
   bool blind = false;

@@ -318,7 +318,7 @@ export default async function story(host) {
     await studio.settle();
     if (await page.isEnabled('#propose')) await page.click('#propose');
     await studio.settle();
-    const apart = /Pieces stand apart by up to [\d.]+ % of the box/;
+    const apart = /Linked pieces are up to [\d.]+ % of the box apart/;
     assert.doesNotMatch(await page.textContent('#sheet'), apart);
     await page.evaluate(async () => {
       const app = window.hfStudio;

@@ -92,8 +92,8 @@ export default async function story(host) {
     assert.deepEqual(said, [
       0,
       '',
-      'Pieces stand apart by up to 2.3 % of the box.',
-      'Pieces stand apart by up to 2.3 % of the box.',
+      'Linked pieces are up to 2.3 % of the box apart.',
+      'Linked pieces are up to 2.3 % of the box apart.',
       '',
     ]);
   });

@@ -32,7 +32,7 @@ def is_bone(carrier):
 
 
 def bones_of(armature):
-    """Bones of an armature that carry handles."""
+    """Bones of an armature that move handles."""
     return [bone for bone in armature.pose.bones if "hf_id" in bone] if armature.get("hf_bones") else []
 
 

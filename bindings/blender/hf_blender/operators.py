@@ -1,4 +1,4 @@
-"""The operators: each has undo, and says in one sentence what is wrong."""
+"""The operators: each has undo, and reports a fault in one sentence."""
 
 import contextlib
 
@@ -76,7 +76,7 @@ def mesh_with(key):
 
 
 def active_carrier(context):
-    """The active empty or bone, when it carries a handle."""
+    """The active empty or bone, when it moves a handle."""
     active = context.active_object
     if active is not None and active.type == "ARMATURE":
         bone = context.active_pose_bone or (active.data.bones.active
@@ -165,7 +165,7 @@ class HF_OT_add_bones(bpy.types.Operator):
 
 
 class HF_OT_propose(bpy.types.Operator):
-    """Handles where the body stands and where it ends: feet that hold, head, tail and hands to drag"""
+    """Handles at the feet, which hold the body, and at head, tail and hands, which you drag"""
     bl_idname, bl_label, bl_options = "hf.propose", "Propose handles", {"REGISTER", "UNDO"}
     holding: bpy.props.BoolProperty(name="Only what holds", default=False,
         description="Only the feet, or what else holds the body")
@@ -258,7 +258,7 @@ class HF_OT_field(bpy.types.Operator):
 
 
 class HF_OT_weights(bpy.types.Operator):
-    """Write the pose as vertex groups and an armature with one bone per cluster, standing as the pose stands"""
+    """Write the pose as vertex groups and an armature with one bone per cluster, in the pose of the mesh"""
     bl_idname, bl_label, bl_options = "hf.weights", "Weights and armature", {"REGISTER", "UNDO"}
     count: bpy.props.EnumProperty(name="Bones for each vertex", items=[("4", "4", ""), ("8", "8", "")])
 
@@ -281,7 +281,7 @@ class HF_OT_transfer(bpy.types.Operator):
     start: bpy.props.IntProperty(name="Start", default=1)
     end: bpy.props.IntProperty(name="End", default=24)
     scale: bpy.props.FloatProperty(name="Scale", min=0,
-        description="Lengths of the target over those of the source; 0: found")
+        description="Lengths of the target over lengths of the source; 0: computed")
 
     @guarded
     def execute(self, context):

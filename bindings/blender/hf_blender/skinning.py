@@ -127,12 +127,12 @@ def note_on(obj, sentences):
 
 def describe(info, work, helpers):
     """What was guessed, in sentences."""
-    note = [f"{info.informed_count} vertices see their bone, {info.solved_count} are between"]
+    note = [f"{info.informed_count} vertices have their bone in sight, {info.solved_count} are between"]
     guessed = info.nearest_count + info.rigid_count + info.isolated_count
     if guessed:
         note.append(f"guessed: {guessed} vertices of {work.nearest_piece_count} loose parts")
     if work.blind:
-        note.append("guessed: a part of the mesh sees no bone")
+        note.append("guessed: a part of the mesh has no bone in sight")
     if work.outside_count:
         note.append(f"{work.outside_count} bones outside the mesh")
     if helpers:

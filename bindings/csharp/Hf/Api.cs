@@ -284,7 +284,8 @@ namespace Hf
 
     public enum Ground
     {
-        /// <summary>feet stand, and no part sinks deeper than the source's, but for thin ones. The default</summary>
+        /// <summary>feet are held at the ground. A part goes no deeper under the ground than on the source; thin parts may.
+        /// The default</summary>
         Keep = Constants.HF_GROUND_KEEP,
         /// <summary>there is no ground: for flying and swimming, or where the host has its own</summary>
         Off = Constants.HF_GROUND_OFF,
@@ -319,7 +320,7 @@ namespace Hf
     /// <summary>How the weights of a vertex were found.</summary>
     public enum WeightsOrigin
     {
-        /// <summary>it sees its nearest joint</summary>
+        /// <summary>its nearest joint is in sight</summary>
         Informed = Constants.HF_WEIGHTS_INFORMED,
         /// <summary>from the vertices around it</summary>
         Solved = Constants.HF_WEIGHTS_SOLVED,
@@ -333,7 +334,7 @@ namespace Hf
         Isolated = Constants.HF_WEIGHTS_ISOLATED,
         /// <summary>transferred or mirrored: from a near point whose normal agrees</summary>
         Matched = Constants.HF_WEIGHTS_MATCHED,
-        /// <summary>mirrored: it is on the side that gives</summary>
+        /// <summary>mirrored: it is on the side to copy from</summary>
         Kept = Constants.HF_WEIGHTS_KEPT,
     }
 
@@ -416,11 +417,11 @@ namespace Hf
     /// <summary>A spring from a vertex to a point of a triangle. Surface.Links writes it, LinksDesc reads it.</summary>
     public sealed unsafe partial class Link
     {
-        /// <summary>as given, of welded copies the first</summary>
+        /// <summary>of your mesh, the first of welded copies</summary>
         public uint Vertex;
         /// <summary>the triangle; a corner of barycentric 0 is ignored and can be uint.MaxValue</summary>
         public uint[] Corners = new uint[3];
-        /// <summary>&gt;= 0, of sum 1 within 1e-3. 1, 0, 0 links two vertices</summary>
+        /// <summary>&gt;= 0, of sum 1 within 1e-3. A single 1 links two vertices</summary>
         public double[] Barycentrics = new double[3];
         /// <summary>at rest, in the unit of the positions. Ignored when read</summary>
         public double Length;
@@ -457,9 +458,9 @@ namespace Hf
     /// <summary>The options a surface was made with, defaults filled in.</summary>
     public sealed unsafe partial class SurfaceInfo
     {
-        /// <summary>as given</summary>
+        /// <summary>of your mesh</summary>
         public uint VertexCount;
-        /// <summary>as given; of faces, the triangles of their cut</summary>
+        /// <summary>of your mesh; of faces, the triangles of their cut</summary>
         public uint TriangleCount;
         public Weld Weld;
         public double WeldTolerance;
@@ -473,13 +474,13 @@ namespace Hf
         /// <summary>0: none</summary>
         public uint MemoryLimitMb;
         public uint WorkLimitGflop;
-        /// <summary>as given to Surface.FromGraph; 0 for a mesh</summary>
+        /// <summary>of the desc of Surface.FromGraph; 0 for a mesh</summary>
         public uint EdgeCount;
         /// <summary>of a graph, 0: sixteen per vertex of the vertex limit</summary>
         public uint EdgeLimit;
-        /// <summary>as given; 0 where triangles were given</summary>
+        /// <summary>of your mesh; 0 where triangles were given</summary>
         public uint FaceCount;
-        /// <summary>as given</summary>
+        /// <summary>of your mesh</summary>
         public uint CornerCount;
 
         internal SurfaceInfo(hf_surface_info* raw)
@@ -508,9 +509,9 @@ namespace Hf
     /// degenerate triangles of the cut.</summary>
     public sealed unsafe partial class SurfaceReport
     {
-        /// <summary>as given</summary>
+        /// <summary>of your mesh</summary>
         public uint VertexCount;
-        /// <summary>as given; of faces, the triangles of their cut</summary>
+        /// <summary>of your mesh; of faces, the triangles of their cut</summary>
         public uint TriangleCount;
         /// <summary>after welding</summary>
         public uint WeldedVertexCount;
@@ -533,7 +534,7 @@ namespace Hf
         /// <summary>closed pieces whose triangles face inwards: a mesh turned inside out, or the inner wall of a hollow
         /// body. Fields do not change. Results that use normals do</summary>
         public uint InsideOutCount;
-        /// <summary>the first vertex of one, as given; uint.MaxValue without one</summary>
+        /// <summary>vertex of your mesh: the first of such a piece; uint.MaxValue without one</summary>
         public uint FirstInsideOutVertex;
         /// <summary>in the unit of the positions, without isolated vertices</summary>
         public double BoundingBoxDiagonal;
@@ -572,7 +573,7 @@ namespace Hf
         /// triangles are too thin, or if a double has too few digits for it. A certificate holds for the weights
         /// used; near these vertices the field may differ from the field of the mesh</summary>
         public uint ChangedVertexCount;
-        /// <summary>the first of them, as given; uint.MaxValue without one</summary>
+        /// <summary>the first of them in your mesh; uint.MaxValue without one</summary>
         public uint FirstChangedVertex;
         /// <summary>radians, over the usable triangles of the cut</summary>
         public double SmallestAngle;
@@ -630,7 +631,7 @@ namespace Hf
         public uint ContactCount;
         /// <summary>the widest gap of a contact; 0 without contacts</summary>
         public double WorstContact;
-        /// <summary>a vertex of that contact, as given; uint.MaxValue without contacts</summary>
+        /// <summary>vertex of your mesh in that contact; uint.MaxValue without contacts</summary>
         public uint ContactVertex;
 
         internal GapsInfo(hf_gaps_info* raw)
@@ -699,9 +700,9 @@ namespace Hf
     /// `places`, and `points` in space. Set one of the three.</summary>
     public sealed unsafe partial class Place
     {
-        /// <summary>vertices of one face, as given; a corner of barycentric 0 is ignored and can be uint.MaxValue</summary>
+        /// <summary>vertices of one face of your mesh; a corner of barycentric 0 is ignored and can be uint.MaxValue</summary>
         public uint[] Corners = new uint[3];
-        /// <summary>weights of the corners, &gt;= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex</summary>
+        /// <summary>weights of the corners, &gt;= 0, of sum 1 within 1e-6. A single 1 is a vertex</summary>
         public double[] Barycentrics = new double[3];
 
         internal Place(hf_place* raw)
@@ -724,9 +725,9 @@ namespace Hf
     /// <summary>Surface.CastRay writes the first triangle that a ray hits here.</summary>
     public sealed unsafe partial class Hit
     {
-        /// <summary>or face, as given</summary>
+        /// <summary>or face, of your mesh</summary>
         public uint Triangle;
-        /// <summary>its corner nearest to the hit, as given, of welded copies the first</summary>
+        /// <summary>its corner nearest to the hit, of your mesh, the first of welded copies</summary>
         public uint Vertex;
         /// <summary>the point hit: corners of the triangle (the first of welded copies) and their barycentrics. A face of
         /// more corners is cut into triangles; these are the corners of the triangle hit</summary>
@@ -753,7 +754,7 @@ namespace Hf
         public uint ChannelCount;
         public uint SiteLimit;
         public uint SiteCount;
-        /// <summary>as given to the surface: rows of a field</summary>
+        /// <summary>vertices of your mesh: rows of a field</summary>
         public uint VertexCount;
 
         internal SolverInfo(hf_solver_info* raw)
@@ -797,9 +798,9 @@ namespace Hf
         public double ValueRange;
         /// <summary>largest change of a value by the last correction: about the error before it</summary>
         public double LargestCorrection;
-        /// <summary>of the largest error, in the unit of the values: measured when corrections were made, else 1e-5 of
-        /// value_range; 0 when exact; infinite where only corrections tell: bi-harmonic fields, long shapes,
-        /// crowded sites</summary>
+        /// <summary>of the largest error, in the unit of the values. Measured when corrections were made, else 1e-5 of
+        /// value_range; 0 when exact. Infinite where only corrections can measure it: bi-harmonic fields, long
+        /// shapes, crowded sites</summary>
         public double ErrorEstimate;
         /// <summary>memory of the single-precision copy, shared by the surface</summary>
         public double PreviewBytes;
@@ -834,7 +835,7 @@ namespace Hf
         public double SiteError;
         /// <summary>how far the field leaves the range of its sites; 0 when not checked</summary>
         public double Overshoot;
-        /// <summary>as given, where the largest of the three is</summary>
+        /// <summary>of your mesh, where the largest of the three is</summary>
         public uint WorstVertex;
         /// <summary>welded vertices with a changed weight (MeshStatistics). The errors hold for the weights used. Harmonic
         /// fields on a graph use your own weights, within 1e30 of their median</summary>
@@ -906,7 +907,7 @@ namespace Hf
 
     public sealed unsafe partial class CriticalPoint
     {
-        /// <summary>as given, of welded copies the first</summary>
+        /// <summary>of your mesh, the first of welded copies</summary>
         public uint Vertex;
         public Critical Kind;
         /// <summary>1 for extrema (0 for a maximum on a border), -k for a saddle where k + 1 valleys meet</summary>
@@ -962,7 +963,7 @@ namespace Hf
 
     public sealed unsafe partial class Extremity
     {
-        /// <summary>as given, of welded copies the first</summary>
+        /// <summary>of your mesh, the first of welded copies</summary>
         public uint Vertex;
         /// <summary>its piece, as Surface.Pieces: links do not count here</summary>
         public uint Component;
@@ -995,9 +996,9 @@ namespace Hf
     /// of 1 / degree of a full turn.</summary>
     public sealed unsafe partial class Singularity
     {
-        /// <summary>or face, as given</summary>
+        /// <summary>or face, of your mesh</summary>
         public uint Triangle;
-        /// <summary>its corner where the field is shortest, as given; of welded copies the first</summary>
+        /// <summary>its corner where the field is shortest, of your mesh; the first of welded copies</summary>
         public uint Vertex;
         /// <summary>in parts of 1 / degree: +1 a source or vortex of a vector field, -1 a saddle</summary>
         public int Index;
@@ -1068,7 +1069,7 @@ namespace Hf
         public uint IterationCount;
         public uint GroupCount;
         public uint HandleCount;
-        /// <summary>as given to the surface: rows of Pose.Deform</summary>
+        /// <summary>vertices of your mesh: rows of Pose.Deform</summary>
         public uint VertexCount;
 
         internal PoseInfo(hf_pose_info* raw)
@@ -1194,7 +1195,7 @@ namespace Hf
     /// position and radius is then a part of these vertices.</summary>
     public sealed unsafe partial class HandleProposal
     {
-        /// <summary>nearest to the position; as given, of welded copies the first</summary>
+        /// <summary>nearest to the position; of your mesh, the first of welded copies</summary>
         public uint Vertex;
         /// <summary>as Surface.Components</summary>
         public uint Component;
@@ -1257,7 +1258,7 @@ namespace Hf
     {
         public uint VertexCount;
         public uint FaceCount;
-        /// <summary>vertices - edges + faces, that of the usable surface</summary>
+        /// <summary>vertices - edges + faces, equal to the Euler characteristic of the usable surface</summary>
         public int EulerCharacteristic;
         /// <summary>wanted length, in the unit of the mesh</summary>
         public double EdgeLength;
@@ -1598,9 +1599,9 @@ namespace Hf
         /// <summary>raises the pairs flagged PairFlag.Trunk and PairFlag.Anchor by this share of their mean height at rest,
         /// -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised</summary>
         public double HipHeightShare;
-        /// <summary>pairs flagged PairFlag.Neck, together one limb How far a limb follows the source, -1 to 1. 0 = neutral:
-        /// it plays the source's motion from its own rest direction. 1: it also takes the rest direction of the
-        /// source's limb. -1: it does not move against its root.</summary>
+        /// <summary>pairs flagged PairFlag.Neck, together one limb How far a limb follows the source, -1 to 1. At 0
+        /// (neutral) the limb plays the source's motion from its own rest direction. At 1 it also gets the rest
+        /// direction of the source's limb. At -1 it does not move against its root.</summary>
         public double NeckFollow;
         /// <summary>pairs flagged PairFlag.Tail, together one limb</summary>
         public double TailFollow;
@@ -1623,7 +1624,7 @@ namespace Hf
         }
     }
 
-    /// <summary>Counts of the weights. Vertices are counted as given.</summary>
+    /// <summary>Counts of the weights. Vertices are vertices of your mesh.</summary>
     public sealed unsafe partial class WeightsInfo
     {
         public uint VertexCount;
@@ -1660,7 +1661,7 @@ namespace Hf
         public uint NearestPieceCount;
         /// <summary>small ones of them</summary>
         public uint RigidPieceCount;
-        /// <summary>1: some piece sees none of its nearest joints and uses them unseen</summary>
+        /// <summary>1: some piece has none of its nearest joints in sight and uses them all the same</summary>
         public bool Blind;
         /// <summary>joints by JointFlag</summary>
         public uint NoLengthCount;
@@ -1688,7 +1689,7 @@ namespace Hf
         }
     }
 
-    /// <summary>Counts of transferred weights. Vertices of the target are counted as given.</summary>
+    /// <summary>Counts of transferred weights. Vertices are vertices of the target mesh.</summary>
     public sealed unsafe partial class WeightsTransferInfo
     {
         public uint VertexCount;
@@ -1713,7 +1714,7 @@ namespace Hf
         }
     }
 
-    /// <summary>The findings of a mirror. Vertices are counted as given.</summary>
+    /// <summary>The findings of a mirror. Vertices are vertices of your mesh.</summary>
     public sealed unsafe partial class WeightsMirrorInfo
     {
         public uint VertexCount;
@@ -1785,11 +1786,11 @@ namespace Hf
     /// each is null or as large as its capacity.</summary>
     public sealed class Isolines
     {
-        /// <summary>[pointCapacity x 2] vertices a and b as given, of welded copies the first</summary>
+        /// <summary>[pointCapacity x 2] vertices a and b of your mesh, the first of welded copies</summary>
         public uint[] PointEdges;
         /// <summary>[pointCapacity] 0 to 1</summary>
         public double[] Parameters;
-        /// <summary>[pointCapacity x 3] in the unit and frame of the mesh as given</summary>
+        /// <summary>[pointCapacity x 3] in the unit and frame of your mesh</summary>
         public double[] Positions;
         /// <summary>[lineCapacity + 1] line i holds the points line_starts[i] to line_starts[i + 1] - 1</summary>
         public uint[] LineStarts;
@@ -1825,11 +1826,11 @@ namespace Hf
     /// triangle has uint.MaxValue for both. The arrays are yours: each is null or as large as the capacity.</summary>
     public sealed class SurfacePath
     {
-        /// <summary>[pointCapacity x 2] vertices a and b as given, of welded copies the first</summary>
+        /// <summary>[pointCapacity x 2] vertices a and b of your mesh, the first of welded copies</summary>
         public uint[] PointEdges;
         /// <summary>[pointCapacity] 0 to 1</summary>
         public double[] Parameters;
-        /// <summary>[pointCapacity x 3] in the unit and frame of the mesh as given</summary>
+        /// <summary>[pointCapacity x 3] in the unit and frame of your mesh</summary>
         public double[] Positions;
         /// <summary>in the unit of the mesh; -1: no path</summary>
         public double Length;
@@ -1917,23 +1918,23 @@ namespace Hf
     /// <summary>Quads.Mesh writes the quad mesh to these arrays. They are yours: each is null or as large as its capacity.</summary>
     public sealed class QuadsMesh
     {
-        /// <summary>[vertexCapacity x 3] in the unit and frame of the mesh as given</summary>
+        /// <summary>[vertexCapacity x 3] in the unit and frame of your mesh</summary>
         public double[] Positions;
         /// <summary>[faceCapacity x 4] vertices of each quad, counter-clockwise</summary>
         public uint[] Faces;
-        /// <summary>[vertexCapacity] triangle or face as given that the vertex lies in</summary>
+        /// <summary>[vertexCapacity] triangle or face of your mesh that contains the vertex</summary>
         public uint[] Triangles;
         /// <summary>[vertexCapacity x 3] weights of that triangle's corners, in its own order, of sum 1; in a face of more
         /// corners the weights of `corners`</summary>
         public double[] Barycentrics;
-        /// <summary>[vertexCapacity x 3] vertices as given, of welded copies the first, that barycentrics belong to</summary>
+        /// <summary>[vertexCapacity x 3] vertices of your mesh that barycentrics belong to, the first of welded copies</summary>
         public uint[] Corners;
     }
 
     /// <summary>Results.</summary>
     public sealed class Streamlines
     {
-        /// <summary>[pointCapacity x 3] in the unit and frame of the mesh as given</summary>
+        /// <summary>[pointCapacity x 3] in the unit and frame of your mesh</summary>
         public double[] Positions;
         /// <summary>[pointCapacity] of the field, rising along every line</summary>
         public double[] Values;
@@ -2081,7 +2082,7 @@ namespace Hf
     /// vertices do.</summary>
     public sealed unsafe class SitesDesc
     {
-        /// <summary>[siteCount] vertices as given, or null</summary>
+        /// <summary>[siteCount] vertices of your mesh, or null</summary>
         public uint[] Vertices;
         /// <summary>[siteCount x channelCount], up to 1e200 in size; null = 0</summary>
         public double[] Values;
@@ -2125,7 +2126,7 @@ namespace Hf
     /// the surface is a curve too; it has only one side. The curve passes a vertex at most 8 times.</summary>
     public sealed unsafe class CurveDesc
     {
-        /// <summary>[pointCount] vertices as given, or null</summary>
+        /// <summary>[pointCount] vertices of your mesh, or null</summary>
         public uint[] Vertices;
         /// <summary>[pointCount], or null</summary>
         public Place[] Places;
@@ -2256,7 +2257,7 @@ namespace Hf
     /// faces: faces instead of triangles
     /// weldTolerance: for Weld.Tolerance, in the unit of the positions, &gt; 0
     /// operatorKind: Operator
-    /// fieldKind: FieldKind: the factor made now. Others are made when a solver or region asks
+    /// fieldKind: FieldKind: the factor made now. Others are made when a solver or region needs one
     /// ordering: Ordering
     /// threadCount: threads the library may use, yours included, 1 to 256; 0 = 1
     /// vertexLimit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices,
@@ -2290,7 +2291,7 @@ namespace Hf
         /// faces: faces instead of triangles
         /// weldTolerance: for Weld.Tolerance, in the unit of the positions, &gt; 0
         /// operatorKind: Operator
-        /// fieldKind: FieldKind: the factor made now. Others are made when a solver or region asks
+        /// fieldKind: FieldKind: the factor made now. Others are made when a solver or region needs one
         /// ordering: Ordering
         /// threadCount: threads the library may use, yours included, 1 to 256; 0 = 1
         /// vertexLimit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices,
@@ -2334,9 +2335,10 @@ namespace Hf
 
         /// <summary>Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call
         /// copies the graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors,
-        /// components and reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED:
-        /// poses, regions, directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin
-        /// weights, vector fields, links, screening, and sites at places, at points or on discs.
+        /// components and reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED.
+        /// These are poses, regions, directions, geodesics, iso-lines, extremities, quads, flow, picking,
+        /// transfers, skin weights, vector fields, links and screening. Sites at places, at points or on discs need
+        /// triangles too.
         ///
         /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from
         /// the median of their component by a factor above 1e30 are limited; MeshStatistics counts their vertices
@@ -2522,8 +2524,8 @@ namespace Hf
         /// its ends are apart than at rest, and 0 if they are nearer. The gap of a contact (LinksInfo) is measured
         /// in the same way.
         ///
-        /// positions: [vertexCount x 3] of float or double: the deformed mesh, from a pose, a transfer or any other
-        ///     source.
+        /// positions: [vertexCount x 3] of float or double: the deformed mesh. It can come from a pose, a transfer
+        ///     or any other source.
         /// info: filled in when given
         ///
         /// Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.</summary>
@@ -2696,7 +2698,7 @@ namespace Hf
         /// the same mesh, options and library version, whatever the number of threads. The bytes are little-endian
         /// and hold a format version, a hash of the matrix and a checksum. They hold no sites.
         ///
-        /// fieldKind: FieldKind; a factor that does not exist yet is made first.
+        /// fieldKind: FieldKind. If its factor does not exist yet, the call makes it first.
         /// progress: an object to poll and cancel through.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_TOO_SMALL.</summary>
@@ -2716,8 +2718,8 @@ namespace Hf
 
         /// <summary>Finds what a mouse click hits: the first triangle on a ray.
         ///
-        /// origin: [3] in the frame of the positions; the direction can have any length above 0.
-        /// direction: [3] in the frame of the positions; the direction can have any length above 0.
+        /// origin: [3] in the frame of the positions. The direction can have any length above 0.
+        /// direction: [3] in the frame of the positions. The direction can have any length above 0.
         /// positions: [vertexCount x 3] of float or double: posed positions (Pose.Deform writes them). null: the
         ///     rest positions
         /// frontOnly: 1: a ray passes through triangles seen from behind
@@ -2846,8 +2848,8 @@ namespace Hf
         }
 
         /// <summary>Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each
-        /// vertex decide (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of its
-        /// neighbours with lower values and the edges between them. The vertex number breaks ties, so a flat area
+        /// vertex decide (Banchoff 1970). Take its neighbours with lower values and the edges between them. The
+        /// index of the vertex is 1 minus their Euler characteristic. The vertex number breaks ties, so a flat area
         /// has critical points too. The indices sum to the Euler characteristic on every component. On a mesh that
         /// is not Delaunay a harmonic field can show an extremum away from its sites, because the default operator
         /// uses other edges than the mesh. Operator.Clamped uses the edges of the mesh and avoids this.
@@ -2943,8 +2945,8 @@ namespace Hf
         /// parents: [jointCount] position of each joint's parent in the list; uint.MaxValue for a root
         /// skeleton: the skeleton of the mesh, instead of joints and parents. It rests in the unit and frame of the
         ///     mesh. If it has a skin, the skin has the vertices of the mesh
-        /// up: direction away from the ground, of any length; 0 0 0 = up of the skeleton where it is known, else 0
-        ///     1 0
+        /// up: direction away from the ground, of any length; zero = up of the skeleton where it is known, else the
+        ///     y axis
         /// leastLengthShare: as in ExtremitiesDesc; 0 = 0.05
         /// limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
         /// progress: an object to poll and cancel through
@@ -3042,8 +3044,8 @@ namespace Hf
         }
 
         /// <summary>Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share
-        /// the factor and what the sites have cost, so a copy costs its list of sites only. Use one copy per thread
-        /// or per set of sites. For undo, keep copies: one before each edit.</summary>
+        /// the factor and the solved sites, so a copy costs its list of sites only. Use one copy per thread or per
+        /// set of sites. For undo, keep copies: one before each edit.</summary>
         public Solver Clone()
         {
             using (var c = new Call(this))
@@ -3056,10 +3058,10 @@ namespace Hf
             }
         }
 
-        /// <summary>Moves a solver to an edited surface: its sites keep their numbers, values and screening.
+        /// <summary>Moves a solver to an edited surface. Its sites keep their numbers, values and screening.
         ///
-        /// surface: made by Surface.Edit or Surface.Relink from the solver's surface, or the other way round, in
-        ///     any number of steps.
+        /// surface: any number of calls of Surface.Edit or Surface.Relink make it from the solver's surface, or the
+        ///     solver's surface from it.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.</summary>
         public void MoveTo(Surface surface)
@@ -3088,7 +3090,7 @@ namespace Hf
 
         /// <summary>Adds sites.
         ///
-        /// vertices: [siteCount] vertices as given, or null
+        /// vertices: [siteCount] vertices of your mesh, or null
         /// values: [siteCount x channelCount], up to 1e200 in size; null = 0
         /// places: [siteCount], or null
         /// points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each
@@ -3157,7 +3159,7 @@ namespace Hf
         /// <summary>Moves sites to new places. Each site keeps its number, value, stiffness and radius.
         ///
         /// sites: [siteCount].
-        /// vertices: [siteCount] vertices as given, or null
+        /// vertices: [siteCount] vertices of your mesh, or null
         /// values: [siteCount x channelCount], up to 1e200 in size; null = 0
         /// places: [siteCount], or null
         /// points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each
@@ -3291,9 +3293,9 @@ namespace Hf
         ///
         /// screening: [vertexCount] H &gt;= 0, in 1 / length^2 with the unit of the mesh; null removes the
         ///     screening.
-        /// targets: [vertexCount x channelCount] p, or null for 0. Both are copied; welded copies of a vertex take
-        ///     the values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo
-        ///     restores the screening with the sites.
+        /// targets: [vertexCount x channelCount] p, or null for 0. Both are copied. The values of the first of
+        ///     welded copies hold for all of them. Sites stay. A site with a radius holds the rim of its disc only.
+        ///     Undo restores the screening with the sites.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_POSITIVE_DEFINITE,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_UNSUPPORTED.</summary>
@@ -3404,7 +3406,7 @@ namespace Hf
 
         /// <summary>Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009,
         /// Section 3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a
-        /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the
+        /// field. It then projects the vector v of each vertex on the tangent plane: v - (n . v) n. Here n is the
         /// area-weighted normal.
         ///
         /// @out: [vertexCount x 3] of float or double, not normalised.
@@ -3501,7 +3503,7 @@ namespace Hf
         /// while the user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields.
         /// Bi-harmonic fields, long shapes and crowded sites can have an error of any size: ask for corrections
         /// there and read error_estimate. Hard sites at vertices are exact. One correction (iterative refinement,
-        /// Wilkinson 1963) of a harmonic field takes the error below 1e-9, a second one below 1e-12. Each
+        /// Wilkinson 1963) reduces the error of a harmonic field below 1e-9, a second one below 1e-12. Each
         /// correction costs as much as two to three calls of Solver.Solve.
         ///
         /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field
@@ -3700,8 +3702,8 @@ namespace Hf
     /// one numeric factorisation and holds a factor of its own beside the surface's.
     ///
     /// method: DistanceMethod
-    /// smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to
-    ///     10,000
+    /// smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother. From 0.1 to
+    ///     10,000; 0 = 1
     /// progress: an object to poll and cancel through: creation and every later call report to it</summary>
     public sealed unsafe class Geodesics : HfObject
     {
@@ -3709,8 +3711,8 @@ namespace Hf
         /// takes one numeric factorisation and holds a factor of its own beside the surface's.
         ///
         /// method: DistanceMethod
-        /// smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to
-        ///     10,000
+        /// smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother. From 0.1 to
+        ///     10,000; 0 = 1
         /// progress: an object to poll and cancel through: creation and every later call report to it
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_POSITIVE_DEFINITE.</summary>
@@ -3839,11 +3841,11 @@ namespace Hf
             }
         }
 
-        /// <summary>Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each
-        /// vertex gets the length of its shortest path from the point, in the direction in which that path leaves
-        /// the point.
+        /// <summary>Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. A
+        /// vertex lies at the length of its shortest path from the point, in the direction in which the path
+        /// starts.
         ///
-        /// radius: vertices farther away get NaN too, and cost nothing; 0 = no bound.
+        /// radius: vertices farther away get NaN too and take no time; 0 = no bound.
         ///
         /// Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
         /// HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.</summary>
@@ -3870,7 +3872,7 @@ namespace Hf
     /// Makes a direction field without constraints. It computes the connection between tangent planes and the
     /// operator, and factorises once, with two unknowns per vertex.
     ///
-    /// degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
+    /// degree: 1 vectors, 2 lines, 4 crosses. A turn by 360 / degree changes nothing. 0 = 1
     /// siteLimit: most constraints; 0 = 100,000
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Direction : Recorded
@@ -3880,7 +3882,7 @@ namespace Hf
         /// <summary>Makes a direction field without constraints. It computes the connection between tangent planes and the
         /// operator, and factorises once, with two unknowns per vertex.
         ///
-        /// degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
+        /// degree: 1 vectors, 2 lines, 4 crosses. A turn by 360 / degree changes nothing. 0 = 1
         /// siteLimit: most constraints; 0 = 100,000
         /// progress: an object to poll and cancel through
         ///
@@ -3954,8 +3956,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Moves constraints to other vertices of the same component. The connection carries each vector along the
-        /// shortest path of edges, from tangent plane to tangent plane.
+        /// <summary>Moves constraints to other vertices of the same component. The connection transports each vector along
+        /// the shortest path of edges, from tangent plane to tangent plane.
         ///
         /// sites: [siteCount].
         /// vertices: [siteCount].
@@ -4018,7 +4020,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the constraints by ascending number.</summary>
+        /// <summary>Writes the constraints. Their numbers ascend.</summary>
         public (uint[] Sites, uint[] Vertices, double[] Vectors) Sites()
         {
             using (var c = new Call(this))
@@ -4245,22 +4247,22 @@ namespace Hf
         }
 
         /// <summary>Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls
-        /// a posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid
-        /// motion that its region has in the last pose (Pose.Handle writes it), and the surface stays where it is
-        /// (to 1e-6 of the box). It goes over to the best pose of the new handles while handles move by 0.05 of the
-        /// box, or back to rest. Until then the region of the new handle keeps a part of its bend. restart ends
-        /// this at once. On a higher layer the surface does not move (to 1e-9 of the box) until you move the
-        /// handle. Handles of lower layers hold the surface in place for the higher layers.
+        /// a posed surface back to rest there. Use in_place to grab a posed surface. Each new handle then gets the
+        /// rigid motion of its region in the last pose (Pose.Handle writes it). The surface stays in place (to 1e-6
+        /// of the box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or
+        /// back to rest. Until then the region of the new handle keeps a part of its bend. restart ends this at
+        /// once. On a higher layer the surface does not move (to 1e-9 of the box) until you move the handle.
+        /// Handles of lower layers hold the surface in place for the higher layers.
         ///
         /// regionVertices: lists of whole numbers: all regions one after the other; null: places are given
-        /// vertices: [handleCount] vertices as given, or null
+        /// vertices: [handleCount] vertices of your mesh, or null
         /// places: [handleCount], or null
         /// points: [handleCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. A point
         ///     can lie inside the body, as a joint does: its nearest vertex counts
         /// radii: [handleCount] of the regions of places, in the unit of the mesh; null: regions are given. A
         ///     radius below 1 % of the box makes regions of 2 vertices or more
         /// layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
-        /// inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+        /// inPlace: 1: handles of layer 0 start on the posed surface, not at rest; see below
         /// freeRotation: 1: you give the places of the handles only; see Pose.SetFreeRotations
         /// progress: an object to poll and cancel through
         ///
@@ -4292,8 +4294,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that
-        /// are edge-connected to it within `radius` of the point.
+        /// <summary>Adds one handle on layer 0. Its region has the vertex nearest to a point at rest. It also has all
+        /// vertices within `radius` of the point that are edge-connected to this vertex.
         ///
         /// point: [3].
         ///
@@ -4434,7 +4436,7 @@ namespace Hf
         ///
         /// handles: [handleCount].
         /// refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle.
-        ///     1 keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
+        ///     With 1, bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.</summary>
         public void SetLimbRefine(uint[] handles, int refine = 0)
@@ -4471,7 +4473,7 @@ namespace Hf
         /// <summary>Places handles by 4 x 4 matrices M.
         ///
         /// handles: [handleCount].
-        /// matrices: [handleCount x 16], column by column, elements 12 to 14 the translation. M moves a rest
+        /// matrices: [handleCount x 16], column by column. The last column is the translation. M moves a rest
         ///     position p to the posed position M p. Its linear part must be a rotation within 1e-4; the function
         ///     takes the nearest rotation. Its last row must be 0 0 0 1.
         ///
@@ -4585,9 +4587,9 @@ namespace Hf
         ///     about 0.2 us per vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get
         ///     sharper
         /// refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth
-        ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand
-        ///     still, more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs
-        ///     a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes per vertex
+        ///     pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles do not
+        ///     move, more calls converge to the minimum. A restart, or a call without it, forgets that surface.
+        ///     Needs a refine of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes per vertex
         /// firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         /// vertexCount: positions of a range cost only the range; but with higher layers, rigid pieces, refine,
         ///     limb_refine or normals they cost the whole surface
@@ -4840,8 +4842,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes rows of one length. They change with `revision`, as those of Pose.BlendRows. Call it without
-        /// arrays for the count and the errors.
+        /// <summary>Writes rows of one length. They change with `revision`, as the rows of Pose.BlendRows do. Call it
+        /// without arrays for the count and the errors.
         ///
         /// influenceCount: clusters of each vertex, the length of a row, 1 to 64; 0 = 8
         /// byteClusters: [vertexCapacity x influenceCount] null = not wanted. Refused for more than 256 clusters
@@ -4886,7 +4888,7 @@ namespace Hf
         }
 
         /// <summary>Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
-        /// Pose.Deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as
+        /// Pose.Deform. Higher layers, rigid pieces and limb_refine need the surface. With them the call costs as
         /// much as Pose.Deform.
         ///
         /// iterationCount: 1 to 1000; 0 = as in PoseDesc.
@@ -4946,8 +4948,8 @@ namespace Hf
     /// lengths, it snaps vertices to the surface and adds quads. A relaxed quad starts at the corner whose diagonal
     /// keeps nearer to the surface, so a renderer should split quads into triangles from the first corner. If the
     /// mesh stays farther than an edge length from the surface, a limb is lost. Then the function makes up to three
-    /// finer meshes, and removes rows of quads until the number is right. The function checks every result: each
-    /// directed edge occurs once, no face repeats a corner, and the Euler characteristic is that of the surface.
+    /// finer meshes, and removes rows of quads until the number is right. The function checks every result. Each
+    /// directed edge occurs once. No face repeats a corner. The result has the Euler characteristic of the surface.
     ///
     /// The surface may have borders, any genus and several components; the function turns triangles that disagree
     /// in orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two.
@@ -4965,12 +4967,12 @@ namespace Hf
     /// the crosses sum to four times the Euler characteristic. On a torus or a knot a single one of 5 is often
     /// lost.
     ///
-    /// creaseEdges: [creaseCount x 2] the two vertices of each edge, as given
-    /// guideVertices: [guideCount] as given; guides of one vertex are averaged
+    /// creaseEdges: [creaseCount x 2] the two vertices of each edge, of your mesh
+    /// guideVertices: [guideCount] vertices of your mesh; guides of one vertex are averaged
     /// guideVectors: [guideCount x 3] along the surface, of any length above 0; quads run along the vector and
     ///     across it
-    /// guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction, less mixes it with that of
-    ///     the curvature, which has the rest of the weight
+    /// guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction. A smaller weight mixes it
+    ///     with the direction of the curvature, which has the rest of the weight
     /// irregularPoints: [irregularCount x 3] at the surface, in the unit and frame of the mesh
     /// irregularValences: [irregularCount] how many quads meet there: 3 or 5
     /// irregularDirections: null = any, or [irregularCount x 3]: one side of the irregular vertex runs along it; 0
@@ -4997,8 +4999,8 @@ namespace Hf
         /// diagonal keeps nearer to the surface, so a renderer should split quads into triangles from the first
         /// corner. If the mesh stays farther than an edge length from the surface, a limb is lost. Then the
         /// function makes up to three finer meshes, and removes rows of quads until the number is right. The
-        /// function checks every result: each directed edge occurs once, no face repeats a corner, and the Euler
-        /// characteristic is that of the surface.
+        /// function checks every result. Each directed edge occurs once. No face repeats a corner. The result has
+        /// the Euler characteristic of the surface.
         ///
         /// The surface may have borders, any genus and several components; the function turns triangles that
         /// disagree in orientation. Where three or more triangles share an edge, the two flattest are joined, then
@@ -5016,12 +5018,12 @@ namespace Hf
         /// the indices of the crosses sum to four times the Euler characteristic. On a torus or a knot a single one
         /// of 5 is often lost.
         ///
-        /// creaseEdges: [creaseCount x 2] the two vertices of each edge, as given
-        /// guideVertices: [guideCount] as given; guides of one vertex are averaged
+        /// creaseEdges: [creaseCount x 2] the two vertices of each edge, of your mesh
+        /// guideVertices: [guideCount] vertices of your mesh; guides of one vertex are averaged
         /// guideVectors: [guideCount x 3] along the surface, of any length above 0; quads run along the vector and
         ///     across it
-        /// guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction, less mixes it with
-        ///     that of the curvature, which has the rest of the weight
+        /// guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction. A smaller weight mixes
+        ///     it with the direction of the curvature, which has the rest of the weight
         /// irregularPoints: [irregularCount x 3] at the surface, in the unit and frame of the mesh
         /// irregularValences: [irregularCount] how many quads meet there: 3 or 5
         /// irregularDirections: null = any, or [irregularCount x 3]: one side of the irregular vertex runs along
@@ -5072,20 +5074,20 @@ namespace Hf
             }
         }
 
-        /// <summary>Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The
-        /// result is that of Quads with the same options, bit for bit. The first update takes as long. It keeps
-        /// what does not depend on guides, creases and relax_count, so later updates with the same edge_length,
-        /// face_count and symmetry_plane take less: 0.1 s for 15,000 vertices without relaxation (relax_count =
-        /// uint.MaxValue). Use that while the user drags, and relax_count = 0 at the end. Other sizes and planes
-        /// are allowed; what belongs to them is made again. After an error `quads` is what it was. Kept memory: 2
-        /// to 4 kB a vertex, until `quads` is destroyed.
+        /// <summary>Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. Quads
+        /// with the same options gives the same result, bit for bit. The first update takes as long. It keeps the
+        /// tables that do not depend on guides, creases and relax_count. Later updates with the same edge_length,
+        /// face_count and symmetry_plane take less time. Without relaxation (relax_count = uint.MaxValue) they take
+        /// 0.1 s for 15,000 vertices. Use that while the user drags, and relax_count = 0 at the end. Other sizes
+        /// and planes are allowed; what belongs to them is made again. After an error `quads` is unchanged. Kept
+        /// memory: 2 to 4 kB per vertex, until `quads` is destroyed.
         ///
-        /// creaseEdges: [creaseCount x 2] the two vertices of each edge, as given
-        /// guideVertices: [guideCount] as given; guides of one vertex are averaged
+        /// creaseEdges: [creaseCount x 2] the two vertices of each edge, of your mesh
+        /// guideVertices: [guideCount] vertices of your mesh; guides of one vertex are averaged
         /// guideVectors: [guideCount x 3] along the surface, of any length above 0; quads run along the vector and
         ///     across it
-        /// guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction, less mixes it with
-        ///     that of the curvature, which has the rest of the weight
+        /// guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction. A smaller weight mixes
+        ///     it with the direction of the curvature, which has the rest of the weight
         /// irregularPoints: [irregularCount x 3] at the surface, in the unit and frame of the mesh
         /// irregularValences: [irregularCount] how many quads meet there: 3 or 5
         /// irregularDirections: null = any, or [irregularCount x 3]: one side of the irregular vertex runs along
@@ -5209,7 +5211,7 @@ namespace Hf
         /// that cross the streamlines.
         ///
         /// field: [vertexCount] of float or double.
-        /// seeds: [seedCount] vertices as given
+        /// seeds: [seedCount] vertices of your mesh
         /// wantedCount: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.</summary>
@@ -5519,15 +5521,16 @@ namespace Hf
     /// Carries the detail of the source region to the target region. A harmonic map with positive weights takes
     /// each region to the unit disc (an embedding: Tutte 1963, Floater 1997). Vertices around a region (its rim)
     /// lie on the circle, by arc length between the pairs of desc. Points at the same place in the disc correspond.
-    /// The function stores the offset from base to surface in a local frame of the Both regions must be discs: in
-    /// one piece, one rim loop, no hole, manifold, of one orientation.
+    /// The function stores the offset from base to surface in a local frame of the source. The axes of the frame
+    /// are the normal of the base and the direction in which the first disc coordinate grows. It interpolates the
+    /// offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades
+    /// to nothing at the rim. If source and target are the same region, the result is the surface itself. Later
+    /// edits of the regions do not change the object.
     ///
-    /// source: the normal of the base, and the direction in which the first disc coordinate grows. It interpolates
-    ///     the offsets in the triangles of the source, and applies them in the same frames of the target. The
-    ///     detail fades to nothing at the rim. If source and target are the same region, the result is the surface
-    ///     itself. Later edits of the regions do not change the object.
-    /// sourceVertices: [pairCount] rim vertices of the source, as given
-    /// targetVertices: [pairCount] rim vertices of the target, as given
+    /// Both regions must be discs: in one piece, one rim loop, no hole, manifold, of one orientation.
+    ///
+    /// sourceVertices: [pairCount] rim vertices of the source mesh
+    /// targetVertices: [pairCount] rim vertices of the target mesh
     /// scale: of the detail, &gt; 0; 0 = square root of target base area over source base area
     /// progress: an object to poll and cancel through</summary>
     public sealed unsafe class Detail : HfObject
@@ -5535,15 +5538,16 @@ namespace Hf
         /// <summary>Carries the detail of the source region to the target region. A harmonic map with positive weights takes
         /// each region to the unit disc (an embedding: Tutte 1963, Floater 1997). Vertices around a region (its
         /// rim) lie on the circle, by arc length between the pairs of desc. Points at the same place in the disc
-        /// correspond. The function stores the offset from base to surface in a local frame of the Both regions
-        /// must be discs: in one piece, one rim loop, no hole, manifold, of one orientation.
+        /// correspond. The function stores the offset from base to surface in a local frame of the source. The axes
+        /// of the frame are the normal of the base and the direction in which the first disc coordinate grows. It
+        /// interpolates the offsets in the triangles of the source, and applies them in the same frames of the
+        /// target. The detail fades to nothing at the rim. If source and target are the same region, the result is
+        /// the surface itself. Later edits of the regions do not change the object.
         ///
-        /// source: the normal of the base, and the direction in which the first disc coordinate grows. It
-        ///     interpolates the offsets in the triangles of the source, and applies them in the same frames of the
-        ///     target. The detail fades to nothing at the rim. If source and target are the same region, the result
-        ///     is the surface itself. Later edits of the regions do not change the object.
-        /// sourceVertices: [pairCount] rim vertices of the source, as given
-        /// targetVertices: [pairCount] rim vertices of the target, as given
+        /// Both regions must be discs: in one piece, one rim loop, no hole, manifold, of one orientation.
+        ///
+        /// sourceVertices: [pairCount] rim vertices of the source mesh
+        /// targetVertices: [pairCount] rim vertices of the target mesh
         /// scale: of the detail, &gt; 0; 0 = square root of target base area over source base area
         /// progress: an object to poll and cancel through
         ///
@@ -5740,7 +5744,7 @@ namespace Hf
         /// since the last reset and fades within a step.
         ///
         /// sourcePose: [source.jointCount x 10].
-        /// seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
+        /// seconds: time since the last frame, 0 for the first frame and for a repeated frame.
         ///
         /// Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.</summary>
         public float[] Solve(float[] sourcePose, double seconds = 0)
@@ -5997,8 +6001,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes the reasons as text: first the reasons for the axes, then one sentence per line about each
-        /// doubtful finding.</summary>
+        /// <summary>Writes the reasons as text. The reasons for the axes come first. Then each doubtful finding has one
+        /// line.</summary>
         public string Reasons()
         {
             using (var c = new Call(this))
@@ -6032,10 +6036,10 @@ namespace Hf
     ///     crouch. Motion is measured from these poses. They do not change the fields.
     /// targetRest: [target.vertexCount x 3] of float or double
     /// mode: TransferMode
-    /// clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
+    /// clusterCount: 1 to 512. 0 = the larger of 80 and 5 per pair
     /// ground: Ground
-    /// kernelWidth: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is
-    ///     more, up to 0.12
+    /// kernelWidth: width of a cluster, in field values, 0.005 to 0.5. 0 = the larger of 0.03 and 0.004 per pair,
+    ///     up to 0.12
     /// scale: lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes
     ///     when no pair is a foot
     /// alignmentAngle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6
@@ -6053,10 +6057,10 @@ namespace Hf
         ///     bound in a crouch. Motion is measured from these poses. They do not change the fields.
         /// targetRest: [target.vertexCount x 3] of float or double
         /// mode: TransferMode
-        /// clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
+        /// clusterCount: 1 to 512. 0 = the larger of 80 and 5 per pair
         /// ground: Ground
-        /// kernelWidth: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that
-        ///     is more, up to 0.12
+        /// kernelWidth: width of a cluster, in field values, 0.005 to 0.5. 0 = the larger of 0.03 and 0.004 per
+        ///     pair, up to 0.12
         /// scale: lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the
         ///     boxes when no pair is a foot
         /// alignmentAngle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6
@@ -6095,7 +6099,7 @@ namespace Hf
 
         /// <summary>Adds pairs.
         ///
-        /// sourceVertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4
+        /// sourceVertices: lists of whole numbers: all regions one after the other; vertices of your mesh, up to 4
         ///     entries per vertex
         /// targetVertices: lists of whole numbers:
         /// flags: [pairCount] PairFlag, or null for none
@@ -6194,9 +6198,9 @@ namespace Hf
         /// hipHeightShare: raises the pairs flagged PairFlag.Trunk and PairFlag.Anchor by this share of their mean
         ///     height at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not
         ///     raised
-        /// neckFollow: pairs flagged PairFlag.Neck, together one limb How far a limb follows the source, -1 to 1. 0
-        ///     = neutral: it plays the source's motion from its own rest direction. 1: it also takes the rest
-        ///     direction of the source's limb. -1: it does not move against its root.
+        /// neckFollow: pairs flagged PairFlag.Neck, together one limb How far a limb follows the source, -1 to 1.
+        ///     At 0 (neutral) the limb plays the source's motion from its own rest direction. At 1 it also gets the
+        ///     rest direction of the source's limb. At -1 it does not move against its root.
         /// tailFollow: pairs flagged PairFlag.Tail, together one limb
         /// armSpace: turns arms (PairFlag.Arm) away from the body, about the forward axis at rest, -pi/2 to pi/2
         ///     radians; 0 = neutral
@@ -6566,7 +6570,7 @@ namespace Hf
         /// <summary>Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices
         /// of a disc. Pins at the same places with other weights cost no path.
         ///
-        /// vertices: [pinCount] vertices as given, or null
+        /// vertices: [pinCount] vertices of your mesh, or null
         /// places: [pinCount], or null
         /// points: [pinCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands
         ///     for the nearest point of the surface, up to two boxes away
@@ -6650,7 +6654,7 @@ namespace Hf
             }
         }
 
-        /// <summary>Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not
+        /// <summary>Writes the flags of each joint, and how many vertices have a constraint for it. Joints that do not
         /// deform have no flags.</summary>
         public (uint[] Flags, uint[] VertexCounts) Joints()
         {
@@ -6703,8 +6707,8 @@ namespace Hf
             }
         }
 
-        /// <summary>Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides,
-        /// and sets deforms to 0.
+        /// <summary>Proposes joints that should not deform, and says why. The weights do not change: to follow a proposal,
+        /// set deforms to 0.
         ///
         /// names: one line for each joint in UTF-8, or null.
         ///
@@ -6729,9 +6733,9 @@ namespace Hf
         }
 
         /// <summary>Transfers weights from one surface to another: clothes, hair, levels of detail, new topology. Both stand
-        /// in the same frame. A vertex takes the weights of the nearest point of the source whose normal agrees.
-        /// One bi-harmonic field fills in the vertices without such a point. A piece without any takes the weights
-        /// of the nearest points.
+        /// in the same frame. A vertex gets the weights of the nearest point of the source whose normal agrees. One
+        /// bi-harmonic field fills in the vertices without such a point. A piece without any takes the weights of
+        /// the nearest points.
         ///
         /// joints: [source.vertexCount x sourceInfluenceCount]
         /// weights: [source.vertexCount x sourceInfluenceCount] &gt;= 0; a vertex whose weights are all 0 gives
@@ -6788,8 +6792,9 @@ namespace Hf
 
         /// <summary>Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights
         /// of the nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-
-        /// harmonic field fills in the rest. The plane comes from joints with partners, else from the surface. A
-        /// found normal has a positive largest component, so along x, MirrorTo.ToNegative copies from +x to -x.
+        /// harmonic field fills in the rest. The plane comes from joints with partners, else from the surface. The
+        /// largest component of a found normal is positive. So for a normal along x, MirrorTo.ToNegative copies
+        /// from +x to -x.
         ///
         /// heads: [jointCount x 3] the joints at rest, in the frame of the mesh
         /// names: one line for each joint in UTF-8, or null: joints are paired by their places

@@ -44,11 +44,11 @@ export interface SurfaceExtras {
 
 /** A spring from a vertex to a point of a triangle. Surface.links writes it, hf_links_desc reads it. */
 export interface Link {
-  /** as given, of welded copies the first */
+  /** of your mesh, the first of welded copies */
   vertex: number;
   /** the triangle; a corner of barycentric 0 is ignored and can be constants.HF_NO_INDEX */
   corners: number[];
-  /** >= 0, of sum 1 within 1e-3. 1, 0, 0 links two vertices */
+  /** >= 0, of sum 1 within 1e-3. A single 1 links two vertices */
   barycentrics: number[];
   /** at rest, in the unit of the positions. Ignored when read */
   length: number;
@@ -60,9 +60,9 @@ export interface Link {
 
 /** The options a surface was made with, defaults filled in. */
 export interface SurfaceInfo {
-  /** as given */
+  /** of your mesh */
   vertexCount: number;
-  /** as given; of faces, the triangles of their cut */
+  /** of your mesh; of faces, the triangles of their cut */
   triangleCount: number;
   /** HF_WELD_* */
   weld: number;
@@ -80,13 +80,13 @@ export interface SurfaceInfo {
   /** 0: none */
   memoryLimitMb: number;
   workLimitGflop: number;
-  /** as given to Surface.fromGraph; 0 for a mesh */
+  /** of the desc of Surface.fromGraph; 0 for a mesh */
   edgeCount: number;
   /** of a graph, 0: sixteen per vertex of the vertex limit */
   edgeLimit: number;
-  /** as given; 0 where triangles were given */
+  /** of your mesh; 0 where triangles were given */
   faceCount: number;
-  /** as given */
+  /** of your mesh */
   cornerCount: number;
 }
 
@@ -96,9 +96,9 @@ export interface SurfaceInfo {
  * degenerate triangles of the cut.
  */
 export interface SurfaceReport {
-  /** as given */
+  /** of your mesh */
   vertexCount: number;
-  /** as given; of faces, the triangles of their cut */
+  /** of your mesh; of faces, the triangles of their cut */
   triangleCount: number;
   /** after welding */
   weldedVertexCount: number;
@@ -122,7 +122,7 @@ export interface SurfaceReport {
    * Fields do not change. Results that use normals do
    */
   insideOutCount: number;
-  /** the first vertex of one, as given; constants.HF_NO_INDEX without one */
+  /** vertex of your mesh: the first of such a piece; constants.HF_NO_INDEX without one */
   firstInsideOutVertex: number;
   /** in the unit of the positions, without isolated vertices */
   boundingBoxDiagonal: number;
@@ -144,7 +144,7 @@ export interface MeshStatistics {
    * vertices the field may differ from the field of the mesh
    */
   changedVertexCount: number;
-  /** the first of them, as given; constants.HF_NO_INDEX without one */
+  /** the first of them in your mesh; constants.HF_NO_INDEX without one */
   firstChangedVertex: number;
   /** radians, over the usable triangles of the cut */
   smallestAngle: number;
@@ -181,7 +181,7 @@ export interface GapsInfo {
   contactCount: number;
   /** the widest gap of a contact; 0 without contacts */
   worstContact: number;
-  /** a vertex of that contact, as given; constants.HF_NO_INDEX without contacts */
+  /** vertex of your mesh in that contact; constants.HF_NO_INDEX without contacts */
   contactVertex: number;
 }
 
@@ -224,9 +224,9 @@ export interface SurfaceStatistics {
  * and `points` in space. Set one of the three.
  */
 export interface Place {
-  /** vertices of one face, as given; a corner of barycentric 0 is ignored and can be constants.HF_NO_INDEX */
+  /** vertices of one face of your mesh; a corner of barycentric 0 is ignored and can be constants.HF_NO_INDEX */
   corners: number[];
-  /** weights of the corners, >= 0, of sum 1 within 1e-6. 1, 0, 0 is a vertex */
+  /** weights of the corners, >= 0, of sum 1 within 1e-6. A single 1 is a vertex */
   barycentrics: number[];
 }
 
@@ -234,9 +234,9 @@ export interface Place {
 export interface Hit {
   /** 1: a triangle was hit; 0: none, and all else is 0 or constants.HF_NO_INDEX */
   found: number;
-  /** or face, as given */
+  /** or face, of your mesh */
   triangle: number;
-  /** its corner nearest to the hit, as given, of welded copies the first */
+  /** its corner nearest to the hit, of your mesh, the first of welded copies */
   vertex: number;
   /**
    * the point hit: corners of the triangle (the first of welded copies) and their barycentrics. A face of more
@@ -256,7 +256,7 @@ export interface SolverInfo {
   channelCount: number;
   siteLimit: number;
   siteCount: number;
-  /** as given to the surface: rows of a field */
+  /** vertices of your mesh: rows of a field */
   vertexCount: number;
 }
 
@@ -309,9 +309,9 @@ export interface PreviewInfo {
   /** largest change of a value by the last correction: about the error before it */
   largestCorrection: number;
   /**
-   * of the largest error, in the unit of the values: measured when corrections were made, else 1e-5 of
-   * value_range; 0 when exact; infinite where only corrections tell: bi-harmonic fields, long shapes, crowded
-   * sites
+   * of the largest error, in the unit of the values. Measured when corrections were made, else 1e-5 of
+   * value_range; 0 when exact. Infinite where only corrections can measure it: bi-harmonic fields, long shapes,
+   * crowded sites
    */
   errorEstimate: number;
   /** memory of the single-precision copy, shared by the surface */
@@ -339,7 +339,7 @@ export interface Certificate {
   siteError: number;
   /** how far the field leaves the range of its sites; 0 when not checked */
   overshoot: number;
-  /** as given, where the largest of the three is */
+  /** of your mesh, where the largest of the three is */
   worstVertex: number;
   /**
    * welded vertices with a changed weight (MeshStatistics). The errors hold for the weights used. Harmonic fields
@@ -390,11 +390,11 @@ export interface SolverStatistics {
 export interface Isolines {
   pointCount: number;
   lineCount: number;
-  /** [pointCapacity x 2] vertices a and b as given, of welded copies the first */
+  /** [pointCapacity x 2] vertices a and b of your mesh, the first of welded copies */
   pointEdges: Uint32Array;
   /** [pointCapacity] 0 to 1 */
   parameters: Float64Array;
-  /** [pointCapacity x 3] in the unit and frame of the mesh as given */
+  /** [pointCapacity x 3] in the unit and frame of your mesh */
   positions: Float64Array;
   /** [lineCapacity + 1] line i holds the points line_starts[i] to line_starts[i + 1] - 1 */
   lineStarts: Uint32Array;
@@ -405,7 +405,7 @@ export interface Isolines {
 }
 
 export interface CriticalPoint {
-  /** as given, of welded copies the first */
+  /** of your mesh, the first of welded copies */
   vertex: number;
   /** HF_CRITICAL_* */
   kind: number;
@@ -439,16 +439,16 @@ export interface Path {
   pointCount: number;
   /** in the unit of the mesh; -1: no path */
   length: number;
-  /** [pointCapacity x 2] vertices a and b as given, of welded copies the first */
+  /** [pointCapacity x 2] vertices a and b of your mesh, the first of welded copies */
   pointEdges: Uint32Array;
   /** [pointCapacity] 0 to 1 */
   parameters: Float64Array;
-  /** [pointCapacity x 3] in the unit and frame of the mesh as given */
+  /** [pointCapacity x 3] in the unit and frame of your mesh */
   positions: Float64Array;
 }
 
 export interface Extremity {
-  /** as given, of welded copies the first */
+  /** of your mesh, the first of welded copies */
   vertex: number;
   /** its piece, as Surface.pieces: links do not count here */
   component: number;
@@ -465,9 +465,9 @@ export interface Extremity {
  * / degree of a full turn.
  */
 export interface Singularity {
-  /** or face, as given */
+  /** or face, of your mesh */
   triangle: number;
-  /** its corner where the field is shortest, as given; of welded copies the first */
+  /** its corner where the field is shortest, of your mesh; the first of welded copies */
   vertex: number;
   /** in parts of 1 / degree: +1 a source or vortex of a vector field, -1 a saddle */
   index: number;
@@ -502,7 +502,7 @@ export interface PoseInfo {
   iterationCount: number;
   groupCount: number;
   handleCount: number;
-  /** as given to the surface: rows of Pose.deform */
+  /** vertices of your mesh: rows of Pose.deform */
   vertexCount: number;
 }
 
@@ -621,7 +621,7 @@ export interface BlendInfo {
  * the mesh, gradients per unit of the mesh.
  */
 export interface BlendRows {
-  /** as given to the surface */
+  /** vertices of your mesh */
   vertexCount: number;
   /** entries of all rows together */
   entryCount: number;
@@ -652,7 +652,7 @@ export interface BlendRows {
  * times the largest distance between the places to which its clusters move it.
  */
 export interface BlendInfluences {
-  /** as given to the surface */
+  /** vertices of your mesh */
   vertexCount: number;
   /** the largest change of a vertex's weights, 0 to 1: half the sum of the differences */
   change: number;
@@ -678,7 +678,7 @@ export interface BlendInfluences {
  * position and radius is then a part of these vertices.
  */
 export interface HandleProposal {
-  /** nearest to the position; as given, of welded copies the first */
+  /** nearest to the position; of your mesh, the first of welded copies */
   vertex: number;
   /** as Surface.components */
   component: number;
@@ -710,7 +710,7 @@ export interface HandleProposal {
 export interface QuadsInfo {
   vertexCount: number;
   faceCount: number;
-  /** vertices - edges + faces, that of the usable surface */
+  /** vertices - edges + faces, equal to the Euler characteristic of the usable surface */
   eulerCharacteristic: number;
   /** wanted length, in the unit of the mesh */
   edgeLength: number;
@@ -720,25 +720,25 @@ export interface QuadsInfo {
 export interface QuadsMesh {
   vertexCount: number;
   faceCount: number;
-  /** [vertexCapacity x 3] in the unit and frame of the mesh as given */
+  /** [vertexCapacity x 3] in the unit and frame of your mesh */
   positions: Float64Array;
   /** [faceCapacity x 4] vertices of each quad, counter-clockwise */
   faces: Uint32Array;
-  /** [vertexCapacity] triangle or face as given that the vertex lies in */
+  /** [vertexCapacity] triangle or face of your mesh that contains the vertex */
   triangles: Uint32Array;
   /**
    * [vertexCapacity x 3] weights of that triangle's corners, in its own order, of sum 1; in a face of more corners
    * the weights of `corners`
    */
   barycentrics: Float64Array;
-  /** [vertexCapacity x 3] vertices as given, of welded copies the first, that barycentrics belong to */
+  /** [vertexCapacity x 3] vertices of your mesh that barycentrics belong to, the first of welded copies */
   corners: Uint32Array;
 }
 
 export interface Streamlines {
   pointCount: number;
   lineCount: number;
-  /** [pointCapacity x 3] in the unit and frame of the mesh as given */
+  /** [pointCapacity x 3] in the unit and frame of your mesh */
   positions: Float64Array;
   /** [pointCapacity] of the field, rising along every line */
   values: Float64Array;
@@ -938,9 +938,9 @@ export interface TransferDials {
    */
   hipHeightShare: number;
   /**
-   * pairs flagged HF_PAIR_NECK, together one limb How far a limb follows the source, -1 to 1. 0 = neutral: it
-   * plays the source's motion from its own rest direction. 1: it also takes the rest direction of the source's
-   * limb. -1: it does not move against its root.
+   * pairs flagged HF_PAIR_NECK, together one limb How far a limb follows the source, -1 to 1. At 0 (neutral) the
+   * limb plays the source's motion from its own rest direction. At 1 it also gets the rest direction of the
+   * source's limb. At -1 it does not move against its root.
    */
   neckFollow: number;
   /** pairs flagged HF_PAIR_TAIL, together one limb */
@@ -971,7 +971,7 @@ export interface WeightsOut {
   origins: Uint8Array;
 }
 
-/** Counts of the weights. Vertices are counted as given. */
+/** Counts of the weights. Vertices are vertices of your mesh. */
 export interface WeightsInfo {
   vertexCount: number;
   jointCount: number;
@@ -992,7 +992,7 @@ export interface WeightsStatistics {
   nearestPieceCount: number;
   /** small ones of them */
   rigidPieceCount: number;
-  /** 1: some piece sees none of its nearest joints and uses them unseen */
+  /** 1: some piece has none of its nearest joints in sight and uses them all the same */
   blind: number;
   /** joints by HF_JOINT_* */
   noLengthCount: number;
@@ -1006,7 +1006,7 @@ export interface WeightsStatistics {
   pathSolveCount: number;
 }
 
-/** Counts of transferred weights. Vertices of the target are counted as given. */
+/** Counts of transferred weights. Vertices are vertices of the target mesh. */
 export interface WeightsTransferInfo {
   vertexCount: number;
   /** vertices by HF_WEIGHTS_* */
@@ -1019,7 +1019,7 @@ export interface WeightsTransferInfo {
   guessedPieceCount: number;
 }
 
-/** The findings of a mirror. Vertices are counted as given. */
+/** The findings of a mirror. Vertices are vertices of your mesh. */
 export interface WeightsMirrorInfo {
   vertexCount: number;
   /** HF_MIRROR_PLANE_* */
@@ -1064,7 +1064,7 @@ export interface WeightsMirrorStatistics {
  * curve too; it has only one side. The curve passes a vertex at most 8 times.
  */
 export interface CurveDescGiven {
-  /** [pointCount] vertices as given, or null */
+  /** [pointCount] vertices of your mesh, or null */
   vertices?: Rows | null;
   /** [pointCount], or null */
   places?: readonly PlaceGiven[] | null;
@@ -1157,7 +1157,7 @@ export interface LinksDescGiven {
  * the boundary vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
  */
 export interface SitesDescGiven {
-  /** [siteCount] vertices as given, or null */
+  /** [siteCount] vertices of your mesh, or null */
   vertices?: Rows | null;
   /** [siteCount x channelCount], up to 1e200 in size; null = 0 */
   values?: Rows | null;
@@ -1229,7 +1229,7 @@ export interface ProgressClass {
  * faces: faces instead of triangles
  * weldTolerance: for HF_WELD_TOLERANCE, in the unit of the positions, > 0
  * operatorKind: HF_OPERATOR_*
- * fieldKind: HF_FIELD_*: the factor made now. Others are made when a solver or region asks
+ * fieldKind: HF_FIELD_*: the factor made now. Others are made when a solver or region needs one
  * ordering: HF_ORDERING_*
  * threadCount: threads the library may use, yours included, 1 to 256; 0 = 1
  * vertexLimit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles
@@ -1274,8 +1274,8 @@ export interface Surface extends Handle {
    * ends are apart than at rest, and 0 if they are nearer. The gap of a contact (LinksInfo) is measured in the
    * same way.
    *
-   * positions: [vertexCount x 3] of float or double: the deformed mesh, from a pose, a transfer or any other
-   *     source.
+   * positions: [vertexCount x 3] of float or double: the deformed mesh. It can come from a pose, a transfer or any
+   *     other source.
    * info: filled in when given
    *
    * Throws HF_ERROR_NON_FINITE, HF_ERROR_TOO_LARGE.
@@ -1346,7 +1346,7 @@ export interface Surface extends Handle {
    * options and library version, whatever the number of threads. The bytes are little-endian and hold a format
    * version, a hash of the matrix and a checksum. They hold no sites.
    *
-   * fieldKind: HF_FIELD_*; a factor that does not exist yet is made first.
+   * fieldKind: HF_FIELD_*. If its factor does not exist yet, the call makes it first.
    * progress: an object to poll and cancel through.
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_TOO_SMALL.
@@ -1355,8 +1355,8 @@ export interface Surface extends Handle {
   /**
    * Finds what a mouse click hits: the first triangle on a ray.
    *
-   * origin: [3] in the frame of the positions; the direction can have any length above 0.
-   * direction: [3] in the frame of the positions; the direction can have any length above 0.
+   * origin: [3] in the frame of the positions. The direction can have any length above 0.
+   * direction: [3] in the frame of the positions. The direction can have any length above 0.
    * positions: [vertexCount x 3] of float or double: posed positions (Pose.deform writes them). null: the rest
    *     positions
    * frontOnly: 1: a ray passes through triangles seen from behind
@@ -1410,11 +1410,11 @@ export interface Surface extends Handle {
   traceIsolines(field: Rows, levels: Rows): Isolines;
   /**
    * Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each vertex
-   * decide (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of its neighbours with lower
-   * values and the edges between them. The vertex number breaks ties, so a flat area has critical points too. The
-   * indices sum to the Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field
-   * can show an extremum away from its sites, because the default operator uses other edges than the mesh.
-   * HF_OPERATOR_CLAMPED uses the edges of the mesh and avoids this.
+   * decide (Banchoff 1970). Take its neighbours with lower values and the edges between them. The index of the
+   * vertex is 1 minus their Euler characteristic. The vertex number breaks ties, so a flat area has critical
+   * points too. The indices sum to the Euler characteristic on every component. On a mesh that is not Delaunay a
+   * harmonic field can show an extremum away from its sites, because the default operator uses other edges than
+   * the mesh. HF_OPERATOR_CLAMPED uses the edges of the mesh and avoids this.
    *
    * field: [vertexCount] of float or double.
    * info: filled in when given
@@ -1450,7 +1450,8 @@ export interface Surface extends Handle {
    * parents: [jointCount] position of each joint's parent in the list; constants.HF_NO_INDEX for a root
    * skeleton: the skeleton of the mesh, instead of joints and parents. It rests in the unit and frame of the mesh.
    *     If it has a skin, the skin has the vertices of the mesh
-   * up: direction away from the ground, of any length; 0 0 0 = up of the skeleton where it is known, else 0 1 0
+   * up: direction away from the ground, of any length; zero = up of the skeleton where it is known, else the y
+   *     axis
    * leastLengthShare: as in hf_extremities_desc; 0 = 0.05
    * limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
    * progress: an object to poll and cancel through
@@ -1471,9 +1472,9 @@ export interface SurfaceClass {
   /**
    * Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the
    * graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
-   * reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED: poses, regions,
+   * reports work as on a mesh. A call that needs triangles returns HF_ERROR_UNSUPPORTED. These are poses, regions,
    * directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
-   * links, screening, and sites at places, at points or on discs.
+   * links and screening. Sites at places, at points or on discs need triangles too.
    *
    * A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from the
    * median of their component by a factor above 1e30 are limited; MeshStatistics counts their vertices as changed.
@@ -1519,15 +1520,15 @@ export interface Solver extends Recorded {
   readonly vertexCount: number;
   /**
    * Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share the
-   * factor and what the sites have cost, so a copy costs its list of sites only. Use one copy per thread or per
-   * set of sites. For undo, keep copies: one before each edit.
+   * factor and the solved sites, so a copy costs its list of sites only. Use one copy per thread or per set of
+   * sites. For undo, keep copies: one before each edit.
    */
   clone(): Solver;
   /**
-   * Moves a solver to an edited surface: its sites keep their numbers, values and screening.
+   * Moves a solver to an edited surface. Its sites keep their numbers, values and screening.
    *
-   * surface: made by Surface.edit or Surface.relink from the solver's surface, or the other way round, in any
-   *     number of steps.
+   * surface: any number of calls of Surface.edit or Surface.relink make it from the solver's surface, or the
+   *     solver's surface from it.
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_CONFLICT, HF_ERROR_UNSUPPORTED.
    */
@@ -1537,7 +1538,7 @@ export interface Solver extends Recorded {
   /**
    * Adds sites.
    *
-   * vertices: [siteCount] vertices as given, or null
+   * vertices: [siteCount] vertices of your mesh, or null
    * values: [siteCount x channelCount], up to 1e200 in size; null = 0
    * places: [siteCount], or null
    * points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
@@ -1573,7 +1574,7 @@ export interface Solver extends Recorded {
    * Moves sites to new places. Each site keeps its number, value, stiffness and radius.
    *
    * sites: [siteCount].
-   * vertices: [siteCount] vertices as given, or null
+   * vertices: [siteCount] vertices of your mesh, or null
    * values: [siteCount x channelCount], up to 1e200 in size; null = 0
    * places: [siteCount], or null
    * points: [siteCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
@@ -1617,9 +1618,9 @@ export interface Solver extends Recorded {
    * mean diagonal of K. Such a field needs no site on a component where some H is above 0.
    *
    * screening: [vertexCount] H >= 0, in 1 / length^2 with the unit of the mesh; null removes the screening.
-   * targets: [vertexCount x channelCount] p, or null for 0. Both are copied; welded copies of a vertex take the
-   *     values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores the
-   *     screening with the sites.
+   * targets: [vertexCount x channelCount] p, or null for 0. Both are copied. The values of the first of welded
+   *     copies hold for all of them. Sites stay. A site with a radius holds the rim of its disc only. Undo
+   *     restores the screening with the sites.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_NOT_POSITIVE_DEFINITE, HF_ERROR_TOO_LARGE,
    * HF_ERROR_UNSUPPORTED.
@@ -1650,7 +1651,7 @@ export interface Solver extends Recorded {
   /**
    * Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section
    * 3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then
-   * projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
+   * projects the vector v of each vertex on the tangent plane: v - (n . v) n. Here n is the area-weighted normal.
    *
    * out: [vertexCount x 3] of float or double, not normalised.
    * normals: [vertexCount x 3], packed: the normals used.
@@ -1664,9 +1665,9 @@ export interface Solver extends Recorded {
    * Solves with a single-precision copy of the factor. This reads half the bytes of Solver.solve; use it while the
    * user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic
    * fields, long shapes and crowded sites can have an error of any size: ask for corrections there and read
-   * error_estimate. Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a
-   * harmonic field takes the error below 1e-9, a second one below 1e-12. Each correction costs as much as two to
-   * three calls of Solver.solve.
+   * error_estimate. Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963)
+   * reduces the error of a harmonic field below 1e-9, a second one below 1e-12. Each correction costs as much as
+   * two to three calls of Solver.solve.
    *
    * The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind
    * on the surface share the copy. It is freed with the last of these solvers, or by Solver.releasePreview. A
@@ -1747,7 +1748,8 @@ export interface SolverClass {
  * numeric factorisation and holds a factor of its own beside the surface's.
  *
  * method: HF_GEODESICS_*
- * smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to 10,000
+ * smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother. From 0.1 to 10,000; 0
+ *     = 1
  * progress: an object to poll and cancel through: creation and every later call report to it
  */
 export interface Geodesics extends Handle {
@@ -1776,11 +1778,10 @@ export interface Geodesics extends Handle {
    */
   findPath(from: PlaceGiven, to: PlaceGiven): Path;
   /**
-   * Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each
-   * vertex gets the length of its shortest path from the point, in the direction in which that path leaves the
-   * point.
+   * Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. A vertex
+   * lies at the length of its shortest path from the point, in the direction in which the path starts.
    *
-   * radius: vertices farther away get NaN too, and cost nothing; 0 = no bound.
+   * radius: vertices farther away get NaN too and take no time; 0 = no bound.
    *
    * Throws HF_ERROR_CANCELLED, HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE,
    * HF_ERROR_TOO_LARGE, HF_ERROR_TOO_SMALL.
@@ -1797,7 +1798,7 @@ export interface GeodesicsClass {
  * Makes a direction field without constraints. It computes the connection between tangent planes and the operator,
  * and factorises once, with two unknowns per vertex.
  *
- * degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
+ * degree: 1 vectors, 2 lines, 4 crosses. A turn by 360 / degree changes nothing. 0 = 1
  * siteLimit: most constraints; 0 = 100,000
  * progress: an object to poll and cancel through
  */
@@ -1830,7 +1831,7 @@ export interface Direction extends Recorded {
    */
   removeSites(sites: Rows): void;
   /**
-   * Moves constraints to other vertices of the same component. The connection carries each vector along the
+   * Moves constraints to other vertices of the same component. The connection transports each vector along the
    * shortest path of edges, from tangent plane to tangent plane.
    *
    * sites: [siteCount].
@@ -1860,7 +1861,7 @@ export interface Direction extends Recorded {
   rotateSites(sites: Rows, angles: Rows): void;
   /** Returns the number of constraints, or 0 for an invalid object. */
   readonly siteCount: number;
-  /** Writes the constraints by ascending number. */
+  /** Writes the constraints. Their numbers ascend. */
   sites(): { sites: Uint32Array; vertices: Uint32Array; vectors: Float64Array };
   /**
    * Writes the field as vectors in space. The vectors are tangent to the surface up to 1e-12 of their length. For
@@ -1916,22 +1917,22 @@ export interface Pose extends Recorded {
   readonly info: PoseInfo;
   /**
    * Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a
-   * posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
-   * that its region has in the last pose (Pose.handle writes it), and the surface stays where it is (to 1e-6 of
-   * the box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to
-   * rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once. On a higher
-   * layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold
-   * the surface in place for the higher layers.
+   * posed surface back to rest there. Use in_place to grab a posed surface. Each new handle then gets the rigid
+   * motion of its region in the last pose (Pose.handle writes it). The surface stays in place (to 1e-6 of the
+   * box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest.
+   * Until then the region of the new handle keeps a part of its bend. restart ends this at once. On a higher layer
+   * the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the
+   * surface in place for the higher layers.
    *
    * regionVertices: lists of whole numbers: all regions one after the other; null: places are given
-   * vertices: [handleCount] vertices as given, or null
+   * vertices: [handleCount] vertices of your mesh, or null
    * places: [handleCount], or null
    * points: [handleCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. A point can
    *     lie inside the body, as a joint does: its nearest vertex counts
    * radii: [handleCount] of the regions of places, in the unit of the mesh; null: regions are given. A radius
    *     below 1 % of the box makes regions of 2 vertices or more
    * layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
-   * inPlace: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+   * inPlace: 1: handles of layer 0 start on the posed surface, not at rest; see below
    * freeRotation: 1: you give the places of the handles only; see Pose.setFreeRotations
    * progress: an object to poll and cancel through
    *
@@ -1941,8 +1942,8 @@ export interface Pose extends Recorded {
   addHandles(regionVertices?: ReadonlyArray<Numbers> | null,
           options?: { vertices?: Rows | null; places?: readonly PlaceGiven[] | null; points?: Rows | null; radii?: Rows | null; layer?: number; inPlace?: boolean | number; freeRotation?: boolean | number; progress?: Progress | null }): Uint32Array;
   /**
-   * Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
-   * edge-connected to it within `radius` of the point.
+   * Adds one handle on layer 0. Its region has the vertex nearest to a point at rest. It also has all vertices
+   * within `radius` of the point that are edge-connected to this vertex.
    *
    * point: [3].
    *
@@ -2029,8 +2030,8 @@ export interface Pose extends Recorded {
    * steps, all their limbs take the largest count.
    *
    * handles: [handleCount].
-   * refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. 1
-   *     keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
+   * refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. With
+   *     1, bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NOT_FOUND, HF_ERROR_UNSUPPORTED.
    */
@@ -2052,7 +2053,7 @@ export interface Pose extends Recorded {
    * Places handles by 4 x 4 matrices M.
    *
    * handles: [handleCount].
-   * matrices: [handleCount x 16], column by column, elements 12 to 14 the translation. M moves a rest position p
+   * matrices: [handleCount x 16], column by column. The last column is the translation. M moves a rest position p
    *     to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
    *     rotation. Its last row must be 0 0 0 1.
    *
@@ -2086,9 +2087,9 @@ export interface Pose extends Recorded {
    * refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about
    *     0.2 us per vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
    * refineFromLast: 1: the steps go on from the surface of the last call, instead of starting at the smooth pose.
-   *     Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still, more
-   *     calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1 or
-   *     more. Higher layers start at the smooth pose. Memory: 72 bytes per vertex
+   *     Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles do not move, more
+   *     calls converge to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1
+   *     or more. Higher layers start at the smooth pose. Memory: 72 bytes per vertex
    * firstVertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
    * vertexCount: positions of a range cost only the range; but with higher layers, rigid pieces, refine,
    *     limb_refine or normals they cost the whole surface
@@ -2132,8 +2133,8 @@ export interface Pose extends Recorded {
    */
   blendRows(): BlendRows;
   /**
-   * Writes rows of one length. They change with `revision`, as those of Pose.blendRows. Call it without arrays for
-   * the count and the errors.
+   * Writes rows of one length. They change with `revision`, as the rows of Pose.blendRows do. Call it without
+   * arrays for the count and the errors.
    *
    * influenceCount: clusters of each vertex, the length of a row, 1 to 64; 0 = 8
    * byteClusters: [vertexCapacity x influenceCount] null = not wanted. Refused for more than 256 clusters
@@ -2145,7 +2146,7 @@ export interface Pose extends Recorded {
   blendInfluences(options?: { influenceCount?: number; byteClusters?: boolean; byteWeights?: boolean }): BlendInfluences;
   /**
    * Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
-   * Pose.deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
+   * Pose.deform. Higher layers, rigid pieces and limb_refine need the surface. With them the call costs as much as
    * Pose.deform.
    *
    * iterationCount: 1 to 1000; 0 = as in hf_pose_desc.
@@ -2179,8 +2180,8 @@ export interface PoseClass {
  * lengths, it snaps vertices to the surface and adds quads. A relaxed quad starts at the corner whose diagonal
  * keeps nearer to the surface, so a renderer should split quads into triangles from the first corner. If the mesh
  * stays farther than an edge length from the surface, a limb is lost. Then the function makes up to three finer
- * meshes, and removes rows of quads until the number is right. The function checks every result: each directed
- * edge occurs once, no face repeats a corner, and the Euler characteristic is that of the surface.
+ * meshes, and removes rows of quads until the number is right. The function checks every result. Each directed
+ * edge occurs once. No face repeats a corner. The result has the Euler characteristic of the surface.
  *
  * The surface may have borders, any genus and several components; the function turns triangles that disagree in
  * orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two. A
@@ -2196,12 +2197,12 @@ export interface PoseClass {
  * place and stays there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to
  * four times the Euler characteristic. On a torus or a knot a single one of 5 is often lost.
  *
- * creaseEdges: [creaseCount x 2] the two vertices of each edge, as given
- * guideVertices: [guideCount] as given; guides of one vertex are averaged
+ * creaseEdges: [creaseCount x 2] the two vertices of each edge, of your mesh
+ * guideVertices: [guideCount] vertices of your mesh; guides of one vertex are averaged
  * guideVectors: [guideCount x 3] along the surface, of any length above 0; quads run along the vector and across
  *     it
- * guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction, less mixes it with that of the
- *     curvature, which has the rest of the weight
+ * guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction. A smaller weight mixes it with
+ *     the direction of the curvature, which has the rest of the weight
  * irregularPoints: [irregularCount x 3] at the surface, in the unit and frame of the mesh
  * irregularValences: [irregularCount] how many quads meet there: 3 or 5
  * irregularDirections: null = any, or [irregularCount x 3]: one side of the irregular vertex runs along it; 0 0 0
@@ -2220,20 +2221,20 @@ export interface PoseClass {
  */
 export interface Quads extends Handle {
   /**
-   * Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result
-   * is that of Quads with the same options, bit for bit. The first update takes as long. It keeps what does not
-   * depend on guides, creases and relax_count, so later updates with the same edge_length, face_count and
-   * symmetry_plane take less: 0.1 s for 15,000 vertices without relaxation (relax_count = constants.HF_NO_INDEX).
-   * Use that while the user drags, and relax_count = 0 at the end. Other sizes and planes are allowed; what
-   * belongs to them is made again. After an error `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until
-   * `quads` is destroyed.
+   * Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. Quads with
+   * the same options gives the same result, bit for bit. The first update takes as long. It keeps the tables that
+   * do not depend on guides, creases and relax_count. Later updates with the same edge_length, face_count and
+   * symmetry_plane take less time. Without relaxation (relax_count = constants.HF_NO_INDEX) they take 0.1 s for
+   * 15,000 vertices. Use that while the user drags, and relax_count = 0 at the end. Other sizes and planes are
+   * allowed; what belongs to them is made again. After an error `quads` is unchanged. Kept memory: 2 to 4 kB per
+   * vertex, until `quads` is destroyed.
    *
-   * creaseEdges: [creaseCount x 2] the two vertices of each edge, as given
-   * guideVertices: [guideCount] as given; guides of one vertex are averaged
+   * creaseEdges: [creaseCount x 2] the two vertices of each edge, of your mesh
+   * guideVertices: [guideCount] vertices of your mesh; guides of one vertex are averaged
    * guideVectors: [guideCount x 3] along the surface, of any length above 0; quads run along the vector and across
    *     it
-   * guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction, less mixes it with that of
-   *     the curvature, which has the rest of the weight
+   * guideWeights: null = all 1, or [guideCount], above 0 to 1: 1 holds the direction. A smaller weight mixes it
+   *     with the direction of the curvature, which has the rest of the weight
    * irregularPoints: [irregularCount x 3] at the surface, in the unit and frame of the mesh
    * irregularValences: [irregularCount] how many quads meet there: 3 or 5
    * irregularDirections: null = any, or [irregularCount x 3]: one side of the irregular vertex runs along it; 0 0
@@ -2281,7 +2282,7 @@ export interface Flow extends Handle {
    * that cross the streamlines.
    *
    * field: [vertexCount] of float or double.
-   * seeds: [seedCount] vertices as given
+   * seeds: [seedCount] vertices of your mesh
    * wantedCount: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE, HF_ERROR_OUT_OF_RANGE.
@@ -2368,15 +2369,16 @@ export interface RegionClass {
  * Carries the detail of the source region to the target region. A harmonic map with positive weights takes each
  * region to the unit disc (an embedding: Tutte 1963, Floater 1997). Vertices around a region (its rim) lie on the
  * circle, by arc length between the pairs of desc. Points at the same place in the disc correspond. The function
- * stores the offset from base to surface in a local frame of the Both regions must be discs: in one piece, one rim
- * loop, no hole, manifold, of one orientation.
+ * stores the offset from base to surface in a local frame of the source. The axes of the frame are the normal of
+ * the base and the direction in which the first disc coordinate grows. It interpolates the offsets in the
+ * triangles of the source, and applies them in the same frames of the target. The detail fades to nothing at the
+ * rim. If source and target are the same region, the result is the surface itself. Later edits of the regions do
+ * not change the object.
  *
- * source: the normal of the base, and the direction in which the first disc coordinate grows. It interpolates the
- *     offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades
- *     to nothing at the rim. If source and target are the same region, the result is the surface itself. Later
- *     edits of the regions do not change the object.
- * sourceVertices: [pairCount] rim vertices of the source, as given
- * targetVertices: [pairCount] rim vertices of the target, as given
+ * Both regions must be discs: in one piece, one rim loop, no hole, manifold, of one orientation.
+ *
+ * sourceVertices: [pairCount] rim vertices of the source mesh
+ * targetVertices: [pairCount] rim vertices of the target mesh
  * scale: of the detail, > 0; 0 = square root of target base area over source base area
  * progress: an object to poll and cancel through
  */
@@ -2426,7 +2428,7 @@ export interface Retarget extends Recorded {
    * reset and fades within a step.
    *
    * sourcePose: [source.jointCount x 10].
-   * seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
+   * seconds: time since the last frame, 0 for the first frame and for a repeated frame.
    *
    * Throws HF_ERROR_INVALID_ARGUMENT, HF_ERROR_NON_FINITE.
    */
@@ -2488,10 +2490,7 @@ export interface Skeleton extends Handle {
   chains(): Chain[];
   /** Writes the joints of chain after chain. */
   chainJoints(): Uint32Array;
-  /**
-   * Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful
-   * finding.
-   */
+  /** Writes the reasons as text. The reasons for the axes come first. Then each doubtful finding has one line. */
   reasons(): string;
 }
 export interface SkeletonClass {
@@ -2516,10 +2515,10 @@ export interface SkeletonClass {
  *     crouch. Motion is measured from these poses. They do not change the fields.
  * targetRest: [target.vertexCount x 3] of float or double
  * mode: HF_TRANSFER_*
- * clusterCount: 1 to 512; 0 = 80, or 5 for each pair if that is more
+ * clusterCount: 1 to 512. 0 = the larger of 80 and 5 per pair
  * ground: HF_GROUND_*
- * kernelWidth: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is
- *     more, up to 0.12
+ * kernelWidth: width of a cluster, in field values, 0.005 to 0.5. 0 = the larger of 0.03 and 0.004 per pair, up to
+ *     0.12
  * scale: lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when
  *     no pair is a foot
  * alignmentAngle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times
@@ -2532,8 +2531,8 @@ export interface Transfer extends Handle {
   /**
    * Adds pairs.
    *
-   * sourceVertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries
-   *     per vertex
+   * sourceVertices: lists of whole numbers: all regions one after the other; vertices of your mesh, up to 4
+   *     entries per vertex
    * targetVertices: lists of whole numbers:
    * flags: [pairCount] HF_PAIR_*, or null for none
    * progress: an object to poll and cancel through
@@ -2574,9 +2573,9 @@ export interface Transfer extends Handle {
    *     planted foot does not slide. The body travels as much farther
    * hipHeightShare: raises the pairs flagged HF_PAIR_TRUNK and HF_PAIR_ANCHOR by this share of their mean height
    *     at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised
-   * neckFollow: pairs flagged HF_PAIR_NECK, together one limb How far a limb follows the source, -1 to 1. 0 =
-   *     neutral: it plays the source's motion from its own rest direction. 1: it also takes the rest direction of
-   *     the source's limb. -1: it does not move against its root.
+   * neckFollow: pairs flagged HF_PAIR_NECK, together one limb How far a limb follows the source, -1 to 1. At 0
+   *     (neutral) the limb plays the source's motion from its own rest direction. At 1 it also gets the rest
+   *     direction of the source's limb. At -1 it does not move against its root.
    * tailFollow: pairs flagged HF_PAIR_TAIL, together one limb
    * armSpace: turns arms (HF_PAIR_ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2 radians;
    *     0 = neutral
@@ -2700,7 +2699,7 @@ export interface Weights extends Recorded {
    * Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
    * disc. Pins at the same places with other weights cost no path.
    *
-   * vertices: [pinCount] vertices as given, or null
+   * vertices: [pinCount] vertices of your mesh, or null
    * places: [pinCount], or null
    * points: [pinCount x 3] points in space, at rest, in the unit and frame of the mesh, or null. Each stands for
    *     the nearest point of the surface, up to two boxes away
@@ -2733,8 +2732,8 @@ export interface Weights extends Recorded {
    */
   get(): WeightsOut;
   /**
-   * Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not deform
-   * have no flags.
+   * Writes the flags of each joint, and how many vertices have a constraint for it. Joints that do not deform have
+   * no flags.
    */
   joints(): { flags: Uint32Array; vertexCounts: Uint32Array };
   /** Writes the info. */
@@ -2742,8 +2741,8 @@ export interface Weights extends Recorded {
   /** Writes the statistics. */
   readonly statistics: WeightsStatistics;
   /**
-   * Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and
-   * sets deforms to 0.
+   * Proposes joints that should not deform, and says why. The weights do not change: to follow a proposal, set
+   * deforms to 0.
    *
    * names: one line for each joint in UTF-8, or null.
    *
@@ -2756,7 +2755,7 @@ export interface WeightsClass {
           options?: { heads?: Rows | null; tails?: Rows | null; axes?: Rows | null; parents?: Rows | null; deforms?: Rows | null; sources?: Rows | null; progress?: Progress | null; influenceCount?: number }): Weights;
   /**
    * Transfers weights from one surface to another: clothes, hair, levels of detail, new topology. Both stand in
-   * the same frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-
+   * the same frame. A vertex gets the weights of the nearest point of the source whose normal agrees. One bi-
    * harmonic field fills in the vertices without such a point. A piece without any takes the weights of the
    * nearest points.
    *
@@ -2776,8 +2775,8 @@ export interface WeightsClass {
   /**
    * Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights of the
    * nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
-   * fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a
-   * positive largest component, so along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x.
+   * fills in the rest. The plane comes from joints with partners, else from the surface. The largest component of
+   * a found normal is positive. So for a normal along x, HF_MIRROR_TO_NEGATIVE copies from +x to -x.
    *
    * heads: [jointCount x 3] the joints at rest, in the frame of the mesh
    * names: one line for each joint in UTF-8, or null: joints are paired by their places

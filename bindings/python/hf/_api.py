@@ -354,7 +354,9 @@ class TransferMode(IntEnum):
 
 class Ground(IntEnum):
     KEEP = _raw.HF_GROUND_KEEP
-    """feet stand, and no part sinks deeper than the source's, but for thin ones. The default"""
+    """feet are held at the ground. A part goes no deeper under the ground than on the source; thin parts may. The
+    default
+    """
     OFF = _raw.HF_GROUND_OFF
     """there is no ground: for flying and swimming, or where the host has its own"""
 
@@ -389,7 +391,7 @@ class WeightsOrigin(IntEnum):
     """How the weights of a vertex were found."""
 
     INFORMED = _raw.HF_WEIGHTS_INFORMED
-    """it sees its nearest joint"""
+    """its nearest joint is in sight"""
     SOLVED = _raw.HF_WEIGHTS_SOLVED
     """from the vertices around it"""
     PINNED = _raw.HF_WEIGHTS_PINNED
@@ -403,7 +405,7 @@ class WeightsOrigin(IntEnum):
     MATCHED = _raw.HF_WEIGHTS_MATCHED
     """transferred or mirrored: from a near point whose normal agrees"""
     KEPT = _raw.HF_WEIGHTS_KEPT
-    """mirrored: it is on the side that gives"""
+    """mirrored: it is on the side to copy from"""
 
 
 class JointFlag(IntFlag):
@@ -487,11 +489,11 @@ class Isolines(NamedTuple):
     """
 
     point_edges: np.ndarray
-    """(point_capacity, 2) vertices a and b as given, of welded copies the first"""
+    """(point_capacity, 2) vertices a and b of your mesh, the first of welded copies"""
     parameters: np.ndarray
     """(point_capacity,) 0 to 1"""
     positions: np.ndarray
-    """(point_capacity, 3) in the unit and frame of the mesh as given"""
+    """(point_capacity, 3) in the unit and frame of your mesh"""
     line_starts: np.ndarray
     """(line_capacity + 1,) line i holds the points line_starts(i,) to line_starts(i + 1,) - 1"""
     line_levels: np.ndarray
@@ -533,11 +535,11 @@ class Path(NamedTuple):
     """
 
     point_edges: np.ndarray
-    """(point_capacity, 2) vertices a and b as given, of welded copies the first"""
+    """(point_capacity, 2) vertices a and b of your mesh, the first of welded copies"""
     parameters: np.ndarray
     """(point_capacity,) 0 to 1"""
     positions: np.ndarray
-    """(point_capacity, 3) in the unit and frame of the mesh as given"""
+    """(point_capacity, 3) in the unit and frame of your mesh"""
     length: float
     """in the unit of the mesh; -1: no path"""
 
@@ -623,24 +625,24 @@ class QuadsMesh(NamedTuple):
     """Quads.mesh writes the quad mesh to these arrays. They are yours: each is None or as large as its capacity."""
 
     positions: np.ndarray
-    """(vertex_capacity, 3) in the unit and frame of the mesh as given"""
+    """(vertex_capacity, 3) in the unit and frame of your mesh"""
     faces: np.ndarray
     """(face_capacity, 4) vertices of each quad, counter-clockwise"""
     triangles: np.ndarray
-    """(vertex_capacity,) triangle or face as given that the vertex lies in"""
+    """(vertex_capacity,) triangle or face of your mesh that contains the vertex"""
     barycentrics: np.ndarray
     """(vertex_capacity, 3) weights of that triangle's corners, in its own order, of sum 1; in a face of more corners the
     weights of `corners`
     """
     corners: np.ndarray
-    """(vertex_capacity, 3) vertices as given, of welded copies the first, that barycentrics belong to"""
+    """(vertex_capacity, 3) vertices of your mesh that barycentrics belong to, the first of welded copies"""
 
 
 class Streamlines(NamedTuple):
     """Results."""
 
     positions: np.ndarray
-    """(point_capacity, 3) in the unit and frame of the mesh as given"""
+    """(point_capacity, 3) in the unit and frame of your mesh"""
     values: np.ndarray
     """(point_capacity,) of the field, rising along every line"""
     line_starts: np.ndarray
@@ -1145,7 +1147,7 @@ class Surface(Object):
     faces: faces instead of triangles
     weld_tolerance: for Weld.TOLERANCE, in the unit of the positions, > 0
     operator_kind: Operator
-    field_kind: FieldKind: the factor made now. Others are made when a solver or region asks
+    field_kind: FieldKind: the factor made now. Others are made when a solver or region needs one
     ordering: Ordering
     thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
     vertex_limit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles or
@@ -1193,9 +1195,9 @@ class Surface(Object):
             progress: Optional[Progress] = None, saved_factor: Any = None) -> "Surface":
         """Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the
         graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
-        reports work as on a mesh. A call that needs triangles returns UnsupportedError: poses, regions, directions,
-        geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields, links,
-        screening, and sites at places, at points or on discs.
+        reports work as on a mesh. A call that needs triangles returns UnsupportedError. These are poses, regions,
+        directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
+        links and screening. Sites at places, at points or on discs need triangles too.
 
         A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from the
         median of their component by a factor above 1e30 are limited; MeshStatistics counts their vertices as changed.
@@ -1313,8 +1315,8 @@ class Surface(Object):
         ends are apart than at rest, and 0 if they are nearer. The gap of a contact (LinksInfo) is measured in the
         same way.
 
-        positions: (vertex_count, 3) of float or double: the deformed mesh, from a pose, a transfer or any other
-            source.
+        positions: (vertex_count, 3) of float or double: the deformed mesh. It can come from a pose, a transfer or any
+            other source.
         info: filled in when given
 
         Raises NonFiniteError, TooLargeError.
@@ -1432,7 +1434,7 @@ class Surface(Object):
         options and library version, whatever the number of threads. The bytes are little-endian and hold a format
         version, a hash of the matrix and a checksum. They hold no sites.
 
-        field_kind: FieldKind; a factor that does not exist yet is made first.
+        field_kind: FieldKind. If its factor does not exist yet, the call makes it first.
         progress: an object to poll and cancel through.
 
         Raises CancelledError, TooSmallError.
@@ -1450,8 +1452,8 @@ class Surface(Object):
             front_only: bool = False) -> Optional[Hit]:
         """Finds what a mouse click hits: the first triangle on a ray.
 
-        origin: (3,) in the frame of the positions; the direction can have any length above 0.
-        direction: (3,) in the frame of the positions; the direction can have any length above 0.
+        origin: (3,) in the frame of the positions. The direction can have any length above 0.
+        direction: (3,) in the frame of the positions. The direction can have any length above 0.
         positions: (vertex_count, 3) of float or double: posed positions (Pose.deform writes them). None: the rest
             positions
         front_only: 1: a ray passes through triangles seen from behind
@@ -1542,11 +1544,11 @@ class Surface(Object):
 
     def find_critical_points(self, field: ArrayLike, *, info: Optional[CriticalInfo] = None) -> np.ndarray:
         """Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each vertex
-        decide (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of its neighbours with lower
-        values and the edges between them. The vertex number breaks ties, so a flat area has critical points too. The
-        indices sum to the Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field
-        can show an extremum away from its sites, because the default operator uses other edges than the mesh.
-        Operator.CLAMPED uses the edges of the mesh and avoids this.
+        decide (Banchoff 1970). Take its neighbours with lower values and the edges between them. The index of the
+        vertex is 1 minus their Euler characteristic. The vertex number breaks ties, so a flat area has critical
+        points too. The indices sum to the Euler characteristic on every component. On a mesh that is not Delaunay a
+        harmonic field can show an extremum away from its sites, because the default operator uses other edges than
+        the mesh. Operator.CLAMPED uses the edges of the mesh and avoids this.
 
         field: (vertex_count,) of float or double.
         info: filled in when given
@@ -1612,7 +1614,8 @@ class Surface(Object):
         parents: (joint_count,) position of each joint's parent in the list; NO_INDEX for a root
         skeleton: the skeleton of the mesh, instead of joints and parents. It rests in the unit and frame of the mesh.
             If it has a skin, the skin has the vertices of the mesh
-        up: direction away from the ground, of any length; 0 0 0 = up of the skeleton where it is known, else 0 1 0
+        up: direction away from the ground, of any length; zero = up of the skeleton where it is known, else the y
+            axis
         least_length_share: as in hf_extremities_desc; 0 = 0.05
         limit: most proposals, 1 to HF_HANDLE_LIMIT; 0 = 32
         progress: an object to poll and cancel through
@@ -1674,8 +1677,8 @@ class Solver(Recorded):
 
     def clone(self) -> "Solver":
         """Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share the
-        factor and what the sites have cost, so a copy costs its list of sites only. Use one copy per thread or per
-        set of sites. For undo, keep copies: one before each edit.
+        factor and the solved sites, so a copy costs its list of sites only. Use one copy per thread or per set of
+        sites. For undo, keep copies: one before each edit.
         """
         c = Call(self)
         made = type(self).__new__(type(self))
@@ -1684,10 +1687,10 @@ class Solver(Recorded):
         return made
 
     def move_to(self, surface: Surface) -> None:
-        """Moves a solver to an edited surface: its sites keep their numbers, values and screening.
+        """Moves a solver to an edited surface. Its sites keep their numbers, values and screening.
 
-        surface: made by Surface.edit or Surface.relink from the solver's surface, or the other way round, in any
-            number of steps.
+        surface: any number of calls of Surface.edit or Surface.relink make it from the solver's surface, or the
+            solver's surface from it.
 
         Raises CancelledError, ConflictError, UnsupportedError.
         """
@@ -1707,7 +1710,7 @@ class Solver(Recorded):
             stiffness: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None) -> np.ndarray:
         """Adds sites.
 
-        vertices: (site_count,) vertices as given, or None
+        vertices: (site_count,) vertices of your mesh, or None
         values: (site_count, channel_count), up to 1e200 in size; None = 0
         places: (site_count,), or None
         points: (site_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. Each stands for
@@ -1758,7 +1761,7 @@ class Solver(Recorded):
         """Moves sites to new places. Each site keeps its number, value, stiffness and radius.
 
         sites: (site_count,).
-        vertices: (site_count,) vertices as given, or None
+        vertices: (site_count,) vertices of your mesh, or None
         values: (site_count, channel_count), up to 1e200 in size; None = 0
         places: (site_count,), or None
         points: (site_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. Each stands for
@@ -1835,9 +1838,9 @@ class Solver(Recorded):
         mean diagonal of K. Such a field needs no site on a component where some H is above 0.
 
         screening: (vertex_count,) H >= 0, in 1 / length^2 with the unit of the mesh; None removes the screening.
-        targets: (vertex_count, channel_count) p, or None for 0. Both are copied; welded copies of a vertex take the
-            values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores the
-            screening with the sites.
+        targets: (vertex_count, channel_count) p, or None for 0. Both are copied. The values of the first of welded
+            copies hold for all of them. Sites stay. A site with a radius holds the rim of its disc only. Undo
+            restores the screening with the sites.
 
         Raises InvalidArgumentError, NonFiniteError, NotPositiveDefiniteError, TooLargeError, UnsupportedError.
         """
@@ -1884,7 +1887,7 @@ class Solver(Recorded):
             normals: Optional[np.ndarray] = None, info: Optional[SolveInfo] = None) -> np.ndarray:
         """Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section
         3.3). The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then
-        projects the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
+        projects the vector v of each vertex on the tangent plane: v - (n . v) n. Here n is the area-weighted normal.
 
         out: (vertex_count, 3) of float or double, not normalised.
         normals: (vertex_count, 3), packed: the normals used.
@@ -1905,9 +1908,9 @@ class Solver(Recorded):
         """Solves with a single-precision copy of the factor. This reads half the bytes of Solver.solve; use it while the
         user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic
         fields, long shapes and crowded sites can have an error of any size: ask for corrections there and read
-        error_estimate. Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a
-        harmonic field takes the error below 1e-9, a second one below 1e-12. Each correction costs as much as two to
-        three calls of Solver.solve.
+        error_estimate. Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963)
+        reduces the error of a harmonic field below 1e-9, a second one below 1e-12. Each correction costs as much as
+        two to three calls of Solver.solve.
 
         The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind
         on the surface share the copy. It is freed with the last of these solvers, or by Solver.release_preview. A
@@ -2005,7 +2008,8 @@ class Geodesics(Object):
     numeric factorisation and holds a factor of its own beside the surface's.
 
     method: DistanceMethod
-    smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to 10,000
+    smoothing: of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother. From 0.1 to 10,000; 0 =
+        1
     progress: an object to poll and cancel through: creation and every later call report to it
     """
 
@@ -2066,11 +2070,10 @@ class Geodesics(Object):
         return Path(length=path.length, **found)
 
     def map(self, centre: PlaceLike, radius: float = 0.0) -> Tuple[np.ndarray, np.ndarray]:
-        """Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each
-        vertex gets the length of its shortest path from the point, in the direction in which that path leaves the
-        point.
+        """Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. A vertex
+        lies at the length of its shortest path from the point, in the direction in which the path starts.
 
-        radius: vertices farther away get NaN too, and cost nothing; 0 = no bound.
+        radius: vertices farther away get NaN too and take no time; 0 = no bound.
 
         Raises CancelledError, InvalidArgumentError, NonFiniteError, OutOfRangeError, TooLargeError, TooSmallError.
         """
@@ -2088,7 +2091,7 @@ class Direction(Recorded):
     Makes a direction field without constraints. It computes the connection between tangent planes and the operator,
     and factorises once, with two unknowns per vertex.
 
-    degree: 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
+    degree: 1 vectors, 2 lines, 4 crosses. A turn by 360 / degree changes nothing. 0 = 1
     site_limit: most constraints; 0 = 100,000
     progress: an object to poll and cancel through
     """
@@ -2151,7 +2154,7 @@ class Direction(Recorded):
         call('hf_direction_remove_sites', self._handle, c.n.setdefault('site_count', 1), sites_)
 
     def move_sites(self, sites: ArrayLike, vertices: ArrayLike) -> None:
-        """Moves constraints to other vertices of the same component. The connection carries each vector along the
+        """Moves constraints to other vertices of the same component. The connection transports each vector along the
         shortest path of edges, from tangent plane to tangent plane.
 
         sites: (site_count,).
@@ -2196,7 +2199,7 @@ class Direction(Recorded):
         return library().hf_direction_get_site_count(self._handle)
 
     def sites(self) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Writes the constraints by ascending number."""
+        """Writes the constraints. Their numbers ascend."""
         c = Call(self)
         count = ctypes.c_uint32()
 
@@ -2312,22 +2315,22 @@ class Pose(Recorded):
             points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None, layer: int = 0,
             in_place: bool = False, free_rotation: bool = False, progress: Optional[Progress] = None) -> np.ndarray:
         """Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a
-        posed surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion
-        that its region has in the last pose (Pose.handle writes it), and the surface stays where it is (to 1e-6 of
-        the box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to
-        rest. Until then the region of the new handle keeps a part of its bend. restart ends this at once. On a higher
-        layer the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold
-        the surface in place for the higher layers.
+        posed surface back to rest there. Use in_place to grab a posed surface. Each new handle then gets the rigid
+        motion of its region in the last pose (Pose.handle writes it). The surface stays in place (to 1e-6 of the
+        box). It goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest.
+        Until then the region of the new handle keeps a part of its bend. restart ends this at once. On a higher layer
+        the surface does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the
+        surface in place for the higher layers.
 
         region_vertices: lists of whole numbers: all regions one after the other; None: places are given
-        vertices: (handle_count,) vertices as given, or None
+        vertices: (handle_count,) vertices of your mesh, or None
         places: (handle_count,), or None
         points: (handle_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. A point can
             lie inside the body, as a joint does: its nearest vertex counts
         radii: (handle_count,) of the regions of places, in the unit of the mesh; None: regions are given. A radius
             below 1 % of the box makes regions of 2 vertices or more
         layer: 0 to HF_LAYER_COUNT - 1, for the whole batch
-        in_place: 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+        in_place: 1: handles of layer 0 start on the posed surface, not at rest; see below
         free_rotation: 1: you give the places of the handles only; see Pose.set_free_rotations
         progress: an object to poll and cancel through
 
@@ -2341,8 +2344,8 @@ class Pose(Recorded):
         return handles
 
     def add_handle_at(self, point: ArrayLike, radius: float) -> int:
-        """Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are
-        edge-connected to it within `radius` of the point.
+        """Adds one handle on layer 0. Its region has the vertex nearest to a point at rest. It also has all vertices
+        within `radius` of the point that are edge-connected to this vertex.
 
         point: (3,).
 
@@ -2456,8 +2459,8 @@ class Pose(Recorded):
         steps, all their limbs take the largest count.
 
         handles: (handle_count,).
-        refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. 1
-            keeps bends smooth. 8 and more keep lengths; the limb bends like two bones.
+        refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. With
+            1, bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
 
         Raises InvalidArgumentError, NotFoundError, UnsupportedError.
         """
@@ -2487,7 +2490,7 @@ class Pose(Recorded):
         """Places handles by 4 x 4 matrices M.
 
         handles: (handle_count,).
-        matrices: (handle_count, 16), column by column, elements 12 to 14 the translation. M moves a rest position p
+        matrices: (handle_count, 16), column by column. The last column is the translation. M moves a rest position p
             to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
             rotation. Its last row must be 0 0 0 1.
 
@@ -2540,9 +2543,9 @@ class Pose(Recorded):
         refine: 0 to 64: steps of as-rigid-as-possible on the whole surface, with the same factor. A step takes about
             0.2 us per vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
         refine_from_last: 1: the steps go on from the surface of the last call, instead of starting at the smooth
-            pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles stand still,
-            more calls go on to the minimum. A restart, or a call without it, forgets that surface. Needs a refine of
-            1 or more. Higher layers start at the smooth pose. Memory: 72 bytes per vertex
+            pose. Then one step a frame keeps lengths in a drag as well as 8 do without. If the handles do not move,
+            more calls converge to the minimum. A restart, or a call without it, forgets that surface. Needs a refine
+            of 1 or more. Higher layers start at the smooth pose. Memory: 72 bytes per vertex
         first_vertex: outputs hold vertex_count vertices from this one on; 0 and 0: all
         vertex_count: positions of a range cost only the range; but with higher layers, rigid pieces, refine,
             limb_refine or normals they cost the whole surface
@@ -2637,8 +2640,8 @@ class Pose(Recorded):
 
     def blend_influences(self, influence_count: int = 0, *, byte_clusters: bool = False,
             byte_weights: bool = False) -> BlendInfluences:
-        """Writes rows of one length. They change with `revision`, as those of Pose.blend_rows. Call it without arrays
-        for the count and the errors.
+        """Writes rows of one length. They change with `revision`, as the rows of Pose.blend_rows do. Call it without
+        arrays for the count and the errors.
 
         influence_count: clusters of each vertex, the length of a row, 1 to 64; 0 = 8
         byte_clusters: (vertex_capacity, influence_count) None = not wanted. Refused for more than 256 clusters
@@ -2665,7 +2668,7 @@ class Pose(Recorded):
 
     def solve(self, iteration_count: int = 0, restart: bool = False, *, info: Optional[DeformInfo] = None) -> None:
         """Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
-        Pose.deform. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
+        Pose.deform. Higher layers, rigid pieces and limb_refine need the surface. With them the call costs as much as
         Pose.deform.
 
         iteration_count: 1 to 1000; 0 = as in hf_pose_desc.
@@ -2706,8 +2709,8 @@ class Quads(Object):
     it snaps vertices to the surface and adds quads. A relaxed quad starts at the corner whose diagonal keeps nearer
     to the surface, so a renderer should split quads into triangles from the first corner. If the mesh stays farther
     than an edge length from the surface, a limb is lost. Then the function makes up to three finer meshes, and
-    removes rows of quads until the number is right. The function checks every result: each directed edge occurs once,
-    no face repeats a corner, and the Euler characteristic is that of the surface.
+    removes rows of quads until the number is right. The function checks every result. Each directed edge occurs once.
+    No face repeats a corner. The result has the Euler characteristic of the surface.
 
     The surface may have borders, any genus and several components; the function turns triangles that disagree in
     orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two. A
@@ -2723,11 +2726,11 @@ class Quads(Object):
     stays there. A vertex of 5 quads brings others of 3 with it, because the indices of the crosses sum to four times
     the Euler characteristic. On a torus or a knot a single one of 5 is often lost.
 
-    crease_edges: (crease_count, 2) the two vertices of each edge, as given
-    guide_vertices: (guide_count,) as given; guides of one vertex are averaged
+    crease_edges: (crease_count, 2) the two vertices of each edge, of your mesh
+    guide_vertices: (guide_count,) vertices of your mesh; guides of one vertex are averaged
     guide_vectors: (guide_count, 3) along the surface, of any length above 0; quads run along the vector and across it
-    guide_weights: None = all 1, or (guide_count,), above 0 to 1: 1 holds the direction, less mixes it with that of
-        the curvature, which has the rest of the weight
+    guide_weights: None = all 1, or (guide_count,), above 0 to 1: 1 holds the direction. A smaller weight mixes it
+        with the direction of the curvature, which has the rest of the weight
     irregular_points: (irregular_count, 3) at the surface, in the unit and frame of the mesh
     irregular_valences: (irregular_count,) how many quads meet there: 3 or 5
     irregular_directions: None = any, or (irregular_count, 3): one side of the irregular vertex runs along it; 0 0 0 =
@@ -2770,20 +2773,20 @@ class Quads(Object):
             irregular_directions: Optional[ArrayLike] = None, *, face_count: int = 0, edge_length: float = 0.0,
             crease_angle: float = 0.0, relax_count: int = 0, symmetry_plane: Optional[ArrayLike] = None,
             progress: Optional[Progress] = None) -> None:
-        """Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result
-        is that of Quads with the same options, bit for bit. The first update takes as long. It keeps what does not
-        depend on guides, creases and relax_count, so later updates with the same edge_length, face_count and
-        symmetry_plane take less: 0.1 s for 15,000 vertices without relaxation (relax_count = NO_INDEX). Use that
-        while the user drags, and relax_count = 0 at the end. Other sizes and planes are allowed; what belongs to them
-        is made again. After an error `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until `quads` is
-        destroyed.
+        """Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. Quads with
+        the same options gives the same result, bit for bit. The first update takes as long. It keeps the tables that
+        do not depend on guides, creases and relax_count. Later updates with the same edge_length, face_count and
+        symmetry_plane take less time. Without relaxation (relax_count = NO_INDEX) they take 0.1 s for 15,000
+        vertices. Use that while the user drags, and relax_count = 0 at the end. Other sizes and planes are allowed;
+        what belongs to them is made again. After an error `quads` is unchanged. Kept memory: 2 to 4 kB per vertex,
+        until `quads` is destroyed.
 
-        crease_edges: (crease_count, 2) the two vertices of each edge, as given
-        guide_vertices: (guide_count,) as given; guides of one vertex are averaged
+        crease_edges: (crease_count, 2) the two vertices of each edge, of your mesh
+        guide_vertices: (guide_count,) vertices of your mesh; guides of one vertex are averaged
         guide_vectors: (guide_count, 3) along the surface, of any length above 0; quads run along the vector and
             across it
-        guide_weights: None = all 1, or (guide_count,), above 0 to 1: 1 holds the direction, less mixes it with that
-            of the curvature, which has the rest of the weight
+        guide_weights: None = all 1, or (guide_count,), above 0 to 1: 1 holds the direction. A smaller weight mixes it
+            with the direction of the curvature, which has the rest of the weight
         irregular_points: (irregular_count, 3) at the surface, in the unit and frame of the mesh
         irregular_valences: (irregular_count,) how many quads meet there: 3 or 5
         irregular_directions: None = any, or (irregular_count, 3): one side of the irregular vertex runs along it; 0 0
@@ -2865,7 +2868,7 @@ class Flow(Object):
         cross the streamlines.
 
         field: (vertex_count,) of float or double.
-        seeds: (seed_count,) vertices as given
+        seeds: (seed_count,) vertices of your mesh
         wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
 
         Raises InvalidArgumentError, NonFiniteError, OutOfRangeError.
@@ -3024,15 +3027,16 @@ class Detail(Object):
     Carries the detail of the source region to the target region. A harmonic map with positive weights takes each
     region to the unit disc (an embedding: Tutte 1963, Floater 1997). Vertices around a region (its rim) lie on the
     circle, by arc length between the pairs of desc. Points at the same place in the disc correspond. The function
-    stores the offset from base to surface in a local frame of the Both regions must be discs: in one piece, one rim
-    loop, no hole, manifold, of one orientation.
+    stores the offset from base to surface in a local frame of the source. The axes of the frame are the normal of the
+    base and the direction in which the first disc coordinate grows. It interpolates the offsets in the triangles of
+    the source, and applies them in the same frames of the target. The detail fades to nothing at the rim. If source
+    and target are the same region, the result is the surface itself. Later edits of the regions do not change the
+    object.
 
-    source: the normal of the base, and the direction in which the first disc coordinate grows. It interpolates the
-        offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades to
-        nothing at the rim. If source and target are the same region, the result is the surface itself. Later edits of
-        the regions do not change the object.
-    source_vertices: (pair_count,) rim vertices of the source, as given
-    target_vertices: (pair_count,) rim vertices of the target, as given
+    Both regions must be discs: in one piece, one rim loop, no hole, manifold, of one orientation.
+
+    source_vertices: (pair_count,) rim vertices of the source mesh
+    target_vertices: (pair_count,) rim vertices of the target mesh
     scale: of the detail, > 0; 0 = square root of target base area over source base area
     progress: an object to poll and cancel through
     """
@@ -3132,7 +3136,7 @@ class Retarget(Recorded):
         reset and fades within a step.
 
         source_pose: (source.joint_count, 10).
-        seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
+        seconds: time since the last frame, 0 for the first frame and for a repeated frame.
 
         Raises InvalidArgumentError, NonFiniteError.
         """
@@ -3285,9 +3289,7 @@ class Skeleton(Object):
         return found['joints']
 
     def reasons(self) -> str:
-        """Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful
-        finding.
-        """
+        """Writes the reasons as text. The reasons for the axes come first. Then each doubtful finding has one line."""
         c = Call(self)
         size = ctypes.c_size_t()
         call('hf_skeleton_get_reasons', self._handle, 0, None, ref(size))
@@ -3313,10 +3315,10 @@ class Transfer(Object):
         crouch. Motion is measured from these poses. They do not change the fields.
     target_rest: (target.vertex_count, 3) of float or double
     mode: TransferMode
-    cluster_count: 1 to 512; 0 = 80, or 5 for each pair if that is more
+    cluster_count: 1 to 512. 0 = the larger of 80 and 5 per pair
     ground: Ground
-    kernel_width: width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is more,
-        up to 0.12
+    kernel_width: width of a cluster, in field values, 0.005 to 0.5. 0 = the larger of 0.03 and 0.004 per pair, up to
+        0.12
     scale: lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no
         pair is a foot
     alignment_angle: A limb whose rest directions differ by this angle is aligned by half, radians. Below 0.6 times
@@ -3352,8 +3354,8 @@ class Transfer(Object):
             progress: Optional[Progress] = None) -> np.ndarray:
         """Adds pairs.
 
-        source_vertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries
-            per vertex
+        source_vertices: lists of whole numbers: all regions one after the other; vertices of your mesh, up to 4
+            entries per vertex
         target_vertices: lists of whole numbers:
         flags: (pair_count,) PairFlag, or None for none
         progress: an object to poll and cancel through
@@ -3417,9 +3419,9 @@ class Transfer(Object):
             planted foot does not slide. The body travels as much farther
         hip_height_share: raises the pairs flagged PairFlag.TRUNK and PairFlag.ANCHOR by this share of their mean
             height at rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised
-        neck_follow: pairs flagged PairFlag.NECK, together one limb How far a limb follows the source, -1 to 1. 0 =
-            neutral: it plays the source's motion from its own rest direction. 1: it also takes the rest direction of
-            the source's limb. -1: it does not move against its root.
+        neck_follow: pairs flagged PairFlag.NECK, together one limb How far a limb follows the source, -1 to 1. At 0
+            (neutral) the limb plays the source's motion from its own rest direction. At 1 it also gets the rest
+            direction of the source's limb. At -1 it does not move against its root.
         tail_follow: pairs flagged PairFlag.TAIL, together one limb
         arm_space: turns arms (PairFlag.ARM) away from the body, about the forward axis at rest, -pi/2 to pi/2
             radians; 0 = neutral
@@ -3616,7 +3618,7 @@ class Weights(Recorded):
         """Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
         disc. Pins at the same places with other weights cost no path.
 
-        vertices: (pin_count,) vertices as given, or None
+        vertices: (pin_count,) vertices of your mesh, or None
         places: (pin_count,), or None
         points: (pin_count, 3) points in space, at rest, in the unit and frame of the mesh, or None. Each stands for
             the nearest point of the surface, up to two boxes away
@@ -3668,8 +3670,8 @@ class Weights(Recorded):
         return WeightsOut(**found)
 
     def joints(self) -> Tuple[np.ndarray, np.ndarray]:
-        """Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not deform
-        have no flags.
+        """Writes the flags of each joint, and how many vertices have a constraint for it. Joints that do not deform have
+        no flags.
         """
         c = Call(self)
         count = ctypes.c_uint32()
@@ -3699,8 +3701,8 @@ class Weights(Recorded):
         return statistics
 
     def helpers(self, names: Union[None, str, Sequence[str]] = None) -> np.ndarray:
-        """Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and
-        sets deforms to 0.
+        """Proposes joints that should not deform, and says why. The weights do not change: to follow a proposal, set
+        deforms to 0.
 
         names: one line for each joint in UTF-8, or None.
 
@@ -3722,7 +3724,7 @@ class Weights(Recorded):
             weights: Optional[ArrayLike] = None, *, distance: float = 0.0, angle: float = 0.0, influence_count: int = 0,
             progress: Optional[Progress] = None, info: Optional[WeightsTransferInfo] = None) -> WeightsOut:
         """Transfers weights from one surface to another: clothes, hair, levels of detail, new topology. Both stand in
-        the same frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-
+        the same frame. A vertex gets the weights of the nearest point of the source whose normal agrees. One bi-
         harmonic field fills in the vertices without such a point. A piece without any takes the weights of the
         nearest points.
 
@@ -3762,8 +3764,8 @@ class Weights(Recorded):
             statistics: Optional[WeightsMirrorStatistics] = None) -> Tuple[WeightsOut, np.ndarray, np.ndarray]:
         """Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights of the
         nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
-        fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a
-        positive largest component, so along x, MirrorTo.TO_NEGATIVE copies from +x to -x.
+        fills in the rest. The plane comes from joints with partners, else from the surface. The largest component of
+        a found normal is positive. So for a normal along x, MirrorTo.TO_NEGATIVE copies from +x to -x.
 
         heads: (joint_count, 3) the joints at rest, in the frame of the mesh
         names: one line for each joint in UTF-8, or None: joints are paired by their places

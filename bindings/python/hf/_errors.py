@@ -23,7 +23,7 @@ class HfError(Exception):
 
 
 class InvalidArgumentError(HfError, ValueError):
-    """a value outside what the function documents"""
+    """a value outside the documented range"""
     code = _raw.HF_ERROR_INVALID_ARGUMENT
 
 

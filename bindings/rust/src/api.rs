@@ -125,7 +125,7 @@ pub struct SurfaceOptions<'a> {
     pub weld_tolerance: f64,
     /// `HF_OPERATOR_*`
     pub operator_kind: i32,
-    /// `HF_FIELD_*`: the factor made now. Others are made when a solver or region asks
+    /// `HF_FIELD_*`: the factor made now. Others are made when a solver or region needs one
     pub field_kind: i32,
     /// `HF_ORDERING_*`
     pub ordering: i32,
@@ -358,7 +358,7 @@ impl<'a> SolverOptions<'a> {
 /// vertices of a disc count towards site_limit; for bi-harmonic fields all its vertices do.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sites<'a> {
-    /// `[site_count]` vertices as given, or `None`
+    /// `[site_count]` vertices of your mesh, or `None`
     pub vertices: Option<&'a [u32]>,
     /// `[site_count x channel_count]`, up to 1e200 in size; `None` = 0
     pub values: Option<&'a [f64]>,
@@ -430,7 +430,7 @@ impl<'a> Edit<'a> {
 pub struct GeodesicsOptions<'a> {
     /// `HF_GEODESICS_*`
     pub method: i32,
-    /// of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother; 0 = 1; 0.1 to 10,000
+    /// of HEAT: m of the time step m h^2, h the mean edge length; larger is smoother. From 0.1 to 10,000; 0 = 1
     pub smoothing: f64,
     /// `None`, or an object to poll and cancel through: creation and every later call report to it
     pub progress: Option<&'a Progress>,
@@ -493,7 +493,7 @@ impl<'a> ExtremitiesOptions<'a> {
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DirectionOptions<'a> {
-    /// 1 vectors, 2 lines, 4 crosses: a turn by 360 / degree changes nothing; 0 = 1
+    /// 1 vectors, 2 lines, 4 crosses. A turn by 360 / degree changes nothing. 0 = 1
     pub degree: u32,
     /// most constraints; 0 = 100,000
     pub site_limit: u32,
@@ -552,7 +552,7 @@ impl PoseOptions {
 /// of a place is its nearest vertex, and all vertices that are edge-connected to it within the radius.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HandlesOptions<'a> {
-    /// `[handle_count]` vertices as given, or `None`
+    /// `[handle_count]` vertices of your mesh, or `None`
     pub vertices: Option<&'a [u32]>,
     /// `[handle_count]`, or `None`
     pub places: Option<&'a [raw::hf_place]>,
@@ -564,7 +564,7 @@ pub struct HandlesOptions<'a> {
     pub radii: Option<&'a [f64]>,
     /// 0 to HF_LAYER_COUNT - 1, for the whole batch
     pub layer: u32,
-    /// 1: handles of layer 0 start where the posed surface stands, not at rest; see below
+    /// 1: handles of layer 0 start on the posed surface, not at rest; see below
     pub in_place: bool,
     /// 1: you give the places of the handles only; see `Pose::set_free_rotations`
     pub free_rotation: bool,
@@ -612,7 +612,7 @@ pub struct DeformOptions {
     /// vertex. 0 and 1 keep bends smooth. 8 and more keep the lengths of edges; bends get sharper
     pub refine: i32,
     /// 1: the steps go on from the surface of the last call, instead of starting at the smooth pose. Then one step a
-    /// frame keeps lengths in a drag as well as 8 do without. If the handles stand still, more calls go on to the
+    /// frame keeps lengths in a drag as well as 8 do without. If the handles do not move, more calls converge to the
     /// minimum. A restart, or a call without it, forgets that surface. Needs a refine of 1 or more. Higher layers
     /// start at the smooth pose. Memory: 72 bytes per vertex
     pub refine_from_last: bool,
@@ -656,7 +656,7 @@ pub struct HandleProposalsOptions<'a> {
     /// `None`, or the skeleton of the mesh, instead of joints and parents. It rests in the unit and frame of the mesh. If
     /// it has a skin, the skin has the vertices of the mesh
     pub skeleton: Option<&'a Skeleton>,
-    /// direction away from the ground, of any length; 0 0 0 = up of the skeleton where it is known, else 0 1 0
+    /// direction away from the ground, of any length; zero = up of the skeleton where it is known, else the y axis
     pub up: Option<[f64; 3]>,
     /// as in [`ExtremitiesOptions`]; 0 = 0.05
     pub least_length_share: f64,
@@ -692,14 +692,14 @@ impl<'a> HandleProposalsOptions<'a> {
 /// Options of a quad mesh. HF_INIT gives quads along the curvature, with edges of 0.022 box diagonals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct QuadsOptions<'a> {
-    /// `[crease_count x 2]` the two vertices of each edge, as given
+    /// `[crease_count x 2]` the two vertices of each edge, of your mesh
     pub crease_edges: Option<&'a [u32]>,
-    /// `[guide_count]` as given; guides of one vertex are averaged
+    /// `[guide_count]` vertices of your mesh; guides of one vertex are averaged
     pub guide_vertices: Option<&'a [u32]>,
     /// `[guide_count x 3]` along the surface, of any length above 0; quads run along the vector and across it
     pub guide_vectors: Option<&'a [f64]>,
-    /// `None` = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction, less mixes it with that of the curvature,
-    /// which has the rest of the weight
+    /// `None` = all 1, or `[guide_count]`, above 0 to 1: 1 holds the direction. A smaller weight mixes it with the
+    /// direction of the curvature, which has the rest of the weight
     pub guide_weights: Option<&'a [f32]>,
     /// `[irregular_count x 3]` at the surface, in the unit and frame of the mesh
     pub irregular_points: Option<&'a [f64]>,
@@ -795,7 +795,7 @@ impl<'a> RegionOptions<'a> {
 /// only one side. The curve passes a vertex at most 8 times.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Curve<'a> {
-    /// `[point_count]` vertices as given, or `None`
+    /// `[point_count]` vertices of your mesh, or `None`
     pub vertices: Option<&'a [u32]>,
     /// `[point_count]`, or `None`
     pub places: Option<&'a [raw::hf_place]>,
@@ -886,9 +886,9 @@ impl MorphOptions {
 /// As the header says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DetailOptions<'a> {
-    /// `[pair_count]` rim vertices of the source, as given
+    /// `[pair_count]` rim vertices of the source mesh
     pub source_vertices: Option<&'a [u32]>,
-    /// `[pair_count]` rim vertices of the target, as given
+    /// `[pair_count]` rim vertices of the target mesh
     pub target_vertices: Option<&'a [u32]>,
     /// of the detail, > 0; 0 = square root of target base area over source base area
     pub scale: f64,
@@ -1043,11 +1043,11 @@ pub struct TransferOptions<'a> {
     pub target_rest: Option<Reals<'a>>,
     /// `HF_TRANSFER_*`
     pub mode: i32,
-    /// 1 to 512; 0 = 80, or 5 for each pair if that is more
+    /// 1 to 512. 0 = the larger of 80 and 5 per pair
     pub cluster_count: u32,
     /// `HF_GROUND_*`
     pub ground: i32,
-    /// width of a cluster, in field values, 0.005 to 0.5; 0 = 0.03, or 0.004 for each pair if that is more, up to 0.12
+    /// width of a cluster, in field values, 0.005 to 0.5. 0 = the larger of 0.03 and 0.004 per pair, up to 0.12
     pub kernel_width: f64,
     /// lengths of the target over lengths of the source, 1e-6 to 1e6; 0 = from the legs, or from the boxes when no pair
     /// is a foot
@@ -1119,9 +1119,9 @@ pub struct TransferDials {
     /// raises the pairs flagged [`raw::HF_PAIR_TRUNK`] and [`raw::HF_PAIR_ANCHOR`] by this share of their mean height at
     /// rest, -0.5 to 0.5; 0 = neutral. Feet stay, legs bend or stretch. A fallen body is not raised
     pub hip_height_share: f64,
-    /// pairs flagged [`raw::HF_PAIR_NECK`], together one limb How far a limb follows the source, -1 to 1. 0 = neutral: it
-    /// plays the source's motion from its own rest direction. 1: it also takes the rest direction of the source's limb.
-    /// -1: it does not move against its root.
+    /// pairs flagged [`raw::HF_PAIR_NECK`], together one limb How far a limb follows the source, -1 to 1. At 0 (neutral)
+    /// the limb plays the source's motion from its own rest direction. At 1 it also gets the rest direction of the
+    /// source's limb. At -1 it does not move against its root.
     pub neck_follow: f64,
     /// pairs flagged [`raw::HF_PAIR_TAIL`], together one limb
     pub tail_follow: f64,
@@ -1352,11 +1352,11 @@ impl<'a> WeightsMirrorOptions<'a> {
 /// large as its capacity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Isolines {
-    /// `[point_capacity x 2]` vertices a and b as given, of welded copies the first
+    /// `[point_capacity x 2]` vertices a and b of your mesh, the first of welded copies
     pub point_edges: Vec<u32>,
     /// `[point_capacity]` 0 to 1
     pub parameters: Vec<f64>,
-    /// `[point_capacity x 3]` in the unit and frame of the mesh as given
+    /// `[point_capacity x 3]` in the unit and frame of your mesh
     pub positions: Vec<f64>,
     /// `[line_capacity + 1]` line i holds the points line_starts`[i]` to line_starts`[i + 1]` - 1
     pub line_starts: Vec<u32>,
@@ -1392,11 +1392,11 @@ pub struct SitesInfo {
 /// [`raw::HF_NO_INDEX`] for both. The arrays are yours: each is `None` or as large as the capacity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
-    /// `[point_capacity x 2]` vertices a and b as given, of welded copies the first
+    /// `[point_capacity x 2]` vertices a and b of your mesh, the first of welded copies
     pub point_edges: Vec<u32>,
     /// `[point_capacity]` 0 to 1
     pub parameters: Vec<f64>,
-    /// `[point_capacity x 3]` in the unit and frame of the mesh as given
+    /// `[point_capacity x 3]` in the unit and frame of your mesh
     pub positions: Vec<f64>,
     /// in the unit of the mesh; -1: no path
     pub length: f64,
@@ -1483,23 +1483,23 @@ pub struct BlendInfluences {
 /// `Quads::mesh` writes the quad mesh to these arrays. They are yours: each is `None` or as large as its capacity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuadsMesh {
-    /// `[vertex_capacity x 3]` in the unit and frame of the mesh as given
+    /// `[vertex_capacity x 3]` in the unit and frame of your mesh
     pub positions: Vec<f64>,
     /// `[face_capacity x 4]` vertices of each quad, counter-clockwise
     pub faces: Vec<u32>,
-    /// `[vertex_capacity]` triangle or face as given that the vertex lies in
+    /// `[vertex_capacity]` triangle or face of your mesh that contains the vertex
     pub triangles: Vec<u32>,
     /// `[vertex_capacity x 3]` weights of that triangle's corners, in its own order, of sum 1; in a face of more corners
     /// the weights of `corners`
     pub barycentrics: Vec<f64>,
-    /// `[vertex_capacity x 3]` vertices as given, of welded copies the first, that barycentrics belong to
+    /// `[vertex_capacity x 3]` vertices of your mesh that barycentrics belong to, the first of welded copies
     pub corners: Vec<u32>,
 }
 
 /// As the header says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Streamlines {
-    /// `[point_capacity x 3]` in the unit and frame of the mesh as given
+    /// `[point_capacity x 3]` in the unit and frame of your mesh
     pub positions: Vec<f64>,
     /// `[point_capacity]` of the field, rising along every line
     pub values: Vec<f64>,
@@ -1593,9 +1593,9 @@ impl Surface {
 
     /// Makes a surface of a graph, for fields on any domain whose edges and weights you compute. The call copies the
     /// graph. Solvers with sites at vertices, fields, previews, certificates, clones, saved factors, components and
-    /// reports work as on a mesh. A call that needs triangles returns [`raw::HF_ERROR_UNSUPPORTED`]: poses, regions,
-    /// directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector fields,
-    /// links, screening, and sites at places, at points or on discs.
+    /// reports work as on a mesh. A call that needs triangles returns [`raw::HF_ERROR_UNSUPPORTED`]. These are poses,
+    /// regions, directions, geodesics, iso-lines, extremities, quads, flow, picking, transfers, skin weights, vector
+    /// fields, links and screening. Sites at places, at points or on discs need triangles too.
     ///
     /// A vertex without an edge is isolated: fields are 0 there, and it takes no site. Weights that differ from the
     /// median of their component by a factor above 1e30 are limited; [`raw::hf_mesh_statistics`] counts their vertices as
@@ -1721,8 +1721,8 @@ impl Surface {
     /// are apart than at rest, and 0 if they are nearer. The gap of a contact ([`raw::hf_links_info`]) is measured in the
     /// same way.
     ///
-    /// positions: `[vertex_count x 3]` of float or double: the deformed mesh, from a pose, a transfer or any other
-    /// source.
+    /// positions: `[vertex_count x 3]` of float or double: the deformed mesh. It can come from a pose, a transfer or any
+    /// other source.
     /// info: filled in when given
     ///
     /// Fails with [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_TOO_LARGE`].
@@ -1826,7 +1826,7 @@ impl Surface {
     /// options and library version, whatever the number of threads. The bytes are little-endian and hold a format
     /// version, a hash of the matrix and a checksum. They hold no sites.
     ///
-    /// field_kind: `HF_FIELD_*`; a factor that does not exist yet is made first.
+    /// field_kind: `HF_FIELD_*`. If its factor does not exist yet, the call makes it first.
     /// progress: an object to poll and cancel through.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_TOO_SMALL`].
@@ -1844,8 +1844,8 @@ impl Surface {
 
     /// Finds what a mouse click hits: the first triangle on a ray.
     ///
-    /// origin: `[3]` in the frame of the positions; the direction can have any length above 0.
-    /// direction: `[3]` in the frame of the positions; the direction can have any length above 0.
+    /// origin: `[3]` in the frame of the positions. The direction can have any length above 0.
+    /// direction: `[3]` in the frame of the positions. The direction can have any length above 0.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
     pub fn cast_ray(&self, origin: &[f64], direction: &[f64], options: &PickOptions) -> Result<Option<raw::hf_hit>> {
@@ -1952,8 +1952,8 @@ impl Surface {
     }
 
     /// Lists the minima, maxima and saddles of the piecewise linear field. The signs of the field around each vertex
-    /// decide (Banchoff 1970): the index of a vertex is 1 minus the Euler characteristic of its neighbours with lower
-    /// values and the edges between them. The vertex number breaks ties, so a flat area has critical points too. The
+    /// decide (Banchoff 1970). Take its neighbours with lower values and the edges between them. The index of the vertex
+    /// is 1 minus their Euler characteristic. The vertex number breaks ties, so a flat area has critical points too. The
     /// indices sum to the Euler characteristic on every component. On a mesh that is not Delaunay a harmonic field can
     /// show an extremum away from its sites, because the default operator uses other edges than the mesh.
     /// [`raw::HF_OPERATOR_CLAMPED`] uses the edges of the mesh and avoids this.
@@ -2071,8 +2071,8 @@ impl Solver {
     }
 
     /// Creates a solver with the same sites under the same numbers; its fields have the same bits. Both share the factor
-    /// and what the sites have cost, so a copy costs its list of sites only. Use one copy per thread or per set of sites.
-    /// For undo, keep copies: one before each edit.
+    /// and the solved sites, so a copy costs its list of sites only. Use one copy per thread or per set of sites. For
+    /// undo, keep copies: one before each edit.
     pub fn try_clone(&self) -> Result<Self> {
         let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut handle_ = std::ptr::null_mut();
@@ -2081,10 +2081,10 @@ impl Solver {
         Ok(Solver { handle: handle_, counts: c.counts(&["channel_count", "vertex_count"]) })
     }
 
-    /// Moves a solver to an edited surface: its sites keep their numbers, values and screening.
+    /// Moves a solver to an edited surface. Its sites keep their numbers, values and screening.
     ///
-    /// surface: made by `Surface::edit` or `Surface::relink` from the solver's surface, or the other way round, in any
-    /// number of steps.
+    /// surface: any number of calls of `Surface::edit` or `Surface::relink` make it from the solver's surface, or the
+    /// solver's surface from it.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn move_to(&mut self, surface: &Surface) -> Result<()> {
@@ -2238,9 +2238,9 @@ impl Solver {
     /// diagonal of K. Such a field needs no site on a component where some H is above 0.
     ///
     /// screening: `[vertex_count]` H >= 0, in 1 / length^2 with the unit of the mesh; `None` removes the screening.
-    /// targets: `[vertex_count x channel_count]` p, or `None` for 0. Both are copied; welded copies of a vertex take the
-    /// values of the first. Sites stay. A site with a radius holds the rim of its disc only. Undo restores the
-    /// screening with the sites.
+    /// targets: `[vertex_count x channel_count]` p, or `None` for 0. Both are copied. The values of the first of welded
+    /// copies hold for all of them. Sites stay. A site with a radius holds the rim of its disc only. Undo restores
+    /// the screening with the sites.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_UNSUPPORTED`].
@@ -2303,7 +2303,7 @@ impl Solver {
 
     /// Solves for a tangent vector field, with a solver of 3 channels (Xu, Zhang, Cohen-Or and Xiong 2009, Section 3.3).
     /// The channels are the x, y and z of the constraint vectors, and the call solves each as a field. It then projects
-    /// the vector v of each vertex on the tangent plane: v - (n . v) n, with n the area-weighted normal.
+    /// the vector v of each vertex on the tangent plane: v - (n . v) n. Here n is the area-weighted normal.
     ///
     /// out: `[vertex_count x 3]` of float or double, not normalised.
     /// normals: `[vertex_count x 3]`, packed: the normals used.
@@ -2337,8 +2337,8 @@ impl Solver {
     /// Solves with a single-precision copy of the factor. This reads half the bytes of Solver.solve; use it while the
     /// user drags a value or a site. The error is about 1e-6 of the value range for harmonic fields. Bi-harmonic fields,
     /// long shapes and crowded sites can have an error of any size: ask for corrections there and read error_estimate.
-    /// Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963) of a harmonic field takes
-    /// the error below 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of
+    /// Hard sites at vertices are exact. One correction (iterative refinement, Wilkinson 1963) reduces the error of a
+    /// harmonic field below 1e-9, a second one below 1e-12. Each correction costs as much as two to three calls of
     /// Solver.solve.
     ///
     /// The first call makes the single-precision copy, which costs about two solves. All solvers of that field kind on
@@ -2551,10 +2551,10 @@ impl Geodesics {
             positions: all_positions })
     }
 
-    /// Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. Each vertex
-    /// gets the length of its shortest path from the point, in the direction in which that path leaves the point.
+    /// Lays the surface around a point out in a plane (logarithmic map): for decals, brushes and textures. A vertex lies
+    /// at the length of its shortest path from the point, in the direction in which the path starts.
     ///
-    /// radius: vertices farther away get NaN too, and cost nothing; 0 = no bound.
+    /// radius: vertices farther away get NaN too and take no time; 0 = no bound.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`],
     /// [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`], [`raw::HF_ERROR_TOO_SMALL`].
@@ -2637,8 +2637,8 @@ impl Direction {
         Ok(())
     }
 
-    /// Moves constraints to other vertices of the same component. The connection carries each vector along the shortest
-    /// path of edges, from tangent plane to tangent plane.
+    /// Moves constraints to other vertices of the same component. The connection transports each vector along the
+    /// shortest path of edges, from tangent plane to tangent plane.
     ///
     /// sites: `[site_count]`.
     /// vertices: `[site_count]`.
@@ -2690,7 +2690,7 @@ impl Direction {
         unsafe { raw::hf_direction_get_site_count(self.handle) }
     }
 
-    /// Writes the constraints by ascending number.
+    /// Writes the constraints. Their numbers ascend.
     pub fn sites(&self) -> Result<(Vec<u32>, Vec<u32>, Vec<f64>)> {
         let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut count = 0;
@@ -2838,12 +2838,12 @@ impl Pose {
     }
 
     /// Adds handles with identity transforms. On layer 0 the identity is the rest place, so a new handle pulls a posed
-    /// surface back to rest there. Use in_place to grab a posed surface: each new handle gets the rigid motion that its
-    /// region has in the last pose (`Pose::handle` writes it), and the surface stays where it is (to 1e-6 of the box). It
-    /// goes over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then
-    /// the region of the new handle keeps a part of its bend. restart ends this at once. On a higher layer the surface
-    /// does not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place
-    /// for the higher layers.
+    /// surface back to rest there. Use in_place to grab a posed surface. Each new handle then gets the rigid motion of
+    /// its region in the last pose (`Pose::handle` writes it). The surface stays in place (to 1e-6 of the box). It goes
+    /// over to the best pose of the new handles while handles move by 0.05 of the box, or back to rest. Until then the
+    /// region of the new handle keeps a part of its bend. restart ends this at once. On a higher layer the surface does
+    /// not move (to 1e-9 of the box) until you move the handle. Handles of lower layers hold the surface in place for the
+    /// higher layers.
     ///
     /// region_vertices: lists of whole numbers: all regions one after the other; `None`: places are given
     ///
@@ -2858,8 +2858,8 @@ impl Pose {
         Ok(handles)
     }
 
-    /// Adds one handle on layer 0. Its region is the vertex nearest to a point at rest, and all vertices that are edge-
-    /// connected to it within `radius` of the point.
+    /// Adds one handle on layer 0. Its region has the vertex nearest to a point at rest. It also has all vertices within
+    /// `radius` of the point that are edge-connected to this vertex.
     ///
     /// point: `[3]`.
     ///
@@ -2996,8 +2996,8 @@ impl Pose {
     /// limbs take the largest count.
     ///
     /// handles: `[handle_count]`.
-    /// refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. 1 keeps
-    /// bends smooth. 8 and more keep lengths; the limb bends like two bones.
+    /// refine: 0 to 64 steps of as-rigid-as-possible on the limb in every frame; 0 = none, as in a new handle. With 1,
+    /// bends stay smooth. With 8 and more, lengths stay and the limb bends like two bones.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NOT_FOUND`], [`raw::HF_ERROR_UNSUPPORTED`].
     pub fn set_limb_refine(&mut self, handles: &[u32], refine: i32) -> Result<()> {
@@ -3031,8 +3031,8 @@ impl Pose {
     /// Places handles by 4 x 4 matrices M.
     ///
     /// handles: `[handle_count]`.
-    /// matrices: `[handle_count x 16]`, column by column, elements 12 to 14 the translation. M moves a rest position p to
-    /// the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
+    /// matrices: `[handle_count x 16]`, column by column. The last column is the translation. M moves a rest position p
+    /// to the posed position M p. Its linear part must be a rotation within 1e-4; the function takes the nearest
     /// rotation. Its last row must be 0 0 0 1.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_FOUND`].
@@ -3241,8 +3241,8 @@ impl Pose {
             gradients: all_gradients, positions: all_positions, normals: all_normals, offsets: all_offsets })
     }
 
-    /// Writes rows of one length. They change with `revision`, as those of `Pose::blend_rows`. Call it without arrays for
-    /// the count and the errors.
+    /// Writes rows of one length. They change with `revision`, as the rows of `Pose::blend_rows` do. Call it without
+    /// arrays for the count and the errors.
     ///
     /// influence_count: clusters of each vertex, the length of a row, 1 to 64; 0 = 8
     /// byte_clusters: `[vertex_capacity x influence_count]` `None` = not wanted. Refused for more than 256 clusters
@@ -3285,7 +3285,7 @@ impl Pose {
     }
 
     /// Solves a frame without writing vertices, for a shader that computes them. The pose is the same as after
-    /// `Pose::deform`. Higher layers, rigid pieces and limb_refine need the surface: with them the call costs as much as
+    /// `Pose::deform`. Higher layers, rigid pieces and limb_refine need the surface. With them the call costs as much as
     /// Pose.deform.
     ///
     /// iteration_count: 1 to 1000; 0 = as in [`PoseOptions`].
@@ -3348,8 +3348,8 @@ impl Quads {
     /// it snaps vertices to the surface and adds quads. A relaxed quad starts at the corner whose diagonal keeps nearer
     /// to the surface, so a renderer should split quads into triangles from the first corner. If the mesh stays farther
     /// than an edge length from the surface, a limb is lost. Then the function makes up to three finer meshes, and
-    /// removes rows of quads until the number is right. The function checks every result: each directed edge occurs once,
-    /// no face repeats a corner, and the Euler characteristic is that of the surface.
+    /// removes rows of quads until the number is right. The function checks every result. Each directed edge occurs once.
+    /// No face repeats a corner. The result has the Euler characteristic of the surface.
     ///
     /// The surface may have borders, any genus and several components; the function turns triangles that disagree in
     /// orientation. Where three or more triangles share an edge, the two flattest are joined, then the next two. A
@@ -3378,13 +3378,13 @@ impl Quads {
         Ok(Quads { handle: handle_, counts: c.counts(&[]) })
     }
 
-    /// Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. The result is
-    /// that of `Quads::new` with the same options, bit for bit. The first update takes as long. It keeps what does not
-    /// depend on guides, creases and relax_count, so later updates with the same edge_length, face_count and
-    /// symmetry_plane take less: 0.1 s for 15,000 vertices without relaxation (relax_count = [`raw::HF_NO_INDEX`]). Use
-    /// that while the user drags, and relax_count = 0 at the end. Other sizes and planes are allowed; what belongs to
-    /// them is made again. After an error `quads` is what it was. Kept memory: 2 to 4 kB a vertex, until `quads` is
-    /// destroyed.
+    /// Makes the mesh of `quads` again, with other options: for strokes and creases that the user drags. `Quads::new`
+    /// with the same options gives the same result, bit for bit. The first update takes as long. It keeps the tables that
+    /// do not depend on guides, creases and relax_count. Later updates with the same edge_length, face_count and
+    /// symmetry_plane take less time. Without relaxation (relax_count = [`raw::HF_NO_INDEX`]) they take 0.1 s for 15,000
+    /// vertices. Use that while the user drags, and relax_count = 0 at the end. Other sizes and planes are allowed; what
+    /// belongs to them is made again. After an error `quads` is unchanged. Kept memory: 2 to 4 kB per vertex, until
+    /// `quads` is destroyed.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_INTERNAL`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_NOT_POSITIVE_DEFINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
@@ -3465,7 +3465,7 @@ impl Flow {
     /// lines that cross the streamlines.
     ///
     /// field: `[vertex_count]` of float or double.
-    /// seeds: `[seed_count]` vertices as given
+    /// seeds: `[seed_count]` vertices of your mesh
     /// wanted_count: lines from the minima of the field, each for the same flux, 1 to 1,000,000; without seeds
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`].
@@ -3668,13 +3668,13 @@ impl Detail {
     /// Carries the detail of the source region to the target region. A harmonic map with positive weights takes each
     /// region to the unit disc (an embedding: Tutte 1963, Floater 1997). Vertices around a region (its rim) lie on the
     /// circle, by arc length between the pairs of desc. Points at the same place in the disc correspond. The function
-    /// stores the offset from base to surface in a local frame of the Both regions must be discs: in one piece, one rim
-    /// loop, no hole, manifold, of one orientation.
+    /// stores the offset from base to surface in a local frame of the source. The axes of the frame are the normal of the
+    /// base and the direction in which the first disc coordinate grows. It interpolates the offsets in the triangles of
+    /// the source, and applies them in the same frames of the target. The detail fades to nothing at the rim. If source
+    /// and target are the same region, the result is the surface itself. Later edits of the regions do not change the
+    /// object.
     ///
-    /// source: the normal of the base, and the direction in which the first disc coordinate grows. It interpolates the
-    /// offsets in the triangles of the source, and applies them in the same frames of the target. The detail fades to
-    /// nothing at the rim. If source and target are the same region, the result is the surface itself. Later edits of
-    /// the regions do not change the object.
+    /// Both regions must be discs: in one piece, one rim loop, no hole, manifold, of one orientation.
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_EMPTY`], [`raw::HF_ERROR_INVALID_ARGUMENT`],
     /// [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`], [`raw::HF_ERROR_TOO_LARGE`],
@@ -3763,7 +3763,7 @@ impl Retarget {
     /// fades within a step.
     ///
     /// source_pose: `[source.joint_count x 10]`.
-    /// seconds: time since the last frame, 0 for the first frame and for a frame that is shown again.
+    /// seconds: time since the last frame, 0 for the first frame and for a repeated frame.
     ///
     /// Fails with [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`].
     pub fn solve(&mut self, source_pose: &[f32], seconds: f64) -> Result<Vec<f32>> {
@@ -3948,8 +3948,7 @@ impl Skeleton {
         Ok(joints)
     }
 
-    /// Writes the reasons as text: first the reasons for the axes, then one sentence per line about each doubtful
-    /// finding.
+    /// Writes the reasons as text. The reasons for the axes come first. Then each doubtful finding has one line.
     pub fn reasons(&self) -> Result<String> {
         let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
         let mut size = 0;
@@ -3995,8 +3994,8 @@ impl Transfer {
 
     /// Adds pairs.
     ///
-    /// source_vertices: lists of whole numbers: all regions one after the other; vertices as given, up to 4 entries per
-    /// vertex
+    /// source_vertices: lists of whole numbers: all regions one after the other; vertices of your mesh, up to 4 entries
+    /// per vertex
     /// target_vertices: lists of whole numbers:
     /// flags: `[pair_count]` `HF_PAIR_*`, or `None` for none
     ///
@@ -4259,7 +4258,7 @@ impl Weights {
     /// Replaces all pins and computes the weights. A pinned vertex gets its weights exactly; so do all vertices of a
     /// disc. Pins at the same places with other weights cost no path.
     ///
-    /// vertices: `[pin_count]` vertices as given, or `None`
+    /// vertices: `[pin_count]` vertices of your mesh, or `None`
     ///
     /// Fails with [`raw::HF_ERROR_CANCELLED`], [`raw::HF_ERROR_CONFLICT`], [`raw::HF_ERROR_DUPLICATE`],
     /// [`raw::HF_ERROR_INVALID_ARGUMENT`], [`raw::HF_ERROR_NON_FINITE`], [`raw::HF_ERROR_OUT_OF_RANGE`],
@@ -4319,7 +4318,7 @@ impl Weights {
             origins: all_origins })
     }
 
-    /// Writes what was found about each joint: flags, and the vertices that ask for it. Joints that do not deform have no
+    /// Writes the flags of each joint, and how many vertices have a constraint for it. Joints that do not deform have no
     /// flags.
     pub fn joints(&self) -> Result<(Vec<u32>, Vec<u32>)> {
         let mut c = Call { sizes: self.counts.clone(), ..Default::default() };
@@ -4360,8 +4359,8 @@ impl Weights {
         Ok(statistics)
     }
 
-    /// Proposes joints that should not deform, and says why. The weights stay as they are: the caller decides, and sets
-    /// deforms to 0.
+    /// Proposes joints that should not deform, and says why. The weights do not change: to follow a proposal, set deforms
+    /// to 0.
     ///
     /// names: one line for each joint in UTF-8, or `None`.
     ///
@@ -4385,7 +4384,7 @@ impl Weights {
     }
 
     /// Transfers weights from one surface to another: clothes, hair, levels of detail, new topology. Both stand in the
-    /// same frame. A vertex takes the weights of the nearest point of the source whose normal agrees. One bi-harmonic
+    /// same frame. A vertex gets the weights of the nearest point of the source whose normal agrees. One bi-harmonic
     /// field fills in the vertices without such a point. A piece without any takes the weights of the nearest points.
     ///
     /// info: filled in when given
@@ -4427,8 +4426,8 @@ impl Weights {
 
     /// Mirrors the weights of one side to the other. The mesh need not be symmetric. A vertex gets the weights of the
     /// nearest point to its reflection whose normal agrees, with the joints of the other side. One bi-harmonic field
-    /// fills in the rest. The plane comes from joints with partners, else from the surface. A found normal has a positive
-    /// largest component, so along x, [`raw::HF_MIRROR_TO_NEGATIVE`] copies from +x to -x.
+    /// fills in the rest. The plane comes from joints with partners, else from the surface. The largest component of a
+    /// found normal is positive. So for a normal along x, [`raw::HF_MIRROR_TO_NEGATIVE`] copies from +x to -x.
     ///
     /// info: filled in when given
     /// statistics: filled in when given

@@ -39,7 +39,7 @@ export async function showLink(app) {
         'p',
         {},
         sample
-          ? 'Who opens it sees this creature as you left it.'
+          ? 'The link shows this creature as you left it.'
           : `It holds the settings and not the body: who opens it needs ${app.body.name} too.`,
       ),
       field,

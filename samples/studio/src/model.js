@@ -201,7 +201,7 @@ function bodyOf(document, name) {
       const place = primitive.getAttribute('POSITION');
       if (!place?.getCount()) continue;
       if (primitive.getMode() !== 4) {
-        notes.push('lines, points and strips ride along unseen');
+        notes.push('lines, points and strips are kept but not shown');
         continue;
       }
       if (primitive.listTargets().length) notes.push('morph targets stay in the file and are not played');

@@ -298,7 +298,7 @@ export function saveMenu(app) {
     ],
     [
       'Picture (png)',
-      'what the stage shows',
+      'the view as it is now',
       async () => download(await app.view.picture(), `${name}.png`, 'image/png'),
       true,
       'save-picture',

@@ -10,7 +10,7 @@ const TURNED = 0.3;
 const steps = [
   [
     'Pull',
-    'Pull the dot that says "pull me". The body follows, its feet stand.',
+    'Pull the dot that says "pull me". The body follows. Its feet stay in place.',
     (app) => app.history.past.length,
     (app, before) => app.history.past.length > before && !app.live,
   ],

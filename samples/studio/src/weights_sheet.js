@@ -136,7 +136,7 @@ export function weightsSheet(kit, tool) {
       ['bones', tool.bones.names.length],
       tool.pins.length > 0 && ['pins', tool.pins.length],
       result && ['time', ms(result.milliseconds)],
-      info && ['vertices that see their bone', whole(info.informedCount)],
+      info && ['vertices with their bone in sight', whole(info.informedCount)],
       info && info.outsideCount > 0 && ['bones outside the skin', info.outsideCount],
     ]),
   ];

@@ -66,7 +66,7 @@ TEST(QuadsProgram, SaysWhenAnEdgeLengthIsMissed) {
   std::string text;
   ASSERT_EQ(run("\"" + (folder.path / "star.obj").string() + "\" --edge 0.0542", text), 0) << text;
   const double faces = std::stod(line_of(text, "quads").substr(line_of(text, "quads").find("vertices, ") + 10));
-  EXPECT_TRUE(faces > 200 || line_of(text, "warning").find("asks for about 400") != std::string::npos) << text;
+  EXPECT_TRUE(faces > 200 || line_of(text, "warning").find("gives about 400") != std::string::npos) << text;
 }
 
 }  // namespace

@@ -313,7 +313,7 @@ export const tool = (kit) => {
             ),
             carry && button('Own detail', () => this.change({ carry: null }, 'own detail'), { id: 'own' }),
           ),
-        found?.missing && make('p', { class: 'warn' }, `The detail is of ${found.missing}: take it to see it here.`),
+        found?.missing && make('p', { class: 'warn' }, `The detail belongs to ${found.missing}. Choose that creature to see it here.`),
         detail &&
           make(
             'p',

@@ -463,7 +463,7 @@ export class PoseTool {
         ),
       app.body.notes.length > 0 && make('p', {}, `Of the file: ${app.body.notes.join('; ')}.`),
       app.told?.gap > GAP_SAID &&
-        make('p', { class: 'warn' }, `Pieces stand apart by up to ${(100 * app.told.gap).toFixed(1)} % of the box.`),
+        make('p', { class: 'warn' }, `Linked pieces are up to ${(100 * app.told.gap).toFixed(1)} % of the box apart.`),
       facts([
         ['handles', this.handles.length],
         app.told && [app.told.added ? 'a handle more' : 'pose', ms(app.told.milliseconds)],

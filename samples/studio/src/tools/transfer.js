@@ -223,7 +223,7 @@ export const tool = (kit) => {
     sayGap(line) {
       if (!line) return line;
       line.hidden = !(this.gap > GAP_SAID);
-      line.textContent = `Pieces stand apart by up to ${(100 * this.gap).toFixed(1)} % of the box.`;
+      line.textContent = `Linked pieces are up to ${(100 * this.gap).toFixed(1)} % of the box apart.`;
       return line;
     }
     /** Sets one dial and shows the frame again. */
