@@ -369,7 +369,7 @@ HF_API hf_result hf_surface_relink(hf_surface surface, const hf_links_desc* link
 
 /* ---- edits ---- */
 
-/* What hf_surface_edit changes: stiffness, links, or both. The stiffness of a vertex is a number by which the weights
+/* Lists the changes of hf_surface_edit: stiffness, links, or both. The stiffness of a vertex is a number by which the weights
  * of its edges are multiplied: an edge from i to j counts 2 s_i s_j / (s_i + s_j) times, as two springs in a row. A
  * region of large stiffness bends and stretches little and hardly changes its surroundings: a belt, a shield, a shell.
  * A region of small stiffness takes up the bending around it. */

@@ -1,7 +1,7 @@
 // A vector whose copies share its elements. A copy costs one counter, not the elements.
 //
-// Any number of threads may read one, and copies of it. Change a SharedVector only before it is copied: a copy sees
-// what changes in place, and does not see what moves the elements.
+// Any number of threads may read a SharedVector and its copies. Change it only before it is copied: a copy reads the
+// same elements, and a change may move them.
 #pragma once
 #include <algorithm>
 
