@@ -275,13 +275,9 @@ std::vector<float> occlusion(const SampleBuffer& buffer, const Camera& camera, c
     pattern[i] = radius * dvec2(std::cos(angle), std::sin(angle));
     spread[i] = reach * length(pattern[i]);
   }
-  // taps lie apart: depths beside each other take a sixth of the memory of samples
-  std::vector<double> depths;
-  depths.reserve(buffer.samples.size());
-  for (const Sample& sample : buffer.samples) depths.push_back(sample.depth);
   const auto depth_at = [&](double x, double y) {
     if (x < 0 || y < 0 || x >= buffer.width || y >= buffer.height) return -1e300;
-    return depths[size_t(int(y)) * size_t(buffer.width) + size_t(int(x))];
+    return buffer.at(int(x), int(y)).depth;
   };
   std::vector<float> raw(open.size(), 1.0f);
   for (int y = 0; y < height; ++y) {
@@ -301,7 +297,7 @@ std::vector<float> occlusion(const SampleBuffer& buffer, const Camera& camera, c
         const double rise_two = two < -1e200 ? -reach : std::clamp(two - here, -reach, reach);
         const double far_one = one - here > 2 * reach ? 0 : 1, far_two = two - here > 2 * reach ? 0 : 1;
         const double bend = 0.5 * (rise_one + rise_two) * far_one * far_two;
-        blocked += std::clamp(bend / spread[i], 0.0, 1.0);
+        if (bend > 0) blocked += std::min(bend / spread[i], 1.0);
       }
       raw[size_t(y) * size_t(width) + size_t(x)] = float(1 - view.occlusion * std::min(1.0, 1.6 * blocked / weight));
     }
@@ -441,8 +437,9 @@ Picture render(const std::vector<Layer>& layers, const View& view) {
           } else if (sample.layer == -1) {
             sum += back;
           } else {
-            const dvec3 color = to_linear({double(sample.r), double(sample.g), double(sample.b)});
-            const dvec3 normal{double(sample.nx), double(sample.ny), double(sample.nz)};
+            const raster::Mark& mark = buffer.marks[sample.triangle];
+            const dvec3 color = to_linear({double(mark.r), double(mark.g), double(mark.b)});
+            const dvec3 normal{double(mark.nx), double(mark.ny), double(mark.nz)};
             sum += sample.layer == -2 ? color : light_surface(color * 1.15, normal, 0.5, 1.0);
           }
         }
