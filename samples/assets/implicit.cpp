@@ -20,17 +20,6 @@ double smooth_min(double a, double b, double k) {
   return std::min(a, b) - h * h * h * k * (1.0 / 6.0);
 }
 
-// Where on the axis the sphere sits that is nearest to a point: t in 0..1, in the blob's local space. For a tapered
-// capsule |p - c(t)| - r(t) is least where the offset along the axis is the distance across it times the cone's slope.
-double nearest_sphere(const Blob& blob, const dvec3& pa, const dvec3& ba) {
-  const double length2 = dot(ba, ba), difference = blob.radius_a - blob.radius_b;
-  if (length2 <= difference * difference + 1e-24) return blob.radius_a >= blob.radius_b ? 0 : 1;
-  const double axis = std::sqrt(length2), along = dot(pa, ba) / axis;
-  const double across = std::sqrt(std::max(dot(pa, pa) - along * along, 0.0));
-  const double slope = difference / std::sqrt(length2 - difference * difference);
-  return std::clamp((along - across * slope) / axis, 0.0, 1.0);
-}
-
 dvec3 orthogonal_to(const dvec3& axis, const dvec3& wanted) {
   dvec3 side = wanted - dot(wanted, axis) * axis;
   if (dot(side, side) < 1e-12) side = cross(axis, std::abs(axis.x) < 0.7 ? dvec3(1, 0, 0) : dvec3(0, 1, 0));
@@ -42,16 +31,34 @@ dmat3 stretch(const dvec3& u, double s) { return dmat3(1.0) + (s - 1) * outerPro
 
 }  // namespace
 
+void Blob::prepare() {
+  ba_ = to_local * (b - a);
+  const double length2 = dot(ba_, ba_), difference = radius_a - radius_b;
+  const bool one_holds_the_other = length2 <= difference * difference + 1e-24;
+  only_sphere_ = radius_a >= radius_b ? 0 : 1;
+  length_ = one_holds_the_other ? 0 : std::sqrt(length2);
+  slope_ = one_holds_the_other ? 0 : difference / std::sqrt(length2 - difference * difference);
+}
+
+// Where on the axis the sphere sits that is nearest to a point: t in 0..1, in the blob's local space. For a tapered
+// capsule |p - c(t)| - r(t) is least where the offset along the axis is the distance across it times the cone's slope.
+double Blob::nearest_sphere(const dvec3& pa) const {
+  if (length_ == 0) return only_sphere_;
+  const double along = dot(pa, ba_) / length_;
+  const double across = std::sqrt(std::max(dot(pa, pa) - along * along, 0.0));
+  return std::clamp((along - across * slope_) / length_, 0.0, 1.0);
+}
+
 double Blob::distance(const dvec3& p) const {
-  const dvec3 pa = to_local * (p - a), ba = to_local * (b - a);
-  const double t = nearest_sphere(*this, pa, ba);
-  return (length(pa - t * ba) - (radius_a + t * (radius_b - radius_a))) * thinnest;
+  const dvec3 pa = to_local * (p - a);
+  const double t = nearest_sphere(pa);
+  return (length(pa - t * ba_) - (radius_a + t * (radius_b - radius_a))) * thinnest;
 }
 
 double Blob::distance(const dvec3& p, dvec3& gradient) const {
-  const dvec3 pa = to_local * (p - a), ba = to_local * (b - a);
-  const double t = nearest_sphere(*this, pa, ba);
-  const dvec3 off = pa - t * ba;
+  const dvec3 pa = to_local * (p - a);
+  const double t = nearest_sphere(pa);
+  const dvec3 off = pa - t * ba_;
   const double size = length(off);
   // t minimises the distance, so its own change does not count
   gradient = size > 0 ? thinnest / size * (transpose(to_local) * off) : dvec3(0, thinnest, 0);
@@ -90,7 +97,8 @@ Blob ellipsoid(const dvec3& centre, const dvec3& radii, double blend, const dvec
 void ImplicitBody::finish() {
   lower = dvec3(1e300);
   upper = dvec3(-1e300);
-  for (const Blob& blob : blobs) {
+  for (Blob& blob : blobs) {
+    blob.prepare();
     // a flattened direction may also be widened: bound by the inverse map's stretch
     const dmat3 back = inverse(blob.to_local);
     const double wide = std::max({length(back[0]), length(back[1]), length(back[2]), 1.0});

@@ -26,8 +26,18 @@ struct Blob {
   uint32_t joint = 0;   // the joint whose bone this flesh follows
   double detail = 1;    // wanted edge length relative to the body's
 
+  // What distance() needs and the point does not change; call after the last change of the fields above.
+  void prepare();
   double distance(const dvec3& p) const;
   double distance(const dvec3& p, dvec3& gradient) const;
+
+ private:
+  double nearest_sphere(const dvec3& pa) const;
+
+  dvec3 ba_{0};             // the axis in local space
+  double length_ = 0;       // of it; 0 where one sphere holds the other
+  double slope_ = 0;        // of the cone: offset along the axis for distance across it
+  double only_sphere_ = 0;  // t of the larger sphere
 };
 
 // A tapered capsule from a to b. `side` is the direction whose half width is `flatten` times the radius (not parallel

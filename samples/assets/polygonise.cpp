@@ -1,6 +1,7 @@
 // Marching tetrahedra. Every grid cube is cut into the six tetrahedra around its main diagonal (Kuhn 1960); the cut of
 // neighbouring cubes agrees, so linear interpolation on tetrahedra gives a closed manifold without ambiguous cases.
-// Blocks of cubes far from the surface are skipped by the bound |gradient| <= 1. Cost: O(cubes near the surface).
+// Blocks of cubes far from the surface, and blocks in them, are skipped by the bound |gradient| <= 1. Cost: O(cubes
+// near the surface).
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -11,7 +12,8 @@
 namespace samples {
 namespace {
 
-constexpr int block = 8;
+constexpr int block = 8, part = 2;  // cubes along an edge of a block, and of one of its parts
+constexpr int parts = block / part;
 
 // Sign of the volume of the tetrahedron of cube corners p, a, b, c: positive when the triangle a, b, c turns
 // counter-clockwise seen from the side away from p.
@@ -56,14 +58,25 @@ class Grid {
 
   template <typename Visit>
   void for_each_cube_near_surface(Visit visit) {
-    const double reach = 0.5 * std::sqrt(3.0) * block * spacing_ * 1.05;
+    const dvec3 lower = body_.lower;
+    const auto far = [&](const dvec3& corner, int cubes) {
+      const double reach = 0.5 * std::sqrt(3.0) * cubes * spacing_ * 1.05;
+      return std::abs(body_.value(lower + spacing_ * (corner + 0.5 * cubes)) - level_) > reach;
+    };
+    bool skipped[parts * parts * parts];
     for (int bz = 0; bz < blocks_.z; ++bz) {
       for (int by = 0; by < blocks_.y; ++by) {
         for (int bx = 0; bx < blocks_.x; ++bx) {
-          const dvec3 centre = body_.lower + spacing_ * block * (dvec3(bx, by, bz) + 0.5);
-          if (std::abs(body_.value(centre) - level_) > reach) continue;
+          const int x = bx * block, y = by * block, z = bz * block;
+          if (far(dvec3(x, y, z), block)) continue;
+          for (int i = 0; i < parts * parts * parts; ++i) {
+            skipped[i] = far(
+                dvec3(x + part * (i % parts), y + part * (i / parts % parts), z + part * (i / (parts * parts))), part);
+          }
+          // in the order of the cubes of the whole block, which numbers the vertices
           for (int i = 0; i < block * block * block; ++i) {
-            visit(bx * block + i % block, by * block + i / block % block, bz * block + i / (block * block));
+            const int dx = i % block, dy = i / block % block, dz = i / (block * block);
+            if (!skipped[(dz / part * parts + dy / part) * parts + dx / part]) visit(x + dx, y + dy, z + dz);
           }
         }
       }

@@ -104,6 +104,7 @@ struct ShadedLayer {
   std::vector<dvec3> local;    // positions, camera coordinates
   std::vector<dvec3> page;     // positions, samples
   std::vector<dvec3> normals;  // camera coordinates
+  dvec3 plain{0};              // the look's colour, linear
   double low = 0, high = 1;
 };
 
@@ -112,6 +113,7 @@ ShadedLayer prepare(const Layer& layer, const Camera& camera) {
   const Surface& s = layer.surface;
   result.surface = &s;
   result.look = &layer.look;
+  result.plain = to_linear(to_dvec(layer.look.color));
   result.local = raster::to_camera(camera, s);
   result.page.reserve(result.local.size());
   for (const dvec3& q : result.local) result.page.push_back(camera.page(q));
@@ -255,7 +257,8 @@ dvec3 shade_sample(const ShadedLayer& layer, const Sample& sample, double open, 
   if (look.wireframe) {
     color = mix(color, to_dvec(look.wire_color), wire_cover(look, sample, gradient, samples_per_pixel));
   }
-  return light_surface(to_linear(color), n, back_side ? 0.0 : look.shininess, open);
+  const bool plain = look.fill == Fill::plain && !back_side && !look.wireframe;
+  return light_surface(plain ? layer.plain : to_linear(color), n, back_side ? 0.0 : look.shininess, open);
 }
 
 // Share of light that reaches each pixel's nearest surface, 1 = open. Taps lie on a fixed sunflower pattern.
@@ -266,9 +269,11 @@ std::vector<float> occlusion(const SampleBuffer& buffer, const Camera& camera, c
   constexpr int taps = 32;
   const double reach = 0.045 * camera.diagonal;
   dvec2 pattern[taps];
+  double spread[taps];
   for (int i = 0; i < taps; ++i) {
     const double radius = (i + 0.5) / taps, angle = 2.399963229728653 * i;
     pattern[i] = radius * dvec2(std::cos(angle), std::sin(angle));
+    spread[i] = reach * length(pattern[i]);
   }
   const auto depth_at = [&](double x, double y) {
     if (x < 0 || y < 0 || x >= buffer.width || y >= buffer.height) return -1e300;
@@ -292,8 +297,7 @@ std::vector<float> occlusion(const SampleBuffer& buffer, const Camera& camera, c
         const double rise_two = two < -1e200 ? -reach : std::clamp(two - here, -reach, reach);
         const double far_one = one - here > 2 * reach ? 0 : 1, far_two = two - here > 2 * reach ? 0 : 1;
         const double bend = 0.5 * (rise_one + rise_two) * far_one * far_two;
-        const double spread = reach * length(pattern[i]);
-        blocked += std::clamp(bend / spread, 0.0, 1.0);
+        if (bend > 0) blocked += std::min(bend / spread[i], 1.0);
       }
       raw[size_t(y) * size_t(width) + size_t(x)] = float(1 - view.occlusion * std::min(1.0, 1.6 * blocked / weight));
     }
@@ -433,8 +437,9 @@ Picture render(const std::vector<Layer>& layers, const View& view) {
           } else if (sample.layer == -1) {
             sum += back;
           } else {
-            const dvec3 color = to_linear({double(sample.r), double(sample.g), double(sample.b)});
-            const dvec3 normal{double(sample.nx), double(sample.ny), double(sample.nz)};
+            const raster::Mark& mark = buffer.marks[sample.triangle];
+            const dvec3 color = to_linear({double(mark.r), double(mark.g), double(mark.b)});
+            const dvec3 normal{double(mark.nx), double(mark.ny), double(mark.nz)};
             sum += sample.layer == -2 ? color : light_surface(color * 1.15, normal, 0.5, 1.0);
           }
         }

@@ -53,8 +53,11 @@ void for_each_sample(int width, int height, const dvec3& a, const dvec3& b, cons
     const double py = y + 0.5;
     for (int x = x0; x <= x1; ++x) {
       const double px = x + 0.5;
-      const double w0 = ((b.x - px) * (c.y - py) - (b.y - py) * (c.x - px)) / area;
-      const double w1 = ((c.x - px) * (a.y - py) - (c.y - py) * (a.x - px)) / area;
+      const double of_a = (b.x - px) * (c.y - py) - (b.y - py) * (c.x - px);
+      const double of_b = (c.x - px) * (a.y - py) - (c.y - py) * (a.x - px);
+      // most samples of the box lie outside: they need no division
+      if (area > 0 ? of_a < 0 || of_b < 0 : of_a > 0 || of_b > 0) continue;
+      const double w0 = of_a / area, w1 = of_b / area;
       const double w2 = 1 - w0 - w1;
       if (w0 >= 0 && w1 >= 0 && w2 >= 0) visit(x, y, w0, w1, w2);
     }
@@ -66,9 +69,8 @@ void put_flat(SampleBuffer& buffer, int x, int y, double depth, const Color& col
   if (depth <= sample.depth) return;
   sample.depth = depth;
   sample.layer = -2;
-  sample.r = float(color.r);
-  sample.g = float(color.g);
-  sample.b = float(color.b);
+  sample.triangle = uint32_t(buffer.marks.size());
+  buffer.marks.push_back({float(color.r), float(color.g), float(color.b)});
 }
 
 // A straight stroke with round ends between two page points.
@@ -114,12 +116,9 @@ void draw_dot(SampleBuffer& buffer, const Camera& camera, const Dot& mark) {
       if (depth <= sample.depth) continue;
       sample.depth = depth;
       sample.layer = -3;
-      sample.r = float(mark.color.r);
-      sample.g = float(mark.color.g);
-      sample.b = float(mark.color.b);
-      sample.nx = float(nx);
-      sample.ny = float(ny);
-      sample.nz = float(nz);
+      sample.triangle = uint32_t(buffer.marks.size());
+      buffer.marks.push_back(
+          {float(mark.color.r), float(mark.color.g), float(mark.color.b), float(nx), float(ny), float(nz)});
     }
   }
 }

@@ -9,7 +9,7 @@
 namespace bench {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_bar = std::numeric_limits<double>::quiet_NaN();
 constexpr Bar both(double value) { return {value, value}; }
 
 std::string print(const char* format, double value) {
@@ -77,14 +77,14 @@ const std::vector<Figure>& all_figures() {
       {"table1_clear_torus",
        "Table 1, 173K 0/-300, torus: cholmod_updown + solve over ours",
        true,
-       {none, 40},
-       {none, 80},
+       {no_bar, 40},
+       {no_bar, 80},
        "%.1fx"},
       {"table1_clear_creature",
        "Table 1, 173K 0/-300, creature: cholmod_updown + solve over ours",
        true,
-       {none, 15},
-       {none, 30},
+       {no_bar, 15},
+       {no_bar, 30},
        "%.1fx"},
       {"table1_recompute",
        "Table 1, any row: CHOLMOD numeric refactorisation + solve over ours, worst row",

@@ -13,8 +13,8 @@ namespace {
 using Groups = hf_inner::Vector<std::shared_ptr<const hf_inner::PathGroup>>;
 
 // A batch of vertex sites as columns of W.
-struct Batch {
-  Batch(const InnerSystem& system, uint32_t count) : ones(count, 1.0), group(count), column(count) {
+struct PathBatch {
+  PathBatch(const InnerSystem& system, uint32_t count) : ones(count, 1.0), group(count), column(count) {
     const uint32_t n = static_cast<uint32_t>(system.matrix().size());
     for (const uint32_t v : scattered_vertices(n, count, 3)) row.push_back(static_cast<int32_t>(v));
     for (uint32_t i = 0; i <= count; ++i) start.push_back(static_cast<int32_t>(i));
@@ -43,7 +43,7 @@ Rows run_mesh(const Mesh& mesh, const Run& run) {
   for (const uint32_t count : {1u, 8u, 60u, 100u, 200u, 300u}) {
     const std::string name = std::to_string(count) + "_sites_" + mesh.name;
     if (!run.wants(name)) continue;
-    Batch batch(system, count);
+    PathBatch batch(system, count);
     Groups groups(&system.memory());
     const auto path = [&] {
       return time_ms([&] {

@@ -31,7 +31,7 @@ double theory(const std::string& name, double n) {
   return name == "n" ? n : n * std::log2(n);
 }
 
-nlohmann::json run_mesh(const Mesh& mesh, const Run& run) {
+nlohmann::json scale_mesh(const Mesh& mesh, const Run& run) {
   std::vector<double> create, ordering, symbolic, numeric;
   const uint32_t n = mesh.vertex_count();
   std::unique_ptr<Solver> solver;
@@ -88,7 +88,7 @@ Rows run_scaling(const Run& run, Report&) {
       const auto mesh = run.small     ? make_mesh(family, Size::k42, true)
                         : n == 304000 ? make_mesh(family, Size::k304, false)
                                       : make_mesh(family, n);
-      if (run.wants(mesh->name)) rows.push_back(run_mesh(*mesh, run));
+      if (run.wants(mesh->name)) rows.push_back(scale_mesh(*mesh, run));
     }
   }
   std::printf("constants over theory:\n%-16s", "");

@@ -99,7 +99,7 @@ void print(const json& row) {
       value("/cholmod_solve2_8_ms") / value("/field_8_ms"));
 }
 
-json run_mesh(const Mesh& mesh, const Run& run, Report* report) {
+json sweep_mesh(const Mesh& mesh, const Run& run, Report* report) {
   const std::vector<uint32_t> vertices = scattered_vertices(mesh.vertex_count(), 100, 3);
   FieldSource one(mesh, vertices, run.threads, 1), three(mesh, vertices, run.threads, 3),
       eight(mesh, vertices, run.threads, 8);
@@ -141,7 +141,7 @@ json run_mesh(const Mesh& mesh, const Run& run, Report* report) {
 
 }  // namespace
 
-Rows run_sweep(const Run& run, Report& report) { return run_meshes(run, report, run_mesh); }
+Rows run_sweep(const Run& run, Report& report) { return run_meshes(run, report, sweep_mesh); }
 
 void plot_sweep(const Runs& runs, const std::string& file) {
   BarPlot plot;
