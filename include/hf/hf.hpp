@@ -105,7 +105,7 @@ struct SurfaceOptions {
   double weld_tolerance = 0;
   // HF_OPERATOR_*
   int32_t operator_kind = 0;
-  // HF_FIELD_*: the factor made now. Others are made when a solver or region asks
+  // HF_FIELD_*: the factor made now. Others are made when a solver or region needs one
   int32_t field_kind = 0;
   // HF_ORDERING_*
   int32_t ordering = 0;

@@ -702,7 +702,7 @@ export interface HandleProposal {
   radius: number;
   /** how far the part protrudes, in the unit of the mesh */
   length: number;
-  /** for Pose.setFollowing while the handle is dragged: 1 if it is pinned, else 0.25 */
+  /** pass it to Pose.setFollowing while the handle is dragged: 1 for a pinned proposal, else 0.25 */
   following: number;
 }
 
@@ -1019,7 +1019,7 @@ export interface WeightsTransferInfo {
   guessedPieceCount: number;
 }
 
-/** The findings of a mirror. Vertices are vertices of your mesh. */
+/** The plane that Weights.mirror found, and counts of joints and vertices. Vertices are vertices of your mesh. */
 export interface WeightsMirrorInfo {
   vertexCount: number;
   /** HF_MIRROR_PLANE_* */
@@ -1229,7 +1229,7 @@ export interface ProgressClass {
  * faces: faces instead of triangles
  * weldTolerance: for HF_WELD_TOLERANCE, in the unit of the positions, > 0
  * operatorKind: HF_OPERATOR_*
- * fieldKind: HF_FIELD_*: the factor made now. Others are made when a solver or region asks
+ * fieldKind: HF_FIELD_*: the factor made now. Others are made when a solver or region needs one
  * ordering: HF_ORDERING_*
  * threadCount: threads the library may use, yours included, 1 to 256; 0 = 1
  * vertexLimit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles

@@ -113,7 +113,7 @@ class FieldKind(IntEnum):
     BIHARMONIC = _raw.HF_FIELD_BIHARMONIC
     """K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the scale of the mesh"""
     BIHARMONIC_GRAPH = _raw.HF_FIELD_BIHARMONIC_GRAPH
-    """K = L^2, the paper's: depends on how densely the surface is sampled"""
+    """K = L^2, as in the paper: fields change with the density of the vertices"""
 
 
 class Ordering(IntEnum):
@@ -284,7 +284,7 @@ class RetargetStep(IntFlag):
 
 
 class ScaleFrom(IntEnum):
-    """Where the scale comes from."""
+    """Says where the scale comes from."""
 
     GIVEN = _raw.HF_SCALE_GIVEN
     LEGS = _raw.HF_SCALE_LEGS
@@ -354,7 +354,9 @@ class TransferMode(IntEnum):
 
 class Ground(IntEnum):
     KEEP = _raw.HF_GROUND_KEEP
-    """feet are held at the ground. A part sinks no deeper than the source's part; thin parts may. The default"""
+    """feet are held at the ground. A part goes no deeper under the ground than on the source; thin parts may. The
+    default
+    """
     OFF = _raw.HF_GROUND_OFF
     """there is no ground: for flying and swimming, or where the host has its own"""
 
@@ -1140,7 +1142,7 @@ class Surface(Object):
     faces: faces instead of triangles
     weld_tolerance: for Weld.TOLERANCE, in the unit of the positions, > 0
     operator_kind: Operator
-    field_kind: FieldKind: the factor made now. Others are made when a solver or region asks
+    field_kind: FieldKind: the factor made now. Others are made when a solver or region needs one
     ordering: Ordering
     thread_count: threads the library may use, yours included, 1 to 256; 0 = 1
     vertex_limit: refuse larger meshes before allocating; 0 = 20,000,000. More than 357,913,941 vertices, triangles or

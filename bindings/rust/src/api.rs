@@ -125,7 +125,7 @@ pub struct SurfaceOptions<'a> {
     pub weld_tolerance: f64,
     /// `HF_OPERATOR_*`
     pub operator_kind: i32,
-    /// `HF_FIELD_*`: the factor made now. Others are made when a solver or region asks
+    /// `HF_FIELD_*`: the factor made now. Others are made when a solver or region needs one
     pub field_kind: i32,
     /// `HF_ORDERING_*`
     pub ordering: i32,
