@@ -71,9 +71,9 @@ HF_API hf_result hf_pose_get_info(hf_pose pose, hf_pose_info* out_info);
  * region of a place is its nearest vertex, and all vertices that are edge-connected to it within the radius. */
 typedef struct hf_handles_desc {
   uint32_t struct_size;
-  uint32_t handle_count;         /* >= 1 */
-  const uint32_t* region_counts; /* [handle_count] vertices of each region, >= 1; repeats are allowed, up to four times
-                                    the vertices of the mesh in all */
+  uint32_t handle_count;           /* >= 1 */
+  const uint32_t* region_counts;   /* [handle_count] number of vertices of each region, >= 1; repeats are allowed, up to
+                                      four times the vertices of the mesh in all */
   const uint32_t* region_vertices; /* [sum(region_counts)] all regions one after the other; NULL: places are given */
   const uint32_t* vertices;        /* [handle_count] vertices of your mesh, or NULL */
   const hf_place* places;          /* [handle_count], or NULL */
@@ -178,8 +178,8 @@ HF_API hf_result hf_pose_set_following(hf_pose pose, uint32_t handle_count, cons
  * trunk, or at the next handle on the limb. The steps move the limb alone. All other vertices keep their bits, so the
  * body leans no more than without the steps. A limb that is pulled beyond its length is stretched evenly. The limbs
  * take their steps after the steps of hf_deform_desc.refine. If handles have different counts of steps, all their limbs
- * take the largest count. Cost: at this call, and when handles are added or removed, a factor for the vertices of the
- * limbs. A step takes as long per vertex as a step of refine. hf_pose_get_skin writes the motions before the steps.
+ * take the largest count. Cost: a factor for the vertices of the limbs, at this call and when handles are added or
+ * removed. A step takes as long per vertex as a step of refine. hf_pose_get_skin writes the motions before the steps.
  * Errors: HF_ERROR_NOT_FOUND, HF_ERROR_INVALID_ARGUMENT (refine), HF_ERROR_UNSUPPORTED (a handle of a higher layer).
  * Thread safety: changes `pose`. Since 0.1. */
 HF_API hf_result hf_pose_set_limb_refine(hf_pose pose, uint32_t handle_count, const uint32_t* handles, int32_t refine);
@@ -473,7 +473,8 @@ typedef struct hf_handle_proposal {
   double position[3]; /* at rest, in the unit and frame of the mesh; inside the surface for a joint and the trunk */
   double radius;      /* in the unit of the mesh */
   double length;      /* how far the part protrudes, in the unit of the mesh */
-  double following;   /* for hf_pose_set_following while the handle is dragged: 1 if it is pinned, else 0.25 */
+  double following;   /* pass it to hf_pose_set_following while the handle is dragged: 1 for a pinned proposal, else
+                         0.25 */
 } hf_handle_proposal;
 
 /* Proposes handles for the first drag of a mesh: feet and the trunk hold, tips are dragged. Pinned proposals come

@@ -86,7 +86,7 @@ HF_API hf_result hf_retarget_solve(hf_retarget retarget, const float* source_pos
  * `retarget`. Since 0.1. */
 HF_API hf_result hf_retarget_reset(hf_retarget retarget);
 
-/* Where the scale comes from. */
+/* Says where the scale comes from. */
 enum hf_scale_from {
   HF_SCALE_GIVEN = 0,
   HF_SCALE_LEGS = 1,  /* lengths of legs, from hip to sole */

@@ -42,7 +42,7 @@ enum hf_field_kind {
   HF_FIELD_HARMONIC = 0,   /* K = L */
   HF_FIELD_BIHARMONIC = 1, /* K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the
                               scale of the mesh */
-  HF_FIELD_BIHARMONIC_GRAPH = 2 /* K = L^2, the paper's: depends on how densely the surface is sampled */
+  HF_FIELD_BIHARMONIC_GRAPH = 2 /* K = L^2, as in the paper: fields change with the density of the vertices */
 };
 
 /* Selects how the unknowns are ordered. A good order keeps the factor small. */

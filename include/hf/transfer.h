@@ -85,8 +85,8 @@ HF_API void hf_transfer_destroy(hf_transfer transfer);
 typedef struct hf_pairs_desc {
   uint32_t struct_size;
   uint32_t pair_count;             /* >= 1 */
-  const uint32_t* source_counts;   /* [pair_count] vertices of each region, >= 1; repeats are allowed, up to four times
-                                      the vertices of the mesh in all */
+  const uint32_t* source_counts;   /* [pair_count] number of vertices of each region, >= 1; repeats are allowed, up to
+                                      four times the vertices of the mesh in all */
   const uint32_t* source_vertices; /* [sum(source_counts)] all regions one after the other; vertices of your mesh, up to
                                       4 entries per vertex */
   const uint32_t* target_counts;   /* [pair_count] */

@@ -273,7 +273,7 @@ typedef struct hf_weights_mirror_desc {
   hf_progress progress;     /* NULL, or an object to poll and cancel through */
 } hf_weights_mirror_desc;
 
-/* The findings of a mirror. Vertices are vertices of your mesh. */
+/* The plane that hf_weights_mirror found, and counts of joints and vertices. Vertices are vertices of your mesh. */
 typedef struct hf_weights_mirror_info {
   uint32_t struct_size;
   uint32_t vertex_count;

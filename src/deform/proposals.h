@@ -44,7 +44,7 @@ struct ProposalOptions {
   std::size_t limit = 0;                    // most proposals
   Span<const double> joints;                // [n][3], in the unit of the caller's mesh
   Span<const std::uint32_t> parents;        // [n]; 0xffffffff for a root
-  const KnownSkeleton* skeleton = nullptr;  // instead of joints; a skin has the vertices of the mesh
+  const KnownSkeleton* skeleton = nullptr;  // instead of joints; its skin has the vertices of the mesh
 };
 
 // Returns pinned proposals first, then the others, each by length, the longest first. Throws as poisson_extremities

@@ -2,17 +2,16 @@
 //
 // For each frame it minimises sum_v a_v |sum_j w_vj G_j B_j p_v - y_v|^2 + k sum_j |turn of j from rest|^2 over the
 // local rotations. It takes steps of Levenberg and Marquardt from the frame before. A step that raises the sum is taken
-// back and damped. Let x_j = G_j B_j p_v, and o_a be the origin of joint a. A small world turn w of a moves v by
-// w x (sum_{j below a} w_vj (x_j - o_a)). The sums over vertices are quadratic in the matrices G_j B_j. So they are
-// added up once for each pair of joints, and a step costs O(J^3), whatever the number of vertices.
+// back and damped. Let x_j = G_j B_j p_v, and o_a be the origin of joint a. A small turn w of joint a, in world space,
+// moves vertex v by w x (sum_{j below a} w_vj (x_j - o_a)). The sums over vertices are quadratic in the matrices G_j
+// B_j. So they are added up once for each pair of joints, and a step costs O(J^3), whatever the number of vertices.
 // Joints that the model's own clips move (roots, and feet that a rig places by inverse kinematics) may shift too. If
 // several move the same vertices, one of them shifts. All others keep the lengths of their bones. Positions are in
-// world space, in double.
-// A ground (RigGround) adds k_g sum_v a_v d_v^2, where v lies d_v under it. It comes in without a step: neither the sum
-// nor its slope jumps where a vertex touches the ground. A vertex under it adds a row to the system.
-// Over a clip, misses change evenly. Let r_f be the residual of the fit of frame f: place minus goal, of each vertex.
-// The sum over the clip has k_m |r_f - r_g|^2 for each two frames f and g beside each other. For one frame with n
-// others beside it this is the fit above with the goals y_f + k_m (sum_g r_g) / (1 + n k_m), where the other terms
+// world space, in double. A ground (RigGround) adds k_g sum_v a_v d_v^2, where v lies d_v under it. It comes in without
+// a step: neither the sum nor its slope jumps where a vertex touches the ground. A vertex under it adds a row to the
+// system. Over a clip, misses change evenly. Let r_f be the residual of the fit of frame f: place minus goal, of each
+// vertex. The sum over the clip has k_m |r_f - r_g|^2 for each two frames f and g beside each other. For one frame with
+// n others beside it this is the fit above with the goals y_f + k_m (sum_g r_g) / (1 + n k_m), where the other terms
 // count by 1 / (1 + n k_m). Feet that stand and the ground keep their full weight. So a leg that is shorter in the
 // frames than its bones does not snap from one bend of its knee to the other.
 #ifndef HF_GLTF_RIG_FIT_H

@@ -21,9 +21,9 @@ constexpr double least_area_share = 1e-9;
 // weights of the two cuts differ by the square of it. Half and double change the class of up to 120 faces of a double
 // torus whose coordinates have six digits, and so weights by some 1e-12.
 constexpr double planar_bend = 1e-6;
-// Faces of fewer corners look at all reflex corners, larger ones at those near the ear. More is slower for large faces,
-// fewer for small ones. A corner of a random star of 128 costs 0.69 us with the tree and 0.95 without. In a star of 64
-// it costs 0.60 and 0.54. The cuts are the same.
+// In a face of fewer corners the search tests all reflex corners. In a larger face a tree gives the ones near the ear.
+// More is slower for large faces, fewer for small ones. A corner of a random star of 128 costs 0.69 us with the tree
+// and 0.95 without. In a star of 64 it costs 0.60 and 0.54. The cuts are the same.
 constexpr std::size_t least_in_tree = 128;
 // Divides by lengths of points at one place.
 constexpr double least_cross = 1e-300;

@@ -54,8 +54,8 @@ constexpr std::int32_t unfold_rounds = 20;
 constexpr double unfold_reach = 0.2;
 // Half gives 2 and 101, double the same.
 constexpr double unfold_least = 0.02;
-// How often vertices near places that lie too far go back, each time a ring more; then all do. Half and double give the
-// same figures.
+// How often vertices go back near places that are too far from the surface. Each time one more ring goes back; at last
+// all vertices do. Half and double give the same figures.
 constexpr std::int32_t unfold_returns = 4;
 // A place lies on the border, or at its vertex, if the weights of the other corners are below this: rounding.
 constexpr double on_border = 1e-9;

@@ -43,7 +43,7 @@ namespace Hf
         Harmonic = Constants.HF_FIELD_HARMONIC,
         /// <summary>K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the scale of the mesh</summary>
         Biharmonic = Constants.HF_FIELD_BIHARMONIC,
-        /// <summary>K = L^2, the paper's: depends on how densely the surface is sampled</summary>
+        /// <summary>K = L^2, as in the paper: fields change with the density of the vertices</summary>
         BiharmonicGraph = Constants.HF_FIELD_BIHARMONIC_GRAPH,
     }
 
@@ -212,7 +212,7 @@ namespace Hf
         NoCopy = Constants.HF_RETARGET_NO_COPY,
     }
 
-    /// <summary>Where the scale comes from.</summary>
+    /// <summary>Says where the scale comes from.</summary>
     public enum ScaleFrom
     {
         Given = Constants.HF_SCALE_GIVEN,
@@ -1216,7 +1216,7 @@ namespace Hf
         public double Radius;
         /// <summary>how far the part protrudes, in the unit of the mesh</summary>
         public double Length;
-        /// <summary>for Pose.SetFollowing while the handle is dragged: 1 if it is pinned, else 0.25</summary>
+        /// <summary>pass it to Pose.SetFollowing while the handle is dragged: 1 for a pinned proposal, else 0.25</summary>
         public double Following;
 
         internal HandleProposal(hf_handle_proposal* raw)
@@ -1714,7 +1714,7 @@ namespace Hf
         }
     }
 
-    /// <summary>The findings of a mirror. Vertices are vertices of your mesh.</summary>
+    /// <summary>The plane that Weights.Mirror found, and counts of joints and vertices. Vertices are vertices of your mesh.</summary>
     public sealed unsafe partial class WeightsMirrorInfo
     {
         public uint VertexCount;

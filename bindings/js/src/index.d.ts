@@ -702,7 +702,7 @@ export interface HandleProposal {
   radius: number;
   /** how far the part protrudes, in the unit of the mesh */
   length: number;
-  /** for Pose.setFollowing while the handle is dragged: 1 if it is pinned, else 0.25 */
+  /** pass it to Pose.setFollowing while the handle is dragged: 1 for a pinned proposal, else 0.25 */
   following: number;
 }
 
@@ -1019,7 +1019,7 @@ export interface WeightsTransferInfo {
   guessedPieceCount: number;
 }
 
-/** The findings of a mirror. Vertices are vertices of your mesh. */
+/** The plane that Weights.mirror found, and counts of joints and vertices. Vertices are vertices of your mesh. */
 export interface WeightsMirrorInfo {
   vertexCount: number;
   /** HF_MIRROR_PLANE_* */

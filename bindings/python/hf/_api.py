@@ -113,7 +113,7 @@ class FieldKind(IntEnum):
     BIHARMONIC = _raw.HF_FIELD_BIHARMONIC
     """K = L M^-1 L, M the vertex areas scaled to mean 1 by component: does not depend on the scale of the mesh"""
     BIHARMONIC_GRAPH = _raw.HF_FIELD_BIHARMONIC_GRAPH
-    """K = L^2, the paper's: depends on how densely the surface is sampled"""
+    """K = L^2, as in the paper: fields change with the density of the vertices"""
 
 
 class Ordering(IntEnum):
@@ -284,7 +284,7 @@ class RetargetStep(IntFlag):
 
 
 class ScaleFrom(IntEnum):
-    """Where the scale comes from."""
+    """Says where the scale comes from."""
 
     GIVEN = _raw.HF_SCALE_GIVEN
     LEGS = _raw.HF_SCALE_LEGS

@@ -1573,7 +1573,7 @@ class hf_weights_mirror_desc(Struct):
 
 
 class hf_weights_mirror_info(Struct):
-    """The findings of a mirror."""
+    """The plane that hf_weights_mirror found, and counts of joints and vertices."""
     struct_size: int
     vertex_count: int
     plane_from: int

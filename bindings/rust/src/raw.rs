@@ -1526,7 +1526,7 @@ pub struct hf_weights_mirror_desc {
     pub progress: hf_progress,
 }
 
-/// The findings of a mirror.
+/// The plane that hf_weights_mirror found, and counts of joints and vertices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct hf_weights_mirror_info {
